@@ -35,7 +35,7 @@ class Kind:
     as_kind: str = ''
 
 
-# Written images have no format in GLSL, so that the host may store them as half or float without a compile.
+# Written images have no format in GLSL, so that the host can store them as half or float without recompilation.
 BINDING = 'layout(set = 0, binding = __LINE__) uniform $kind $image;'
 WRITTEN = 'layout(set = 0, binding = __LINE__) uniform writeonly $kind $image;'
 OPTIONAL = BINDING + ' layout(constant_id = 1000 + __LINE__) const bool has_##$image = true;'
@@ -114,7 +114,7 @@ KINDS = [
          'This parameter stands for something that the capture does not contain, such as how thick objects are. `glint reference` halves and '
          'doubles it to find how far the answer depends on it.', row='.name = #$parameter'),
 
-    # ---- What is dispatched ----
+    # ---- Dispatches ----
     # The dispatches of a pass run in the order of their rows. dispatch_phase is the row's number among them, from 0: a constant, so that the
     # code of other phases costs nothing even on devices that do not skip a branch that no invocation takes.
     Kind('DISPATCH', 'image',
@@ -146,7 +146,7 @@ KINDS = [
     Kind('ACCUMULATE', 'image', 'An image that becomes its mean over the rays of a frame.', row='.name = #$image'),
     Kind('RESOLUTION', 'size', 'The pipeline\'s half resolution becomes full while this variant is in its slot.', row='.name = #$size'),
 
-    # ---- When the pass is needed, and what takes its place ----
+    # ---- When the pass is needed, and what replaces it ----
     Kind('FACT', 'fact',
          'A constant fact_NAME in the shader: false when the survey found nothing of the kind in the frame, so that the code for it is left '
          'out. Of an image that the pass makes: false when no pass that runs reads it; it is not made then, and must not be written.',
@@ -173,7 +173,7 @@ KINDS = [
     Kind('RAY_MARGIN', 'texels', 'Behind a DISPATCH: cube-map faces that no ray comes nearer to than this may be left out where the images are '
          'looked up along rays alone (ALONG_RAYS).', row='.name = "", .first = $texels'),
 
-    # ---- The preset `reference`, and what errors are traced back to: each slot has one of the first two ----
+    # ---- The preset `reference`, and the players of glint blame: each slot has one of the first two ----
     Kind('REFERENCE', '', 'This variant is its slot\'s reference.'),
     Kind('REFERENCE_NONE', 'why', 'The slot\'s reference is to leave it out.', row='.name = "", .help = $why'),
     Kind('REFERENCE_SET', 'slot, parameter, value',

@@ -1,4 +1,4 @@
-/* Gathering over the hemisphere of each vertex, one bounce after another. */
+/* Gathers light over the hemisphere of each vertex, bounce by bounce. */
 #include "bake.h"
 
 #include <stdlib.h>
@@ -10,8 +10,8 @@ struct bake {
     struct scene *scene;
     const struct world *world;
     uint32_t samples, vertex_count;
-    uint32_t *first;         /* number of each mesh's first vertex */
-    vec3 *direct, *gathered; /* irradiance by vertex number */
+    uint32_t *first;         /* index of each mesh's first vertex */
+    vec3 *direct, *gathered; /* irradiance by vertex index */
     vec3 *next;
 };
 
@@ -28,7 +28,7 @@ static const struct mesh *mesh_of(const struct bake *bake, uint32_t vertex, uint
     return &bake->scene->meshes[low];
 }
 
-/* What a gathering ray brings: emission, and the light already known of the triangle's vertices. */
+/* The radiance along a gathering ray: emission, and the light that is known at the triangle's vertices. */
 static vec3 incoming(const struct bake *bake, vec3 origin, vec3 direction) {
     struct hit hit = world_trace(bake->world, origin, direction, 0);
     if (!(hit.t < INFINITY)) return world_sky(bake->world, direction);
@@ -40,7 +40,7 @@ static vec3 incoming(const struct bake *bake, vec3 origin, vec3 direction) {
         uint32_t v = first + index[i];
         irradiance = add(irradiance, scale(add(bake->direct[v], bake->gathered[v]), 1 / 3.0f));
     }
-    /* Metals pass light on as if they were diffuse; otherwise a metal wall would be a hole in the room's light. */
+    /* Metals are treated as diffuse here; otherwise a metal wall would absorb the room's light. */
     return add(scale(material->emission, bake->scene->gain), times(material->albedo, scale(irradiance, 1 / PI_F)));
 }
 
@@ -64,8 +64,7 @@ static void gather_piece(void *user, uint32_t piece) {
     }
 }
 
-/* Neighbours of a vertex share its face: averaging with them takes the noise of gathering out, and no light round a
-   corner. */
+/* Neighbouring vertices share a face, so averaging with them removes the noise of gathering without leaking light around corners. */
 static void smooth_mesh(const struct mesh *mesh, vec3 *light, vec3 *sums, uint32_t *counts) {
     for (uint32_t v = 0; v < mesh->vertex_count; v++) {
         sums[v] = gray(0);
@@ -127,11 +126,11 @@ bool bake_light(struct scene *scene, uint32_t samples, struct job *job, double w
     uint32_t pieces = (bake.vertex_count + PIECE - 1) / PIECE, passes = scene->bounces + 1;
     if (!parallel_for(job, "lighting", 0, pieces, direct_piece, &bake, err)) goto done;
     for (uint32_t i = 0; i < passes; i++) {
-        bool last = i + 1 == passes; /* what is gathered before it gets averaged once more, and may be rough */
+        bool last = i + 1 == passes; /* earlier results are averaged once more, so they may be noisy */
         bake.samples = last ? samples : (samples + 3) / 4;
         double share = (double)bake.samples / (samples + (passes - 1.0) * ((samples + 3) / 4));
         if (!parallel_for(job, "lighting", weight * share, pieces, gather_piece, &bake, err)) goto done;
-        for (uint32_t k = 0; k < 2 * scene->mesh_count; k++) /* twice */
+        for (uint32_t k = 0; k < 2 * scene->mesh_count; k++) /* two iterations */
             smooth_mesh(&scene->meshes[k / 2], bake.next + bake.first[k / 2], sums, counts);
         vec3 *swapped = bake.gathered;
         bake.gathered = bake.next;

@@ -1,4 +1,4 @@
-/* Parts: a list of channels, each a plane of floats that is converted to the type an engine would have had. */
+/* Parts of a capture: a list of channels, each a plane of floats that is converted to the type of an engine's buffer. */
 #include "dump.h"
 
 #include <Imath/half.h>
@@ -33,7 +33,7 @@ static void convert(enum glint_type type, const float *source, size_t stride, si
         float v = source[i * stride];
         switch (type) {
         case GLINT_F16:
-            /* As a game's buffer saturates: what is too large becomes the largest, infinity stays. */
+            /* Saturates like a game's buffer: finite values are clamped to the largest half, infinity stays. */
             words[i] = imath_float_to_half(isfinite(v) ? clampf(v, -65504, 65504) : v);
             break;
         case GLINT_U16:
@@ -51,8 +51,9 @@ static void convert(enum glint_type type, const float *source, size_t stride, si
     }
 }
 
-/* Adds a channel; `source` is the first value, `stride_bytes` apart from the next. */
-static void put(struct part *part, const char *name, struct storage storage, const float *source, size_t stride_bytes) {
+/* Adds a channel; `source` is its first value, consecutive values are `stride_bytes` apart. */
+static void add_channel(struct part *part, const char *name, struct storage storage, const float *source,
+                        size_t stride_bytes) {
     size_t i = part->part.channel_count++;
     part->memory[i] = malloc(part->pixels * type_bytes[storage.type]);
     if (!part->memory[i]) {
@@ -66,9 +67,9 @@ static void put(struct part *part, const char *name, struct storage storage, con
 
 static void put3(struct part *part, const char *const names[3], struct storage storage, const vec3 *source,
                  size_t stride_bytes) {
-    put(part, names[0], storage, &source->x, stride_bytes);
-    put(part, names[1], storage, &source->y, stride_bytes);
-    put(part, names[2], storage, &source->z, stride_bytes);
+    add_channel(part, names[0], storage, &source->x, stride_bytes);
+    add_channel(part, names[1], storage, &source->y, stride_bytes);
+    add_channel(part, names[2], storage, &source->z, stride_bytes);
 }
 
 static bool part_done(struct part *part, const struct dump *dump, struct glint_error *err) {
@@ -104,10 +105,10 @@ static void encode_pixels(const struct dump *dump, const struct view *view, cons
 static void put_normal(struct part *part, const char *const names[3], enum glint_normal_encoding encoding,
                        const vec3 *source, size_t stride_bytes) {
     struct storage storage = storage_normal(encoding);
-    put(part, names[0], storage, &source->x, stride_bytes);
-    put(part, names[1], storage, &source->y, stride_bytes);
+    add_channel(part, names[0], storage, &source->x, stride_bytes);
+    add_channel(part, names[1], storage, &source->y, stride_bytes);
     if (encoding == GLINT_NORMAL_SIGNED || encoding == GLINT_NORMAL_UNORM)
-        put(part, names[2], storage, &source->z, stride_bytes);
+        add_channel(part, names[2], storage, &source->z, stride_bytes);
 }
 
 bool dump_gbuffer(const struct dump *dump, const char *name, const struct view *view, const struct pixel *pixels,
@@ -123,16 +124,16 @@ bool dump_gbuffer(const struct dump *dump, const char *name, const struct view *
     encode_pixels(dump, view, pixels, p);
     struct part part;
     part_init(&part, dump, name, view->width, view->height);
-    put(&part, "depth.Z", storage_depth(e->depth), &p->depth, stride);
+    add_channel(&part, "depth.Z", storage_depth(e->depth), &p->depth, stride);
     put_normal(&part, normal, e->normal, &p->normal, stride);
     put_normal(&part, vertex, e->vertex_normal, &p->vertex_normal, stride);
-    put(&part, "material.roughness", storage_roughness(e->roughness), &p->roughness, stride);
-    put(&part, "material.metalness", byte, &p->metalness, stride);
-    put(&part, "material.specular", byte, &p->specular, stride);
+    add_channel(&part, "material.roughness", storage_roughness(e->roughness), &p->roughness, stride);
+    add_channel(&part, "material.metalness", byte, &p->metalness, stride);
+    add_channel(&part, "material.specular", byte, &p->specular, stride);
     put3(&part, albedo, byte, &p->albedo, stride);
-    put(&part, "motion.X", storage_motion(e->motion), &p->motion[0], stride);
-    put(&part, "motion.Y", storage_motion(e->motion), &p->motion[1], stride);
-    put(&part, "motion.Z", storage_motion_depth(e->motion_depth), &p->motion[2], stride);
+    add_channel(&part, "motion.X", storage_motion(e->motion), &p->motion[0], stride);
+    add_channel(&part, "motion.Y", storage_motion(e->motion), &p->motion[1], stride);
+    add_channel(&part, "motion.Z", storage_motion_depth(e->motion_depth), &p->motion[2], stride);
     part.channels[part.part.channel_count++] = (struct glint_channel){.name = "stencil.id",
                                                                       .type = GLINT_U32,
                                                                       .data = &p->stencil,
@@ -153,7 +154,7 @@ static vec3 *encoded_colors(const struct dump *dump, const vec3 *first, size_t s
     return colors;
 }
 
-/* A part that begins with R G B. */
+/* A part whose first channels are R G B. */
 static bool color_part(struct part *part, const struct dump *dump, const char *name, uint32_t width, uint32_t height,
                        struct storage storage, const vec3 *first, size_t stride_bytes, struct glint_error *err) {
     part_init(part, dump, name, width, height);
@@ -177,8 +178,8 @@ bool dump_cubemap(const struct dump *dump, uint32_t index, const struct glint_cu
     struct part part;
     snprintf(name, sizeof name, "cubemap.%03u", index);
     if (!color_part(&part, dump, name, size, 6 * size, in_half, &texels->color, sizeof *texels, err)) return false;
-    put(&part, "A", in_half, &texels->alpha, sizeof *texels);
-    put(&part, "distance.Z", whole, &texels->distance, sizeof *texels);
+    add_channel(&part, "A", in_half, &texels->alpha, sizeof *texels);
+    add_channel(&part, "distance.Z", whole, &texels->distance, sizeof *texels);
     part.part.cubemap = map;
     return part_done(&part, dump, err);
 }
@@ -221,10 +222,10 @@ bool dump_water(const struct dump *dump, const struct water_pixel *water, struct
         w[i].normal = encode_normal(e->normal, e->normal_space, dump->view, water[i].normal);
     }
     if (ok) {
-        put(&part, "opacity", in_half, &w->opacity, stride);
+        add_channel(&part, "opacity", in_half, &w->opacity, stride);
         put_normal(&part, normal, e->normal, &w->normal, stride);
-        put(&part, "depth.Z", storage_depth(e->depth), &w->depth, stride);
-        put(&part, "thickness.Z", in_half, &w->thickness, stride);
+        add_channel(&part, "depth.Z", storage_depth(e->depth), &w->depth, stride);
+        add_channel(&part, "thickness.Z", in_half, &w->thickness, stride);
         ok = part_done(&part, dump, err);
     }
     free(w);
@@ -247,10 +248,10 @@ bool dump_glass(const struct dump *dump, const struct glass_pixel *glass, struct
         g[i].roughness = encode_roughness(e->roughness, glass[i].roughness);
     }
     if (ok) {
-        put(&part, "A", in_half, &g->opacity, stride);
+        add_channel(&part, "A", in_half, &g->opacity, stride);
         put_normal(&part, normal, e->normal, &g->normal, stride);
-        put(&part, "depth.Z", storage_depth(e->depth), &g->depth, stride);
-        put(&part, "material.roughness", storage_roughness(e->roughness), &g->roughness, stride);
+        add_channel(&part, "depth.Z", storage_depth(e->depth), &g->depth, stride);
+        add_channel(&part, "material.roughness", storage_roughness(e->roughness), &g->roughness, stride);
         ok = part_done(&part, dump, err);
     }
     free(g);
@@ -268,7 +269,7 @@ bool dump_planar(const struct dump *dump, const struct view *mirrored, const str
     for (size_t i = 0; ok && i < count; i++)
         depth[i] = encode_depth(dump->encodings.depth, mirrored, texels[i].distance);
     if (ok) {
-        put(&part, "depth.Z", storage_depth(dump->encodings.depth), depth, sizeof *depth);
+        add_channel(&part, "depth.Z", storage_depth(dump->encodings.depth), depth, sizeof *depth);
         part.part.planar = planar;
         ok = part_done(&part, dump, err);
     }
@@ -281,7 +282,7 @@ static int by_value(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-/* Median of the relative standard errors of pixels that have a surface. */
+/* The median of the relative standard errors of pixels with a surface. */
 static bool median_error(const float *errors, const float *weights, size_t count, double *median) {
     float *kept = malloc((count + 1) * sizeof *kept);
     if (!kept) return false;
@@ -304,8 +305,8 @@ static bool dump_lobe(const struct dump *dump, const char *name, const struct tr
     if (!median_error(error, weight, (size_t)width * height, &noise))
         return glint_fail(err, GLINT_ERROR_MEMORY, "no memory for part %s", name);
     if (!color_part(&part, dump, name, width, height, whole, color, sizeof *truth, err)) return false;
-    put(&part, "weight", whole, weight, sizeof *truth);
-    put(&part, "error", in_half, error, sizeof *truth);
+    add_channel(&part, "weight", whole, weight, sizeof *truth);
+    add_channel(&part, "error", in_half, error, sizeof *truth);
     const struct glint_attribute attributes[] = {
         {.name = "truthSamples", .type = GLINT_ATTRIBUTE_INT, .number = samples},
         {.name = "truthNoise", .type = GLINT_ATTRIBUTE_DOUBLE, .number = noise},
@@ -323,7 +324,7 @@ bool dump_truth(const struct dump *dump, const struct truth *truth, uint32_t sam
         return false;
     struct part part;
     part_init(&part, dump, "truth.mirror", dump->view->width, dump->view->height);
-    put(&part, "distance.Z", whole, &truth->distance, sizeof *truth);
-    put(&part, "visible", in_half, &truth->visible, sizeof *truth);
+    add_channel(&part, "distance.Z", whole, &truth->distance, sizeof *truth);
+    add_channel(&part, "visible", in_half, &truth->visible, sizeof *truth);
     return part_done(&part, dump, err);
 }

@@ -1,4 +1,4 @@
-/* Buffers to parts of a capture, stored the way an engine would have stored them: encoded, rounded, declared. */
+/* Writes buffers as parts of a capture, as an engine would store them: encoded, rounded, declared. */
 #ifndef SAMPLES_DUMP_H
 #define SAMPLES_DUMP_H
 
@@ -6,15 +6,14 @@
 #include "water.h"
 
 struct dump {
-    const char
-        *settings; /* what parts say they were made with, unless they have attributes of their own; NULL: nothing */
+    const char *settings; /* settings attribute of parts without attributes of their own; NULL: none */
     struct glint_writer *writer;
     struct glint_encodings encodings;
     double pre_exposure; /* for pre-exposed colour */
     const struct view *view;
 };
 
-/* `name` is "gbuffer" or "previous.gbuffer"; normals in view space use the given view. */
+/* `name` is "gbuffer" or "previous.gbuffer". Normals in view space are in that of the given view. */
 bool dump_gbuffer(const struct dump *dump, const char *name, const struct view *view, const struct pixel *pixels,
                   struct glint_error *err);
 bool dump_lit(const struct dump *dump, const char *name, const struct pixel *pixels, struct glint_error *err);
@@ -25,11 +24,10 @@ bool dump_cubemap_elsewhere(const struct dump *dump, uint32_t index, const struc
                             const char *sibling, struct glint_error *err);
 bool dump_sky(const struct dump *dump, uint32_t size, const struct texel *texels, struct glint_error *err);
 bool dump_water(const struct dump *dump, const struct water_pixel *water, struct glint_error *err);
-/* The finished picture. */
-/* The finished picture. */
+/* The final image. */
 bool dump_scene(const struct dump *dump, const vec3 *scene, size_t stride_bytes, struct glint_error *err);
 bool dump_glass(const struct dump *dump, const struct glass_pixel *glass, struct glint_error *err);
-/* By the mirrored camera; `planar` holds the plane and that camera as they are stored. */
+/* Rendered by the mirrored camera; `planar` holds the plane and that camera as stored. */
 bool dump_planar(const struct dump *dump, const struct view *mirrored, const struct glint_planar *planar,
                  const struct texel *texels, struct glint_error *err);
 bool dump_truth(const struct dump *dump, const struct truth *truth, uint32_t samples, struct glint_error *err);

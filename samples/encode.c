@@ -48,7 +48,7 @@ vec3 encode_normal(enum glint_normal_encoding encoding, enum glint_normal_space 
     vec3 n = unit(normal);
     if (space == GLINT_SPACE_VIEW || encoding == GLINT_NORMAL_VIEW_XY) n = to_view(view, n);
     if (encoding == GLINT_NORMAL_VIEW_XY) {
-        /* What is turned away, as surfaces at the picture's rim can be, is bent to the rim of the hemisphere. */
+        /* A normal that faces away, as normals near the border of the image may, is moved to the rim of the hemisphere. */
         if (n.z < 0) n = unit(v3(n.x, n.y, 0));
         return v3(0.5f + 0.5f * n.x, 0.5f + 0.5f * n.y, 0);
     }
@@ -85,7 +85,7 @@ float encode_roughness(enum glint_roughness_encoding encoding, float roughness) 
         return 1 - roughness;
     case GLINT_ROUGHNESS_POWER:
         power = 2 / (r * r * r * r) - 2;
-        return (float)fmin(power, 3e38); /* a mirror's power is infinite */
+        return (float)fmin(power, 3e38); /* the power of a mirror is infinite */
     }
     return roughness;
 }

@@ -1,22 +1,22 @@
-/* Values as engines store them. Each function is the inverse of what the capture reader does. */
+/* Encodes values as engines store them. Each function is the inverse of the capture reader's. */
 #ifndef SAMPLES_ENCODE_H
 #define SAMPLES_ENCODE_H
 
 #include "view.h"
 
-/* `depth` along the view axis, INFINITY for sky; logarithmic depth is between VIEW_NEAR and VIEW_FAR. */
+/* `depth` is along the view axis, INFINITY for sky; logarithmic depth is between VIEW_NEAR and VIEW_FAR. */
 float encode_depth(enum glint_depth_encoding encoding, const struct view *view, float depth);
-/* Octahedral and view_xy normals leave z at 0. */
+/* z of octahedral and view_xy normals is 0. */
 vec3 encode_normal(enum glint_normal_encoding encoding, enum glint_normal_space space, const struct view *view,
                    vec3 normal);
 float encode_roughness(enum glint_roughness_encoding encoding, float roughness);
-/* Engine units that the largest value of packed motion.Z stands for. */
+/* The depth in engine units that corresponds to the largest value of packed motion.Z. */
 #define MOTION_DEPTH_RANGE 16.0
 float encode_motion_depth(enum glint_motion_depth_encoding encoding, float metres);
 void encode_motion(enum glint_motion_encoding encoding, const struct view *view, const float uv[2], float out[2]);
 vec3 encode_color(enum glint_color_encoding encoding, double pre_exposure, vec3 color);
 
-/* How a buffer of each encoding is usually stored: the type handed to the writer and the engine's name for it. */
+/* The usual storage of an encoding: the type for the writer, and the engine's name for it. */
 struct storage {
     enum glint_type type;
     const char *name;

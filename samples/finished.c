@@ -1,18 +1,18 @@
-/* Light that surfaces reflect, one bounce of it: GGX with height-correlated Smith masking and Schlick's Fresnel, drawn by
-   its visible normals (E. Heitz, 2018), so that a draw weighs F · G2/G1. */
+/* One bounce of reflected light: GGX with height-correlated Smith masking and Schlick's Fresnel. Visible normals are sampled (E. Heitz,
+   2018), so that the weight of a sample is F · G2/G1. */
 #include "finished.h"
 
 #include "lobes.h"
 #include "noise.h"
 
 struct mirror {
-    vec3 leave, geometric; /* of the surface, towards the viewer */
+    vec3 leave, geometric; /* origin of rays; geometric normal towards the viewer */
     vec3 normal, albedo;
     float roughness, metalness, specular;
 };
 
-/* Smith's integral of what masks a direction at this cosine. */
-static float masked(float alpha, float cosine) {
+/* Smith's Λ of a direction with this cosine. */
+static float smith_lambda(float alpha, float cosine) {
     float tangent2 = 1 / (cosine * cosine) - 1;
     return 0.5f * (sqrtf(1 + alpha * alpha * tangent2) - 1);
 }
@@ -23,14 +23,14 @@ static vec3 fresnel(const struct mirror *m, float cosine) {
     return mix(f0, gray(grazing), c * c * c * c * c);
 }
 
-/* One draw of what the surface sends to the viewer. */
-static vec3 drawn(const struct world *world, const struct mirror *m, vec3 to_eye, float u, float v) {
+/* One sample of the radiance that the surface reflects towards the viewer. */
+static vec3 sample_reflection(const struct world *world, const struct mirror *m, vec3 to_eye, float u, float v) {
     float alpha = m->roughness * m->roughness, out = dot(to_eye, m->normal);
     if (!(out > 0)) return gray(0);
     vec3 direction = unit(lobe_ggx(to_eye, m->normal, m->roughness, u, v));
     float in = dot(direction, m->normal);
     if (!(in > 0 && dot(direction, m->geometric) > 0)) return gray(0);
-    float before = masked(alpha, out), share = (1 + before) / (1 + before + masked(alpha, in));
+    float before = smith_lambda(alpha, out), share = (1 + before) / (1 + before + smith_lambda(alpha, in));
     vec3 weight = fresnel(m, dot(direction, unit(add(direction, to_eye))));
     if (!(luminance(weight) > 0)) return gray(0);
     return times(scale(weight, share), world_look(world, m->leave, direction, NULL));
@@ -43,7 +43,7 @@ vec3 finished_look(const struct world *world, vec3 origin, vec3 direction, float
     struct surface s = world_surface(world, &hit, 0);
     struct mirror m = {
         world_leave(&hit, hit.geometric), hit.geometric, s.normal, s.albedo, s.roughness, s.metalness, s.specular};
-    return add(color, drawn(world, &m, unit(scale(direction, -1)), u, v));
+    return add(color, sample_reflection(world, &m, unit(scale(direction, -1)), u, v));
 }
 
 struct finished_work {
@@ -73,7 +73,8 @@ static void finished_row(void *user, uint32_t y) {
         for (uint32_t k = 0; k < work->samples; k++) {
             float u, v;
             r2_point(k, hash_two(i, 3), &u, &v);
-            work->picture[i] = along(work->picture[i], drawn(work->world, &m, to_eye, u, v), 1 / (float)work->samples);
+            work->picture[i] =
+                along(work->picture[i], sample_reflection(work->world, &m, to_eye, u, v), 1 / (float)work->samples);
         }
     }
 }

@@ -1,13 +1,13 @@
-/* The finished picture of opaque surfaces: what they reflect, over what they scatter. */
+/* The final image of opaque surfaces: diffuse and reflected light. */
 #ifndef SAMPLES_FINISHED_H
 #define SAMPLES_FINISHED_H
 
 #include "render.h"
 
-/* What arrives along a ray: what leaves the point it meets, with one drawn share (u, v) of what that reflects. */
+/* The radiance along a ray: what the hit surface emits and scatters, plus one sample (u, v) of its reflection. */
 vec3 finished_look(const struct world *world, vec3 origin, vec3 direction, float u, float v);
 
-/* `picture` has room for the view's size: `lit`, and the mean of so many rays of the surfaces' own GGX lobes. */
+/* `picture` has room for the size of the view: `lit` plus the mean of that many rays of each surface's GGX lobe. */
 bool render_finished(const struct world *world, const struct view *view, const struct pixel *pixels, uint32_t samples,
                      vec3 *picture, struct job *job, double weight, struct glint_error *err);
 

@@ -1,4 +1,4 @@
-/* A gun in two hands, built in view space: +X right, +Y up, -Z ahead, metres. */
+/* A gun held in two hands, modelled in view space: +X right, +Y up, -Z ahead, metres. */
 #include "foreground.h"
 
 static struct material matter(vec3 albedo, float roughness, float metalness) {
@@ -42,7 +42,7 @@ static vec3 to_world(const double *m, vec3 v) {
 }
 
 void foreground_add(struct scene *scene, const struct glint_sample_options *options) {
-    /* Of the camera's poses; its size and jitter are of no matter. */
+    /* Only the camera's pose is used; size and jitter do not matter. */
     const struct view first = view_through(scene, options, 1, 1, 1, VIEW_PLACES);
     const struct view second = view_through(scene, options, 1, 1, 2, VIEW_PLACES);
     const uint32_t begin = scene->mesh_count;

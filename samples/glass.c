@@ -16,7 +16,7 @@ static float rounded(float value) {
     return imath_half_to_float(imath_float_to_half(value));
 }
 
-/* Unpolarised light at one face, then the sum over all ways between the two: R + (1 - R)² R (1 + R² + …) = 2R/(1 + R). */
+/* Unpolarised light at one face, then the sum over all interreflections between both: R + (1 - R)² R (1 + R² + …) = 2R/(1 + R). */
 static float pane_reflects(float cosine) {
     float inside = sqrtf(1 - (1 - cosine * cosine) / (REFRACTIVE_INDEX * REFRACTIVE_INDEX));
     float s = (cosine - REFRACTIVE_INDEX * inside) / (cosine + REFRACTIVE_INDEX * inside);

@@ -1,4 +1,4 @@
-/* glTF 2 through Assimp: meshes, the first camera. */
+/* Loads meshes and the first camera of glTF 2 files through Assimp. */
 #include "gltf.h"
 
 #include <assimp/cimport.h>
@@ -22,7 +22,7 @@ static vec3 transformed(const struct aiMatrix4x4 *m, struct aiVector3D p, float 
               m->c1 * p.x + m->c2 * p.y + m->c3 * p.z + m->c4 * w);
 }
 
-/* Normals go with the cofactors of the matrix, which also holds for mirroring and uneven scale. */
+/* Normals are transformed by the cofactor matrix, which is also correct for mirroring and non-uniform scale. */
 static vec3 turned_normal(const struct aiMatrix4x4 *m, struct aiVector3D n) {
     vec3 x = v3(m->a1, m->b1, m->c1), y = v3(m->a2, m->b2, m->c2), z = v3(m->a3, m->b3, m->c3);
     vec3 sum = add(add(scale(cross(y, z), n.x), scale(cross(z, x), n.y)), scale(cross(x, y), n.z));
@@ -44,7 +44,7 @@ static struct skin skin_between(const struct corner c[3], float w, float u, floa
                          .bitangent = along(along(scale(a->bitangent, w), b->bitangent, u), d->bitangent, v)};
 }
 
-/* One triangle as a grid, so that baked light has vertices to live on. */
+/* Subdivides a triangle, because baked light is stored at vertices. */
 static void add_divided(struct scene *scene, const struct corner c[3], uint32_t n) {
     uint32_t row = 0;
     for (uint32_t j = 0; j <= n; j++) {
@@ -74,15 +74,15 @@ static uint32_t divisions(const struct scene *scene, const struct corner c[3]) {
 
 struct reading {
     const struct aiScene *file;
-    struct scene *scene; /* NULL: only measure */
+    struct scene *scene; /* NULL: measure only */
     const char *path;
     vec3 low, high;
     float cell;
-    size_t vertices; /* that dividing by `cell` would make */
+    size_t vertices; /* number of vertices after subdivision by `cell` */
     size_t triangles;
     bool bad;
     struct glint_error *err;
-    bool failed; /* and said so */
+    bool failed; /* and the error is set */
 };
 
 static void visit_triangle(struct reading *r, const struct corner c[3]) {
@@ -99,7 +99,7 @@ static void visit_triangle(struct reading *r, const struct corner c[3]) {
     if (r->scene) add_divided(r->scene, c, (uint32_t)n);
 }
 
-/* Texture coordinates that lead nowhere are 0. */
+/* Invalid texture coordinates become 0. */
 static float coordinate(float value) {
     return fabsf(value) < 1e6f ? value : 0;
 }
@@ -108,7 +108,7 @@ static struct skin skin_of(const struct aiMesh *mesh, unsigned i, const struct a
     struct skin skin = {.color = gray(1), .alpha = 1};
     if (mesh->mTextureCoords[0]) {
         skin.u = coordinate(mesh->mTextureCoords[0][i].x);
-        skin.v = 1 - coordinate(mesh->mTextureCoords[0][i].y); /* Assimp turns the images upside down */
+        skin.v = 1 - coordinate(mesh->mTextureCoords[0][i].y); /* Assimp flips images vertically */
     }
     if (mesh->mColors[0]) {
         const struct aiColor4D *c = &mesh->mColors[0][i];
@@ -117,7 +117,7 @@ static struct skin skin_of(const struct aiMesh *mesh, unsigned i, const struct a
     }
     if (mesh->mTangents && mesh->mBitangents) {
         vec3 t = unit(transformed(m, mesh->mTangents[i], 0)), b = unit(transformed(m, mesh->mBitangents[i], 0));
-        /* none where a triangle has no extent on its image: then the mesh's own normal stays */
+        /* if a triangle has no extent in uv, the mesh's own normal stays */
         if (length(t) > 0.5f && length(b) > 0.5f) {
             skin.tangent = t;
             skin.bitangent = b;
@@ -190,7 +190,7 @@ static bool file_camera(const struct aiScene *file, const struct gltf_facts *fac
     if (!file->mNumCameras) return false;
     const struct aiCamera *camera = file->mCameras[0];
     if (!find_node(file->mRootNode, &camera->mName, identity, &m, 0)) return false;
-    /* glTF cameras sit in their node's origin; Assimp 5.2 puts the node's translation into mPosition once more */
+    /* glTF cameras are at the origin of their node; Assimp 5.2 also adds the node's translation to mPosition */
     vec3 eye = transformed(&m, (struct aiVector3D){0, 0, 0}, 1), ahead = unit(transformed(&m, camera->mLookAt, 0));
     if (!(length(ahead) > 0.5f) || !isfinite(length(eye))) return false;
     scene->eye = eye;
@@ -237,8 +237,9 @@ static bool take_over(struct reading *r, const struct gltf_facts *facts, struct 
     return !scene->out_of_memory || glint_fail(err, GLINT_ERROR_MEMORY, "%s: no memory for its meshes", r->path);
 }
 
-/* The importer leaves out faces whose vertices are not there, and says nothing. */
-static bool all_there(const struct aiScene *file, uint64_t promised, const char *path, struct glint_error *err) {
+/* The importer silently drops faces with missing vertices. */
+static bool check_triangle_count(const struct aiScene *file, uint64_t promised, const char *path,
+                                 struct glint_error *err) {
     uint64_t there = 0;
     for (unsigned m = 0; m < file->mNumMeshes; m++) {
         const struct aiMesh *mesh = file->mMeshes[m];
@@ -267,7 +268,7 @@ bool gltf_load(const char *path, struct scene *scene, struct glint_error *err) {
         return false;
     }
     struct reading reading = {.file = file, .path = path, .err = err};
-    bool ok = all_there(file, facts.triangles, path, err) && take_over(&reading, &facts, scene, err);
+    bool ok = check_triangle_count(file, facts.triangles, path, err) && take_over(&reading, &facts, scene, err);
     aiReleaseImport(file);
     return ok;
 }

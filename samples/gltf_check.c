@@ -1,5 +1,5 @@
-/* Container, buffers, views, accessors, and the references between them. What a glTF file says about its own sizes is
-   what importers get wrong; nothing else is judged here. */
+/* Checks container, buffers, views, accessors and the references between them, because importers do not verify the sizes that a glTF
+   file declares. Nothing else is checked here. */
 #include "gltf_check.h"
 
 #include <jansson.h>
@@ -14,7 +14,7 @@ struct check {
     const char *path;
     struct glint_error *err;
     json_t *root;
-    const unsigned char *chunk; /* of a .glb */
+    const unsigned char *chunk; /* binary chunk of a .glb */
     uint64_t chunk_bytes;
     bool binary;
 };
@@ -50,7 +50,7 @@ static unsigned char *read_file(const char *path, size_t *bytes, struct glint_er
     return data;
 }
 
-/* Finds the JSON text: the whole of a .gltf, the first chunk of a .glb. */
+/* Finds the JSON: the whole of a .gltf, the first chunk of a .glb. */
 static bool find_text(struct check *c, const unsigned char *data, size_t bytes, const char **text, size_t *length) {
     *text = (const char *)data;
     *length = bytes;
@@ -76,8 +76,8 @@ static bool find_text(struct check *c, const unsigned char *data, size_t bytes, 
     return true;
 }
 
-/* A count or offset; absent is `fallback`. Anything but a number from 0 to 2^31 is refused. */
-static bool number(const json_t *object, const char *key, uint64_t fallback, uint64_t *value) {
+/* Reads a count or offset, or `fallback` if absent. Anything but a number from 0 to 2^31 is an error. */
+static bool get_number(const json_t *object, const char *key, uint64_t fallback, uint64_t *value) {
     const json_t *found = json_object_get(object, key);
     *value = fallback;
     if (!found) return true;
@@ -87,14 +87,14 @@ static bool number(const json_t *object, const char *key, uint64_t fallback, uin
     return n >= 0 && *value <= MAX_FILE;
 }
 
-/* An optional index into root's array `into`. */
-static bool refers(const struct check *c, const json_t *object, const char *key, const char *into) {
+/* An optional index into the array `into` of the root. */
+static bool check_reference(const struct check *c, const json_t *object, const char *key, const char *into) {
     uint64_t index;
     if (!json_object_get(object, key)) return true;
-    return number(object, key, 0, &index) && index < json_array_size(json_object_get(c->root, into));
+    return get_number(object, key, 0, &index) && index < json_array_size(json_object_get(c->root, into));
 }
 
-/* A path that leads nowhere but down. */
+/* Whether a path stays below the file's folder. */
 static bool stays_inside(const char *uri) {
     if (!*uri || *uri == '/' || strchr(uri, '\\') || strchr(uri, ':') || strlen(uri) > 1000) return false;
     for (const char *at = uri; at; at = strchr(at, '/') ? strchr(at, '/') + 1 : NULL)
@@ -112,7 +112,7 @@ static FILE *open_beside(const struct check *c, const char *uri) {
 static bool check_buffer(const struct check *c, size_t i, const json_t *buffer) {
     uint64_t bytes, there = 0;
     const char *uri = json_string_value(json_object_get(buffer, "uri"));
-    if (!number(buffer, "byteLength", 0, &bytes)) return bad(c, "buffer", i, "byteLength is not a size");
+    if (!get_number(buffer, "byteLength", 0, &bytes)) return bad(c, "buffer", i, "byteLength is not a size");
     if (!uri) there = c->binary && i == 0 ? c->chunk_bytes : 0;
     else if (!strncmp(uri, "data:", 5)) {
         const char *comma = strchr(uri, ',');
@@ -131,11 +131,11 @@ static bool check_buffer(const struct check *c, size_t i, const json_t *buffer) 
 static bool check_view(const struct check *c, size_t i, const json_t *view) {
     uint64_t buffer, offset, bytes, stride, room;
     const json_t *buffers = json_object_get(c->root, "buffers");
-    if (!number(view, "buffer", UINT64_MAX, &buffer) || buffer >= json_array_size(buffers))
+    if (!get_number(view, "buffer", UINT64_MAX, &buffer) || buffer >= json_array_size(buffers))
         return bad(c, "bufferView", i, "no such buffer");
-    if (!number(view, "byteOffset", 0, &offset) || !number(view, "byteLength", 0, &bytes) ||
-        !number(view, "byteStride", 0, &stride) || stride > 252 ||
-        !number(json_array_get(buffers, (size_t)buffer), "byteLength", 0, &room))
+    if (!get_number(view, "byteOffset", 0, &offset) || !get_number(view, "byteLength", 0, &bytes) ||
+        !get_number(view, "byteStride", 0, &stride) || stride > 252 ||
+        !get_number(json_array_get(buffers, (size_t)buffer), "byteLength", 0, &room))
         return bad(c, "bufferView", i, "a size or offset is out of range");
     return offset + bytes <= room || bad(c, "bufferView", i, "ends behind its buffer");
 }
@@ -147,7 +147,7 @@ static uint64_t element_bytes(const json_t *accessor) {
     } types[] = {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}};
     const char *type = json_string_value(json_object_get(accessor, "type"));
     uint64_t component, size = 0;
-    if (!type || !number(accessor, "componentType", 0, &component)) return 0;
+    if (!type || !get_number(accessor, "componentType", 0, &component)) return 0;
     if (component == 5120 || component == 5121) size = 1;
     if (component == 5122 || component == 5123) size = 2;
     if (component == 5125 || component == 5126) size = 4;
@@ -156,7 +156,7 @@ static uint64_t element_bytes(const json_t *accessor) {
     return 0;
 }
 
-/* Reads a part of a buffer; of data: URIs nothing. */
+/* Reads part of a buffer; data: URIs are not read. */
 static bool read_buffer(const struct check *c, uint64_t buffer, uint64_t offset, unsigned char *out, size_t bytes) {
     const json_t *found = json_array_get(json_object_get(c->root, "buffers"), (size_t)buffer);
     const char *uri = json_string_value(json_object_get(found, "uri"));
@@ -171,13 +171,14 @@ static bool read_buffer(const struct check *c, uint64_t buffer, uint64_t offset,
     return ok;
 }
 
-/* Where a sparse accessor's indices or values begin in their buffer; false unless all of them are there. */
-static bool place_of(const struct check *c, const json_t *what, uint64_t bytes, uint64_t *buffer, uint64_t *at) {
+/* The position of a sparse accessor's indices or values in their buffer; false unless all of them lie inside. */
+static bool locate_sparse(const struct check *c, const json_t *what, uint64_t bytes, uint64_t *buffer, uint64_t *at) {
     uint64_t index, offset, start, room;
-    if (!number(what, "bufferView", UINT64_MAX, &index) || !number(what, "byteOffset", 0, &offset)) return false;
+    if (!get_number(what, "bufferView", UINT64_MAX, &index) || !get_number(what, "byteOffset", 0, &offset))
+        return false;
     const json_t *view = json_array_get(json_object_get(c->root, "bufferViews"), (size_t)index);
-    if (!view || json_object_get(view, "byteStride") || !number(view, "buffer", 0, buffer) ||
-        !number(view, "byteOffset", 0, &start) || !number(view, "byteLength", 0, &room))
+    if (!view || json_object_get(view, "byteStride") || !get_number(view, "buffer", 0, buffer) ||
+        !get_number(view, "byteOffset", 0, &start) || !get_number(view, "byteLength", 0, &room))
         return false;
     *at = start + offset;
     return offset + bytes <= room;
@@ -194,22 +195,23 @@ static bool indices_below(const unsigned char *bytes, uint64_t count, uint64_t s
     return true;
 }
 
-/* The importer writes wherever the indices say. */
+/* The importer writes to the elements of these indices without checking them. */
 static bool check_sparse(const struct check *c, size_t i, const json_t *accessor, uint64_t element) {
     const uint64_t most = (uint64_t)1 << 28;
     const json_t *sparse = json_object_get(accessor, "sparse"), *indices = json_object_get(sparse, "indices");
     uint64_t all, count, component, view, stride, buffer, at;
-    if (!number(accessor, "count", 0, &all) || !number(sparse, "count", 0, &count) || !count || count > all ||
+    if (!get_number(accessor, "count", 0, &all) || !get_number(sparse, "count", 0, &count) || !count || count > all ||
         all * element > most)
         return bad(c, "accessor", i, "its sparse count is out of range");
-    if (!number(accessor, "bufferView", UINT64_MAX - 1, &view) || !number(indices, "componentType", 0, &component))
+    if (!get_number(accessor, "bufferView", UINT64_MAX - 1, &view) ||
+        !get_number(indices, "componentType", 0, &component))
         return bad(c, "accessor", i, "a sparse index is out of range");
     const json_t *base = json_array_get(json_object_get(c->root, "bufferViews"), (size_t)view);
-    if (!number(base, "byteStride", element, &stride) || stride != element)
+    if (!get_number(base, "byteStride", element, &stride) || stride != element)
         return bad(c, "accessor", i, "sparse over interleaved elements is not supported");
     uint64_t size = component == 5121 ? 1 : component == 5123 ? 2 : component == 5125 ? 4 : 0;
-    if (!size || !place_of(c, json_object_get(sparse, "values"), count * element, &buffer, &at) ||
-        !place_of(c, indices, count * size, &buffer, &at))
+    if (!size || !locate_sparse(c, json_object_get(sparse, "values"), count * element, &buffer, &at) ||
+        !locate_sparse(c, indices, count * size, &buffer, &at))
         return bad(c, "accessor", i, "its sparse indices or values are not there");
     unsigned char *bytes = malloc((size_t)(count * size));
     bool ok =
@@ -224,18 +226,18 @@ static bool check_accessor(const struct check *c, size_t i, const json_t *access
     if (!size) return bad(c, "accessor", i, "unknown type or componentType");
     if (json_object_get(accessor, "sparse") && !check_sparse(c, i, accessor, size)) return false;
     if (json_object_get(accessor, "sparse") && !json_object_get(accessor, "bufferView")) return true;
-    if (!number(accessor, "bufferView", UINT64_MAX, &view) || view >= json_array_size(views))
+    if (!get_number(accessor, "bufferView", UINT64_MAX, &view) || view >= json_array_size(views))
         return bad(c, "accessor", i, "no such bufferView");
     const json_t *found = json_array_get(views, (size_t)view);
-    if (!number(accessor, "byteOffset", 0, &offset) || !number(accessor, "count", 0, &count) || !count ||
-        !number(found, "byteStride", 0, &stride) || !number(found, "byteLength", 0, &room))
+    if (!get_number(accessor, "byteOffset", 0, &offset) || !get_number(accessor, "count", 0, &count) || !count ||
+        !get_number(found, "byteStride", 0, &stride) || !get_number(found, "byteLength", 0, &room))
         return bad(c, "accessor", i, "a count or offset is out of range");
     if (stride && stride < size) return bad(c, "accessor", i, "elements overlap");
     return offset + (count - 1) * (stride ? stride : size) + size <= room ||
            bad(c, "accessor", i, "ends behind its bufferView");
 }
 
-/* The accessor that `index` names, or NULL. */
+/* The accessor with this index, or NULL. */
 static const json_t *accessor_at(const struct check *c, const json_t *index) {
     const json_t *accessors = json_object_get(c->root, "accessors");
     if (!json_is_integer(index) || json_integer_value(index) < 0) return NULL;
@@ -247,14 +249,14 @@ static bool is_type(const json_t *accessor, const char *type) {
     return found && !strcmp(found, type);
 }
 
-/* All attributes of a vertex, of the primitive and of its morph targets, come in the same number. */
+/* All attributes of a primitive and of its morph targets must have the same count. */
 static bool attributes_match(const struct check *c, const json_t *attributes, uint64_t vertices) {
     const char *key;
     json_t *index;
     json_object_foreach((json_t *)(uintptr_t)attributes, key, index) {
         const json_t *accessor = accessor_at(c, index);
         uint64_t count;
-        if (!accessor || !number(accessor, "count", 0, &count) || count != vertices) return false;
+        if (!accessor || !get_number(accessor, "count", 0, &count) || count != vertices) return false;
         if ((!strcmp(key, "NORMAL") || !strcmp(key, "POSITION")) && !is_type(accessor, "VEC3")) return false;
     }
     return true;
@@ -263,8 +265,8 @@ static bool attributes_match(const struct check *c, const json_t *attributes, ui
 static bool check_image(const struct check *c, size_t i, const json_t *image) {
     const char *uri = json_string_value(json_object_get(image, "uri"));
     if (!uri && !json_object_get(image, "bufferView")) return bad(c, "image", i, "has neither uri nor bufferView");
-    if (!refers(c, image, "bufferView", "bufferViews")) return bad(c, "image", i, "no such bufferView");
-    /* the importer reads what follows the slash */
+    if (!check_reference(c, image, "bufferView", "bufferViews")) return bad(c, "image", i, "no such bufferView");
+    /* the importer reads the text behind the slash */
     const char *kind = json_string_value(json_object_get(image, "mimeType"));
     if (kind && strcmp(kind, "image/png") && strcmp(kind, "image/jpeg"))
         return bad(c, "image", i, "mimeType is neither image/png nor image/jpeg");
@@ -277,7 +279,7 @@ static bool check_image(const struct check *c, size_t i, const json_t *image) {
 }
 
 static bool check_texture(const struct check *c, size_t i, const json_t *texture) {
-    return (refers(c, texture, "source", "images") && refers(c, texture, "sampler", "samplers")) ||
+    return (check_reference(c, texture, "source", "images") && check_reference(c, texture, "sampler", "samplers")) ||
            bad(c, "texture", i, "no such image or sampler");
 }
 
@@ -287,7 +289,8 @@ static bool check_material(const struct check *c, size_t i, const json_t *materi
                             json_object_get(material, "normalTexture"), json_object_get(material, "emissiveTexture"),
                             json_object_get(material, "occlusionTexture")};
     for (size_t k = 0; k < sizeof uses / sizeof *uses; k++)
-        if (uses[k] && !refers(c, uses[k], "index", "textures")) return bad(c, "material", i, "no such texture");
+        if (uses[k] && !check_reference(c, uses[k], "index", "textures"))
+            return bad(c, "material", i, "no such texture");
     return true;
 }
 
@@ -298,8 +301,8 @@ static bool check_mesh(const struct check *c, size_t i, const json_t *mesh) {
         const json_t *attributes = json_object_get(primitive, "attributes"), *indices;
         const json_t *positions = accessor_at(c, json_object_get(attributes, "POSITION"));
         uint64_t vertices, mode;
-        if (!number(primitive, "mode", 4, &mode) || mode > 6) return bad(c, "mesh", i, "unknown mode");
-        if (!positions || !number(positions, "count", 0, &vertices)) return bad(c, "mesh", i, "no POSITION");
+        if (!get_number(primitive, "mode", 4, &mode) || mode > 6) return bad(c, "mesh", i, "unknown mode");
+        if (!positions || !get_number(positions, "count", 0, &vertices)) return bad(c, "mesh", i, "no POSITION");
         if (!attributes_match(c, attributes, vertices))
             return bad(c, "mesh", i, "an attribute does not match POSITION");
         json_array_foreach(
@@ -309,7 +312,7 @@ static bool check_mesh(const struct check *c, size_t i, const json_t *mesh) {
         indices = json_object_get(primitive, "indices");
         if (indices && !(accessor_at(c, indices) && is_type(accessor_at(c, indices), "SCALAR")))
             return bad(c, "mesh", i, "indices are not SCALAR");
-        if (!refers(c, primitive, "material", "materials")) return bad(c, "mesh", i, "no such material");
+        if (!check_reference(c, primitive, "material", "materials")) return bad(c, "mesh", i, "no such material");
     }
     return true;
 }
@@ -317,8 +320,8 @@ static bool check_mesh(const struct check *c, size_t i, const json_t *mesh) {
 static bool check_node(const struct check *c, size_t i, const json_t *node) {
     size_t k, nodes = json_array_size(json_object_get(c->root, "nodes"));
     json_t *child;
-    if (!refers(c, node, "mesh", "meshes") || !refers(c, node, "camera", "cameras") ||
-        !refers(c, node, "skin", "skins"))
+    if (!check_reference(c, node, "mesh", "meshes") || !check_reference(c, node, "camera", "cameras") ||
+        !check_reference(c, node, "skin", "skins"))
         return bad(c, "node", i, "no such mesh, camera or skin");
     json_array_foreach(json_object_get(node, "children"), k,
                        child) if (!json_is_integer(child) || json_integer_value(child) < 0 ||
@@ -326,7 +329,7 @@ static bool check_node(const struct check *c, size_t i, const json_t *node) {
     return true;
 }
 
-/* Nodes must be a forest: each has one parent at most, and going down ends. */
+/* Nodes must be a forest: each has at most one parent, and there are no cycles. */
 static bool check_tree(const struct check *c) {
     const json_t *nodes = json_object_get(c->root, "nodes");
     size_t count = json_array_size(nodes), i, k;
@@ -358,8 +361,8 @@ static uint64_t count_triangles(const struct check *c) {
         const json_t *indices = json_object_get(primitive, "indices");
         const json_t *position = json_object_get(json_object_get(primitive, "attributes"), "POSITION");
         uint64_t count = 0, mode = 4;
-        number(accessor_at(c, indices ? indices : position), "count", 0, &count);
-        number(primitive, "mode", 4, &mode);
+        get_number(accessor_at(c, indices ? indices : position), "count", 0, &count);
+        get_number(primitive, "mode", 4, &mode);
         if (mode == 4) sum += count / 3;
         if (mode > 4 && count > 2) sum += count - 2; /* strips and fans */
     }
@@ -392,7 +395,7 @@ static bool check_all(const struct check *c) {
         json_array_foreach(json_object_get(c->root, parts[p].array), i,
                            element) if (!parts[p].check(c, i, element)) return false;
     }
-    return (refers(c, c->root, "scene", "scenes") ||
+    return (check_reference(c, c->root, "scene", "scenes") ||
             glint_fail(c->err, GLINT_ERROR_FORMAT, "%s: no such scene", c->path)) &&
            check_tree(c);
 }

@@ -1,4 +1,4 @@
-/* A glTF file's own numbers, checked before an importer trusts them. */
+/* Validates the numbers in a glTF file before an importer uses them. */
 #ifndef SAMPLES_GLTF_CHECK_H
 #define SAMPLES_GLTF_CHECK_H
 
@@ -6,14 +6,14 @@
 
 #include <stdint.h>
 
-/* What the importer does not say, or not reliably. */
+/* Facts that the importer does not report, or not reliably. */
 struct gltf_facts {
-    uint64_t triangles; /* that the meshes should have */
+    uint64_t triangles; /* number of triangles that the meshes declare */
     double fov_y_rad;   /* of the first camera; 0: not a perspective camera */
 };
 
-/* True for a glTF 2 file (.gltf or .glb) in which every buffer is there in full, every view and accessor lies inside
-   what it refers to, and every index of the file's own objects refers to something. */
+/* True for a glTF 2 file (.gltf or .glb) whose buffers are complete, whose views and accessors lie inside of what they refer to, and
+   whose indices of objects are all valid. */
 bool gltf_check(const char *path, struct gltf_facts *facts, struct glint_error *err);
 
 #endif

@@ -1,4 +1,4 @@
-/* What Assimp says of a material becomes a look; images are decoded once for each use of their codes. */
+/* Converts Assimp's materials to looks. Each image is decoded once for each use as colour or data. */
 #include "gltf_material.h"
 
 #include <assimp/GltfMaterial.h>
@@ -21,7 +21,7 @@ struct source {
     struct glint_error *err;
 };
 
-/* Bytes of an image file beside the glTF file, for free(). */
+/* The contents of an image file beside the glTF file; release with free(). */
 static uint8_t *read_bytes(const char *path, size_t *size, struct glint_error *err) {
     FILE *file = fopen(path, "rb");
     long end = file && !fseek(file, 0, SEEK_END) ? ftell(file) : -1;
@@ -42,7 +42,7 @@ static uint8_t *read_bytes(const char *path, size_t *size, struct glint_error *e
 static uint8_t *pixels_of(const struct source *s, const char *name, uint32_t *width, uint32_t *height) {
     char where[4096];
     const char *slash = strrchr(s->path, '/');
-    if (name[0] == '*') { /* inside the glTF file */
+    if (name[0] == '*') { /* embedded in the glTF file */
         unsigned index = (unsigned)strtoul(name + 1, NULL, 10);
         snprintf(where, sizeof where, "%s: image %u", s->path, index);
         const struct aiTexture *inside = index < s->file->mNumTextures ? s->file->mTextures[index] : NULL;
@@ -123,7 +123,7 @@ static float number_of(const struct aiMaterial *from, const char *key, unsigned 
     return aiGetMaterialFloat(from, key, type, 0, &number) == aiReturn_SUCCESS ? clampf(number, 0, high) : fallback;
 }
 
-/* What baked light sees: the look's averages. */
+/* Baked light uses the average of the look. */
 static void set_averages(struct material *material) {
     const struct look *look = material->look;
     float color[4], emission[4], surface[4], all = 1e9f;

@@ -7,7 +7,7 @@
 struct aiMaterial;
 struct aiScene;
 
-/* The material, and its look in the scene. `path` is the glTF file's; images are read beside it. */
+/* Converts a material and adds its look to the scene. `path` is that of the glTF file, next to which images are read. */
 bool gltf_material(const struct aiScene *file, const struct aiMaterial *from, const char *path, struct scene *scene,
                    struct material *material, struct glint_error *err);
 

@@ -1,4 +1,4 @@
-/* libpng's simplified reader, and libjpeg with an error handler that returns. */
+/* Decodes images with libpng's simplified reader, and with libjpeg whose error handler returns. */
 #include "image.h"
 
 #include <stdio.h> /* jpeglib.h needs FILE */
@@ -55,8 +55,8 @@ _Noreturn static void leave(j_common_ptr info) {
     longjmp(jpeg->back, 1);
 }
 
-/* libjpeg paints over what is missing and only warns. */
-static void warned(j_common_ptr info, int level) {
+/* libjpeg fills missing data and only issues a warning. */
+static void on_warning(j_common_ptr info, int level) {
     if (level < 0) leave(info);
 }
 
@@ -64,7 +64,7 @@ static void print_nothing(j_common_ptr info) {
     (void)info;
 }
 
-/* A small progressive file may ask for the whole picture to be gone over any number of times. */
+/* A small progressive file may request any number of passes over the whole picture. */
 static void count_scans(j_common_ptr info) {
     enum { MOST_SCANS = 200 };
     struct jpeg *jpeg = info->client_data;
@@ -104,7 +104,7 @@ static uint8_t *decode_jpeg(const char *name, const uint8_t *bytes, size_t size,
     jpeg->info.err = jpeg_std_error(&jpeg->errors);
     jpeg->info.client_data = jpeg;
     jpeg->errors.error_exit = leave;
-    jpeg->errors.emit_message = warned;
+    jpeg->errors.emit_message = on_warning;
     jpeg->errors.output_message = print_nothing;
     jpeg->progress.progress_monitor = count_scans;
     bool ok = read_jpeg(jpeg, name, bytes, size, err);

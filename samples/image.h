@@ -1,4 +1,4 @@
-/* PNG and JPEG files from strangers, as 8-bit RGBA. */
+/* Decodes untrusted PNG and JPEG files to 8-bit RGBA. */
 #ifndef SAMPLES_IMAGE_H
 #define SAMPLES_IMAGE_H
 
@@ -7,11 +7,11 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* A side of an image may be at most this long. */
+/* The largest width and height of an image. */
 enum { IMAGE_MAX_SIDE = 8192 };
 
-/* Returns width × height × 4 bytes, top row first, for free(). NULL, naming `name`, when the bytes are no whole image of
-   either kind. Prints nothing. */
+/* Returns width × height × 4 bytes, top row first; release with free(). NULL with an error that contains `name` if the bytes are not a
+   complete image. Prints nothing. */
 uint8_t *image_decode(const char *name, const uint8_t *bytes, size_t size, uint32_t *width, uint32_t *height,
                       struct glint_error *err);
 

@@ -1,14 +1,14 @@
-/* Directions drawn from reflection lobes. `to_eye` and `normal` are unit vectors. */
+/* Samples directions from reflection lobes. `to_eye` and `normal` are unit vectors. */
 #ifndef SAMPLES_LOBES_H
 #define SAMPLES_LOBES_H
 
 #include "vec.h"
 
-/* Reflection about a half-vector whose density per solid angle is ∝ cosⁿ around the normal, n = 2/r⁴ - 2. The
-   distribution function of cos θ is cosⁿ⁺¹, whose inverse is u^(1/(n + 1)); roughness 0 is the mirror. */
+/* Reflects about a half-vector with density ∝ cosⁿ per solid angle around the normal, n = 2/r⁴ - 2. The distribution function of cos θ
+   is cosⁿ⁺¹, with the inverse u^(1/(n + 1)). Roughness 0 is the mirror. */
 static inline vec3 lobe_blinn_phong(vec3 to_eye, vec3 normal, float roughness, float u, float v) {
     float r4 = roughness * roughness * roughness * roughness;
-    /* 1/(n + 1) = r⁴/(2 - r⁴); the sine comes from 1 - cos² without cancellation, so that small r stays exact */
+    /* 1/(n + 1) = r⁴/(2 - r⁴); the sine is computed without the cancellation of 1 - cos², so that small r is accurate */
     double exponent = (double)r4 / (2 - (double)r4), log_cosine = log(1 - (double)u) * exponent;
     float cosine = (float)exp(log_cosine), sine = (float)sqrt(-expm1(2 * log_cosine));
     vec3 t, b;
@@ -18,8 +18,8 @@ static inline vec3 lobe_blinn_phong(vec3 to_eye, vec3 normal, float roughness, f
     return reflected(to_eye, half);
 }
 
-/* Reflection about a half-vector drawn from the visible normals of GGX, alpha = roughness² (Heitz 2018, "Sampling the
-   GGX Distribution of Visible Normals", listing 1). */
+/* Reflects about a half-vector that is sampled from the visible normals of GGX, alpha = roughness² (Heitz 2018, "Sampling the GGX
+   Distribution of Visible Normals", listing 1). */
 static inline vec3 lobe_ggx(vec3 to_eye, vec3 normal, float roughness, float u, float v) {
     float alpha = roughness * roughness;
     vec3 t, b;

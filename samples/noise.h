@@ -1,4 +1,4 @@
-/* Deterministic variation: integer hashes, value noise, low-discrepancy points. Nothing here has state. */
+/* Deterministic, stateless variation: integer hashes, value noise, low-discrepancy points. */
 #ifndef SAMPLES_NOISE_H
 #define SAMPLES_NOISE_H
 
@@ -21,7 +21,7 @@ static inline float cell_random(int32_t x, int32_t y, uint32_t seed) {
     return unit_float(hash_two(hash_two((uint32_t)x, (uint32_t)y), seed));
 }
 
-/* Value noise in [0, 1] with one cell a unit. */
+/* Value noise in [0, 1] with a cell size of 1. */
 static inline float noise2(float x, float y, uint32_t seed) {
     float fx = floorf(x), fy = floorf(y);
     int32_t ix = (int32_t)fx, iy = (int32_t)fy;
@@ -45,7 +45,7 @@ static inline double radical_inverse(uint32_t i, uint32_t base) {
     for (; i; i /= base, digit /= base) result += digit * (i % base);
     return result;
 }
-/* Point i of Roberts' R2 sequence, rotated by a hash, in [0, 1)². */
+/* Point i of Roberts' R2 sequence in [0, 1)², shifted by a hash. */
 static inline void r2_point(uint32_t i, uint32_t seed, float *u, float *v) {
     uint32_t a = hash_two(seed, 1) + i * 3242174889U, b = hash_two(seed, 2) + i * 2447445414U;
     *u = unit_float(a);

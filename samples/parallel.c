@@ -1,4 +1,4 @@
-/* Pieces of a stage on all threads; the caller's thread alone reports progress. */
+/* Distributes the pieces of a stage over all threads; only the calling thread reports progress. */
 #include "parallel.h"
 
 #include "threads.h"
@@ -29,7 +29,7 @@ bool parallel_for(struct job *job, const char *what, double weight, uint32_t cou
     struct stage stage = {job, what, weight, count, piece, user, 0};
     const bool done = glint_loop(count, glint_loop_workers(count, job->threads), step, &stage);
     job->done += weight;
-    /* the last pieces may have been those of other threads */
+    /* the last pieces may have been completed by other threads */
     if (done && (!job->progress || job->progress(job->user, what, job->done / job->total))) return true;
     return glint_fail(err, GLINT_ERROR_INTERRUPTED, "interrupted while %s", what);
 }

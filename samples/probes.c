@@ -1,5 +1,5 @@
-/* A grid over the scene's box; places that are not inside things and have room around them; then always the place that
-   is farthest from those chosen. */
+/* Candidates are on a grid over the scene's bounding box, not inside of objects and with free space around them. From these, the one
+   that is farthest from all chosen ones is chosen repeatedly. */
 #include "probes.h"
 
 #include "noise.h"
@@ -8,8 +8,8 @@ enum { ACROSS = 9, UP = 5, RAYS = 48, WANTED = 8 };
 
 struct place {
     vec3 at;
-    float room;   /* distance to the nearest thing, over the directions tried; 0: not free */
-    bool outdoor; /* most of what is above is sky */
+    float room;   /* distance to the nearest surface among the tested directions; 0: not free */
+    bool outdoor; /* most of the upper hemisphere is sky */
 };
 
 static struct place survey(const struct world *world, vec3 at, float diagonal) {
@@ -35,7 +35,7 @@ void place_probes(struct scene *scene, const struct world *world) {
     if (!scene_bounds(scene, &low, &high)) return;
     vec3 size = sub(high, low);
     float diagonal = fmaxf(length(size), 1e-3f);
-    /* a flat scene has its room above it */
+    /* a flat scene has free space above it */
     if (size.y < 0.1f * diagonal) high.y = low.y + 0.2f * diagonal;
     size = sub(high, low);
     uint32_t count = 0;

@@ -107,15 +107,15 @@ void prop_railing(struct scene *scene, float length_m) {
     scene_tube(scene, v3(0, 0.55f, 0), v3(length_m, 0.55f, 0), 0.012f, 8);
 }
 
-/* A leaf: a bent strip from `root`, out along `way`, drooping. */
-static void leaf(struct scene *scene, vec3 root, vec3 way, float length_m, float rise) {
+/* A leaf: a bent strip from `root` in the given direction, drooping. */
+static void leaf(struct scene *scene, vec3 root, vec3 direction, float length_m, float rise) {
     enum { PARTS = 6 };
-    vec3 side = unit(cross(way, v3(0, 1, 0)));
+    vec3 side = unit(cross(direction, v3(0, 1, 0)));
     uint32_t before[2] = {0, 0};
     for (uint32_t i = 0; i <= PARTS; i++) {
         float t = (float)i / PARTS, width = 0.16f * length_m * sinf(PI_F * (0.12f + 0.86f * t));
-        vec3 p = along(along(root, way, length_m * t * 0.8f), v3(0, 1, 0), length_m * (rise * t - 1.1f * t * t));
-        vec3 normal = unit(along(v3(0, 1, 0), way, 1.2f * t - 0.5f * rise));
+        vec3 p = along(along(root, direction, length_m * t * 0.8f), v3(0, 1, 0), length_m * (rise * t - 1.1f * t * t));
+        vec3 normal = unit(along(v3(0, 1, 0), direction, 1.2f * t - 0.5f * rise));
         uint32_t left = scene_vertex(scene, along(p, side, -width), normal);
         uint32_t right = scene_vertex(scene, along(p, side, width), normal);
         if (i) {
@@ -169,7 +169,7 @@ void prop_shrub(struct scene *scene, float height_m) {
     scene_mesh(scene, &wood, MESH_DETAIL);
     scene_tube(scene, v3(0, 0.3f * h, 0), center, 0.02f * h, 8);
     scene_mesh(scene, &green, MESH_DETAIL | MESH_STIPPLED);
-    for (uint32_t i = 0; i < LEAVES; i++) { /* over a ball, evenly */
+    for (uint32_t i = 0; i < LEAVES; i++) { /* evenly distributed over a sphere */
         float y = 1 - 2 * ((float)i + 0.5f) / LEAVES, around = 2.39996f * (float)i, flat = sqrtf(1 - y * y);
         vec3 out = v3(flat * cosf(around), y, flat * sinf(around));
         leaf(scene, along(center, out, 0.5f * r), unit(v3(out.x, 0, out.z)),

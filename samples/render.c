@@ -1,4 +1,4 @@
-/* The frame as an engine's buffers hold it, and its cube maps. One ray a pixel, through its jittered centre. */
+/* Renders the buffers of an engine's frame with one ray per pixel, and cube maps. */
 #include "render.h"
 
 #include <Imath/half.h>
@@ -16,9 +16,9 @@ static void motion_of(const struct frame_work *work, uint32_t x, uint32_t y, vec
     motion[1] = (float)(uv[1] - (y + 0.5) / work->view->height);
 }
 
-/* A perturbed normal is bent back towards the surface until the mirror ray leaves it, as engines do: a reflection of
-   the surface's own inside would mean nothing. */
-static vec3 bent(vec3 normal, const struct hit *hit, vec3 to_eye) {
+/* Bends a perturbed normal towards the surface until the mirror ray leaves the surface, as engines do, because the reflection of the
+   inside of a surface would be meaningless. */
+static vec3 bend_normal(vec3 normal, const struct hit *hit, vec3 to_eye) {
     const float enough = 0.01f;
     vec3 towards = dot(reflected(to_eye, hit->normal), hit->geometric) > enough ? hit->normal : hit->geometric;
     for (float k = 0; k < 1; k += 0.25f) {
@@ -47,7 +47,7 @@ static struct pixel seen(const struct frame_work *work, const struct hit *hit, v
                           .metalness = surface.metalness,
                           .specular = surface.specular,
                           .stencil = surface.stencil};
-    pixel.normal = to_half(bent(surface.normal, hit, to_eye));
+    pixel.normal = to_half(bend_normal(surface.normal, hit, to_eye));
     pixel.lit = world_radiance(work->world, hit);
     return pixel;
 }

@@ -1,4 +1,4 @@
-/* Pictures of a world: what an engine's frame holds, cube maps, and the truth. */
+/* Renders images of a world: the buffers of an engine's frame, cube maps, and the truth. */
 #ifndef SAMPLES_RENDER_H
 #define SAMPLES_RENDER_H
 
@@ -8,18 +8,18 @@
 
 struct pixel {
     float depth; /* along the view axis; INFINITY: sky */
-    vec3 normal; /* rounded to half floats, as the engine's G-buffer holds it */
+    vec3 normal; /* rounded to half floats as in the engine's G-buffer */
     vec3 vertex_normal, albedo;
     float roughness, metalness, specular;
-    float motion[3]; /* uv one frame earlier minus uv now; depth in the same way, 0 for the sky */
+    float motion[3]; /* previous uv minus current uv; likewise for depth, 0 for sky */
     uint32_t stencil;
     vec3 lit;
 };
 
-/* What the ray through a pixel's jittered centre meets. */
+/* The surface hit by the ray through a pixel's jittered centre. */
 struct hit primary_hit(const struct world *world, const struct view *view, uint32_t x, uint32_t y);
 
-/* `pixels` has room for the view's size. */
+/* `pixels` has room for the size of the view. */
 bool render_frame(const struct world *world, const struct view *view, const struct view *previous, struct pixel *pixels,
                   struct job *job, double weight, struct glint_error *err);
 
@@ -29,31 +29,31 @@ struct texel {
     float distance; /* from the centre; INFINITY: sky */
 };
 
-/* N × 6N texels: faces +X -X +Y -Y +Z -Z one below the other, oriented as Vulkan's cube maps. */
+/* N × 6N texels: faces +X -X +Y -Y +Z -Z one below the other, oriented as in Vulkan. */
 bool render_cubemap(const struct world *world, vec3 center, uint32_t size, struct texel *texels, struct job *job,
                     double weight, struct glint_error *err);
-/* The sky alone. */
+/* Renders only the sky. */
 bool render_sky(const struct world *world, uint32_t size, struct texel *texels, struct job *job, double weight,
                 struct glint_error *err);
 vec3 cube_direction(uint32_t face, uint32_t x, uint32_t y, uint32_t size);
 
 struct truth {
     vec3 ggx, blinn_phong;          /* mean radiance over the lobe */
-    float ggx_weight, phong_weight; /* share of the draws that left the surface; 0: no surface */
-    float ggx_error, phong_error;   /* standard error of the mean's luminance, relative */
+    float ggx_weight, phong_weight; /* fraction of the samples that leave the surface; 0: no surface */
+    float ggx_error, phong_error;   /* relative standard error of the mean's luminance */
     float distance, visible;        /* of the exact mirror ray; INFINITY: sky */
 };
 
-/* For the mean of several. */
+/* Accumulates the mean of several renderings. */
 struct truth_sum {
-    double color[2][3], square[2]; /* of the errors, absolute */
+    double color[2][3], square[2]; /* squared absolute errors */
     uint32_t count[2];
 };
 void truth_add(struct truth_sum *sum, const struct truth *truth);
-/* Colours and errors; what else there is stays. */
+/* Computes mean colours and errors; other members do not change. */
 void truth_mean(const struct truth_sum *sum, struct truth *truth);
 
-/* `first`: how many of the sequence of draws were used before; `finished`: with what the surfaces met reflect. */
+/* `first`: number of samples of the sequence that were used before; `finished`: includes what the hit surfaces reflect. */
 bool render_truth(const struct world *world, const struct view *view, const struct pixel *pixels, uint32_t samples,
                   uint32_t first, bool finished, struct truth *truth, struct job *job, double weight,
                   struct glint_error *err);

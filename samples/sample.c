@@ -1,4 +1,4 @@
-/* Writes captures of a scene: options in, files out. */
+/* Renders a scene with the given options and writes captures. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -34,10 +34,10 @@ enum {
     MAX_FRAME = 1000000
 };
 
-/* What an engine with pre-exposed buffers would have had; any factor but 1 does. */
+/* An arbitrary factor other than 1, for engines with pre-exposed buffers. */
 #define PRE_EXPOSURE 0.375
 
-/* Everything between the options and the files. */
+/* The state of a call. */
 struct session {
     struct scene scene;
     struct glint_sample_options options;
@@ -49,7 +49,7 @@ struct session {
     struct truth *truth;
     uint32_t light_samples;
     char cubemaps_path[4096];
-    char settings[72]; /* of the scene and options; in a shot, the cube maps' hash is appended */
+    char settings[72]; /* hash of scene and options; in a shot, the hash of the cube maps is appended */
 };
 
 static bool check_encodings(const struct glint_encodings *e, struct glint_error *err) {
@@ -113,7 +113,7 @@ static bool build_scene(const char *name, struct session *s, struct glint_error 
     return gltf_load(name, &s->scene, err);
 }
 
-/* ---- What holds for the frame, moved by the offset ---- */
+/* ---- Attributes of the frame, moved by the offset ---- */
 
 static void move_camera(struct glint_camera *camera, const double offset[3]) {
     double *m = camera->world_to_view;
@@ -189,7 +189,7 @@ static bool write_sky(struct session *s, const struct dump *dump, struct glint_e
     return render_sky(s->now, size, s->texels, &s->job, 1, err) && dump_sky(dump, size, s->texels, err);
 }
 
-/* Lobes become their means over all places of a pixel that show a surface; distances stay those of the sample. */
+/* Averages lobes over all jitter positions of a pixel that show a surface. Distances stay those of the sample. */
 static bool average_truth(struct session *s, uint32_t number, struct glint_error *err) {
     const struct glint_sample_options *o = &s->options;
     size_t pixels = (size_t)o->width * o->height;
@@ -211,7 +211,7 @@ static bool average_truth(struct session *s, uint32_t number, struct glint_error
     return ok;
 }
 
-/* The water over the frame, the picture with it, and the map that its reflections come from. */
+/* Writes water, the image with it, and the planar reflection map. */
 static bool write_water(struct session *s, const struct dump *dump, const struct view *view, uint32_t number,
                         struct glint_error *err) {
     const struct glint_sample_options *o = &s->options;
@@ -249,7 +249,7 @@ static bool write_finished(struct session *s, const struct dump *dump, const str
     return ok;
 }
 
-/* The panes over the frame, and the picture with them. */
+/* Writes panes of glass, and the image with them. */
 static bool write_glass(struct session *s, const struct dump *dump, const struct view *view, double time,
                         struct glint_error *err) {
     if (!has_panes(&s->scene)) return true;
@@ -289,7 +289,7 @@ static bool make_worlds(struct session *s, double time, struct glint_error *err)
     return s->before != NULL;
 }
 
-/* `rendered` says that `pixels` already holds the frame before this one. */
+/* `rendered`: `pixels` already holds the previous frame. */
 static bool render_views(struct session *s, const struct view views[3], bool rendered, struct glint_error *err) {
     struct pixel *swapped = s->previous;
     s->previous = s->pixels;
@@ -372,7 +372,7 @@ static bool prepare(struct session *s, struct glint_error *err) {
     if (!s->pixels || !s->previous || !s->texels || (s->options.truth_samples && !s->truth))
         return glint_fail(err, GLINT_ERROR_MEMORY, "no memory for %u x %u pixels", s->options.width, s->options.height);
     bool placed = s->options.probes == GLINT_PROBES_AUTO || !s->scene.cubemap_count;
-    if (placed) s->scene.cubemap_count = 8; /* at most, for the progress */
+    if (placed) s->scene.cubemap_count = 8; /* the maximum, for the progress */
     s->job.total = total_work(s);
     if (!s->scene.unlit && !bake_light(&s->scene, s->light_samples, &s->job, 5, err)) return false;
     enum world_kind kind = s->options.probes == GLINT_PROBES_IMPERFECT ? WORLD_SIMPLIFIED : WORLD_ALL;
@@ -381,9 +381,9 @@ static bool prepare(struct session *s, struct glint_error *err) {
     return s->probes != NULL;
 }
 
-/* ---- All files; a shot that was interrupted is completed ---- */
+/* ---- All files; an interrupted shot is completed ---- */
 
-/* Frames name the cube maps by what they are, so that frames made with others are not taken for complete. */
+/* Frames contain the hash of their cube maps, so that frames with different cube maps do not count as complete. */
 static bool append_cubemaps_hash(struct session *s) {
     char hex[33];
     bool ok = settings_file_hash(s->cubemaps_path, hex);
@@ -397,7 +397,7 @@ static bool name_frame(const struct session *s, uint32_t number, char *path, siz
     return name_file(path, room, s->out, infix, err);
 }
 
-/* The number of frames that are there already, complete and with these settings. */
+/* The number of complete frames with these settings from the first on. */
 static bool count_kept(const struct session *s, uint32_t *kept, struct glint_error *err) {
     char path[4096];
     *kept = 0;
@@ -416,7 +416,7 @@ static bool write_shot(struct session *s, struct glint_error *err) {
     if (append_cubemaps_hash(s) && !count_kept(s, &kept, err)) return false;
     if (kept == s->options.frames) return true;
     if (!prepare(s, err)) return false;
-    /* no frame vouches for the cube maps that may be there */
+    /* no frame vouches for existing cube maps */
     if (!kept) s->settings[32] = 0;
     if (!kept && !write_shared_cubemaps(s, err)) return false;
     if (!kept && !append_cubemaps_hash(s))

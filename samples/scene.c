@@ -1,4 +1,4 @@
-/* Scenes: memory, and what is added one at a time. */
+/* Builds scenes: memory, and elements that are added one at a time. */
 #include "scene.h"
 
 #include "texture.h"
@@ -38,8 +38,8 @@ void scene_finish(struct scene *scene) {
     *scene = (struct scene){0};
 }
 
-/* Makes room for `count` elements; false and untouched when there is no memory. */
-static bool grow(void *array, uint32_t *room, uint32_t count, size_t element_bytes) {
+/* Makes room for `count` elements. Returns false without changes when out of memory. */
+static bool reserve(void *array, uint32_t *room, uint32_t count, size_t element_bytes) {
     void **memory = array;
     if (count <= *room) return true;
     uint32_t wanted = count < 64 ? 64 : count + count / 2;
@@ -52,7 +52,7 @@ static bool grow(void *array, uint32_t *room, uint32_t count, size_t element_byt
 
 void scene_mesh(struct scene *scene, const struct material *material, uint32_t flags) {
     if (scene->out_of_memory) return;
-    if (!grow(&scene->meshes, &scene->mesh_room, scene->mesh_count + 1, sizeof(struct mesh))) {
+    if (!reserve(&scene->meshes, &scene->mesh_room, scene->mesh_count + 1, sizeof(struct mesh))) {
         scene->out_of_memory = true;
         return;
     }
@@ -65,7 +65,7 @@ void scene_place(struct scene *scene, vec3 place, float turn_rad) {
 }
 
 static vec3 turned(const struct scene *scene, vec3 v) {
-    if (scene->turn_rad == 0) return v; /* no rounding for what stands straight */
+    if (scene->turn_rad == 0) return v; /* avoids rounding without rotation */
     float c = cosf(scene->turn_rad), s = sinf(scene->turn_rad);
     return v3(c * v.x + s * v.z, v.y, c * v.z - s * v.x);
 }
@@ -74,8 +74,8 @@ uint32_t scene_vertex(struct scene *scene, vec3 position, vec3 normal) {
     if (scene->out_of_memory || !scene->mesh_count) return 0;
     struct mesh *mesh = &scene->meshes[scene->mesh_count - 1];
     uint32_t room = mesh->vertex_room;
-    if (!grow(&mesh->positions, &room, mesh->vertex_count + 1, sizeof(vec3)) ||
-        !grow(&mesh->normals, &mesh->vertex_room, mesh->vertex_count + 1, sizeof(vec3))) {
+    if (!reserve(&mesh->positions, &room, mesh->vertex_count + 1, sizeof(vec3)) ||
+        !reserve(&mesh->normals, &mesh->vertex_room, mesh->vertex_count + 1, sizeof(vec3))) {
         scene->out_of_memory = true;
         return 0;
     }
@@ -87,14 +87,14 @@ uint32_t scene_vertex(struct scene *scene, vec3 position, vec3 normal) {
 void scene_skin(struct scene *scene, const struct skin *skin) {
     if (scene->out_of_memory || !scene->mesh_count) return;
     struct mesh *mesh = &scene->meshes[scene->mesh_count - 1];
-    if (grow(&mesh->skins, &mesh->skin_room, mesh->skin_count + 1, sizeof *skin))
+    if (reserve(&mesh->skins, &mesh->skin_room, mesh->skin_count + 1, sizeof *skin))
         mesh->skins[mesh->skin_count++] = *skin;
     else scene->out_of_memory = true;
 }
 
 struct look *scene_look(struct scene *scene, const struct look *look) {
     struct look *kept = malloc(sizeof *kept);
-    if (!kept || !grow(&scene->looks, &scene->look_room, scene->look_count + 1, sizeof kept)) {
+    if (!kept || !reserve(&scene->looks, &scene->look_room, scene->look_count + 1, sizeof kept)) {
         free(kept);
         scene->out_of_memory = true;
         return NULL;
@@ -105,7 +105,7 @@ struct look *scene_look(struct scene *scene, const struct look *look) {
 
 struct texture *scene_texture(struct scene *scene, const struct texture *texture) {
     struct texture *kept = malloc(sizeof *kept);
-    if (!kept || !grow(&scene->textures, &scene->texture_room, scene->texture_count + 1, sizeof kept)) {
+    if (!kept || !reserve(&scene->textures, &scene->texture_room, scene->texture_count + 1, sizeof kept)) {
         free(kept);
         scene->out_of_memory = true;
         return NULL;
@@ -117,7 +117,7 @@ struct texture *scene_texture(struct scene *scene, const struct texture *texture
 void scene_triangle(struct scene *scene, uint32_t a, uint32_t b, uint32_t c) {
     if (scene->out_of_memory || !scene->mesh_count) return;
     struct mesh *mesh = &scene->meshes[scene->mesh_count - 1];
-    if (!grow(&mesh->triangles, &mesh->triangle_room, mesh->triangle_count + 1, 3 * sizeof(uint32_t))) {
+    if (!reserve(&mesh->triangles, &mesh->triangle_room, mesh->triangle_count + 1, 3 * sizeof(uint32_t))) {
         scene->out_of_memory = true;
         return;
     }

@@ -1,4 +1,4 @@
-/* The built-in scenes: one file in scenes/ and one row here each. */
+/* The list of built-in scenes: each has a file in scenes/ and a row here. */
 #ifndef SAMPLES_SCENES_H
 #define SAMPLES_SCENES_H
 

@@ -1,4 +1,4 @@
-/* XXH3-128 over the numbers that make a scene and over the options. */
+/* Hashes a scene's numbers and the options with XXH3-128. */
 #include "settings.h"
 
 #include <stdio.h>
@@ -7,19 +7,19 @@
 
 #include "texture.h"
 
-static void take(XXH3_state_t *state, const void *data, size_t bytes) {
+static void hash_bytes(XXH3_state_t *state, const void *data, size_t bytes) {
     if (bytes) XXH3_128bits_update(state, data, bytes);
 }
 
 static void take_floats(XXH3_state_t *state, const float *values, size_t count) {
-    take(state, values, count * sizeof *values);
+    hash_bytes(state, values, count * sizeof *values);
 }
 
 static void take_map(XXH3_state_t *state, const struct map *map) {
     const uint32_t wraps[2] = {(uint32_t)map->wrap_u, (uint32_t)map->wrap_v};
-    take(state, wraps, sizeof wraps);
+    hash_bytes(state, wraps, sizeof wraps);
     if (!map->texture) return;
-    take(state, map->texture->name, strlen(map->texture->name));
+    hash_bytes(state, map->texture->name, strlen(map->texture->name));
 }
 
 static void take_mesh(XXH3_state_t *state, const struct mesh *mesh) {
@@ -27,11 +27,11 @@ static void take_mesh(XXH3_state_t *state, const struct mesh *mesh) {
     const float values[] = {m->albedo.x,  m->albedo.y,  m->albedo.z, m->emission.x, m->emission.y, m->emission.z,
                             m->roughness, m->metalness, m->specular, mesh->step.x,  mesh->step.y,  mesh->step.z};
     const uint32_t counts[] = {m->stencil, mesh->flags, mesh->vertex_count, mesh->triangle_count};
-    take(state, values, sizeof values);
-    take(state, counts, sizeof counts);
-    take(state, mesh->positions, mesh->vertex_count * sizeof(vec3));
-    take(state, mesh->normals, mesh->vertex_count * sizeof(vec3));
-    take(state, mesh->triangles, mesh->triangle_count * 3 * sizeof(uint32_t));
+    hash_bytes(state, values, sizeof values);
+    hash_bytes(state, counts, sizeof counts);
+    hash_bytes(state, mesh->positions, mesh->vertex_count * sizeof(vec3));
+    hash_bytes(state, mesh->normals, mesh->vertex_count * sizeof(vec3));
+    hash_bytes(state, mesh->triangles, mesh->triangle_count * 3 * sizeof(uint32_t));
     if (!m->look) return;
     const struct look *l = m->look;
     const struct map *maps[] = {&l->color, &l->surface, &l->emission, &l->normal};
@@ -40,7 +40,7 @@ static void take_mesh(XXH3_state_t *state, const struct mesh *mesh) {
     take_floats(state, &l->emission_factor.x, 3);
     take_floats(state, (float[]){l->alpha_factor, l->roughness_factor, l->metalness_factor, l->normal_scale, l->cutoff},
                 5);
-    take(state, mesh->skins, mesh->skin_count * sizeof *mesh->skins);
+    hash_bytes(state, mesh->skins, mesh->skin_count * sizeof *mesh->skins);
 }
 
 static void take_options(XXH3_state_t *state, const struct scene *scene, const struct glint_sample_options *o) {
@@ -51,30 +51,30 @@ static void take_options(XXH3_state_t *state, const struct scene *scene, const s
                      (int)e->vertex_normal, (int)e->normal_space, (int)e->roughness, (int)e->motion,
                      (int)e->motion_depth, (int)e->color, o->truth_samples, o->light_samples, o->fov_y_rad,
                      (int)o->camera_given, (int)o->compression);
-    take(state, text, (size_t)n);
-    take(state, o->offset, sizeof o->offset);
-    take(state, &o->planar_width, sizeof o->planar_width);
-    take(state, &o->planar_height, sizeof o->planar_height);
-    take(state, &o->cut, sizeof o->cut);
-    take(state, &o->unjittered, sizeof o->unjittered);
-    take(state, &o->finished_samples, sizeof o->finished_samples);
-    take(state, &o->foreground, sizeof o->foreground);
-    take(state, &o->truth_of_pixels, sizeof o->truth_of_pixels);
+    hash_bytes(state, text, (size_t)n);
+    hash_bytes(state, o->offset, sizeof o->offset);
+    hash_bytes(state, &o->planar_width, sizeof o->planar_width);
+    hash_bytes(state, &o->planar_height, sizeof o->planar_height);
+    hash_bytes(state, &o->cut, sizeof o->cut);
+    hash_bytes(state, &o->unjittered, sizeof o->unjittered);
+    hash_bytes(state, &o->finished_samples, sizeof o->finished_samples);
+    hash_bytes(state, &o->foreground, sizeof o->foreground);
+    hash_bytes(state, &o->truth_of_pixels, sizeof o->truth_of_pixels);
     if (o->reflecting_given) {
-        take(state, &o->reflecting, sizeof o->reflecting);
-        take(state, &o->scattered, sizeof o->scattered);
+        hash_bytes(state, &o->reflecting, sizeof o->reflecting);
+        hash_bytes(state, &o->scattered, sizeof o->scattered);
     }
-    if (o->travel_given) take(state, o->travel, sizeof o->travel);
+    if (o->travel_given) hash_bytes(state, o->travel, sizeof o->travel);
     if (o->camera_given) {
-        take(state, o->eye, sizeof o->eye);
-        take(state, o->target, sizeof o->target);
+        hash_bytes(state, o->eye, sizeof o->eye);
+        hash_bytes(state, o->target, sizeof o->target);
     }
     take_floats(state, &scene->eye.x, 3);
     take_floats(state, &scene->target.x, 3);
     take_floats(state, &scene->fov_y_rad, 1);
 }
 
-static void finish(XXH3_state_t *state, char hex[33]) {
+static void finish_hash(XXH3_state_t *state, char hex[33]) {
     XXH128_hash_t hash = XXH3_128bits_digest(state);
     XXH3_freeState(state);
     snprintf(hex, 33, "%016llx%016llx", (unsigned long long)hash.high64, (unsigned long long)hash.low64);
@@ -88,11 +88,11 @@ bool settings_hash(const struct scene *scene, const struct glint_sample_options 
     take_options(state, scene, options);
     for (uint32_t i = 0; i < scene->texture_count; i++) {
         const struct texture *t = scene->textures[i];
-        take(state, t->name, strlen(t->name));
-        take(state, t->texels, (size_t)t->width * t->height * 4);
+        hash_bytes(state, t->name, strlen(t->name));
+        hash_bytes(state, t->texels, (size_t)t->width * t->height * 4);
     }
     for (uint32_t i = 0; i < scene->mesh_count; i++) take_mesh(state, &scene->meshes[i]);
-    finish(state, hex);
+    finish_hash(state, hex);
     return true;
 }
 
@@ -103,9 +103,9 @@ bool settings_file_hash(const char *path, char hex[33]) {
     bool ok = state != NULL;
     if (ok) {
         XXH3_128bits_reset(state);
-        for (size_t n; (n = fread(bytes, 1, sizeof bytes, file)) > 0;) take(state, bytes, n);
+        for (size_t n; (n = fread(bytes, 1, sizeof bytes, file)) > 0;) hash_bytes(state, bytes, n);
         ok = !ferror(file);
-        finish(state, hex);
+        finish_hash(state, hex);
     }
     if (file) fclose(file);
     return ok;

@@ -1,4 +1,4 @@
-/* Shapes that scenes are built of. Flat faces are divided so that baked light has vertices to live on. */
+/* The shapes of scenes. Flat faces are subdivided, because baked light is stored at vertices. */
 #include "scene.h"
 
 static uint32_t divisions(float edge_length, float cell) {

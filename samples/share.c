@@ -5,7 +5,7 @@
 
 #include "noise.h"
 
-/* Whether a number from 0 to `of` lies in the middle part. */
+/* Whether a number from 0 to `of` lies in the central part. */
 static bool in_middle(uint32_t at, uint32_t of, double part) {
     return fabs((at + 0.5) / of - 0.5) < part / 2;
 }

@@ -1,4 +1,4 @@
-/* Box-filtered MIP levels, kept in the image's own 8 bits. Colours are averaged as light, not as codes. */
+/* Box-filtered MIP levels in 8 bits. Colours are averaged as linear light. */
 #include "texture.h"
 
 #include <stdlib.h>
@@ -59,7 +59,7 @@ struct texture texture_make(uint8_t *pixels, uint32_t width, uint32_t height, bo
     return t;
 }
 
-/* A texel's index on one axis; `at` is whole. */
+/* The index of a texel on one axis; `at` is an integer. */
 static uint32_t wrapped(float at, uint32_t size, enum wrap wrap) {
     float n = (float)size;
     if (wrap == WRAP_REPEAT) at -= n * floorf(at / n);
@@ -96,7 +96,7 @@ void texture_sample(const struct map *map, float u, float v, float texels, float
 
 struct point {
     float u, v;
-    float density; /* uv a metre */
+    float density; /* uv per metre */
 };
 
 static struct point point_of(const struct mesh *mesh, uint32_t triangle, float u, float v) {

@@ -1,5 +1,5 @@
-/* What a resolve pass estimates, computed for the scene itself: the mean radiance over the whole lobe around the
-   full-resolution normal, and where the exact mirror ray ends. */
+/* The exact values of what a resolve pass estimates: the mean radiance over the whole lobe around the full-resolution normal, and the
+   end of the exact mirror ray. */
 #include "finished.h"
 #include "lobes.h"
 #include "noise.h"
@@ -8,7 +8,7 @@ struct truth_work {
     const struct world *world;
     const struct view *view;
     const struct pixel *pixels;
-    uint32_t samples, first; /* of the sequence of draws */
+    uint32_t samples, first; /* index of the first one in the sequence */
     bool finished;
     struct truth *truth;
 };
@@ -40,25 +40,25 @@ static vec3 result(const struct mean *mean, uint32_t samples, float *weight, flo
     return color;
 }
 
-/* The surface that a pixel shows, and what its lobes are around. */
+/* The surface of a pixel, and the frame of its lobes. */
 struct start {
-    vec3 to_eye, normal; /* unit; the G-buffer's normal */
+    vec3 to_eye, normal; /* unit vectors; the normal of the G-buffer */
     vec3 geometric, leave;
     float roughness;
 };
 
-/* What comes along one draw. */
-static vec3 arriving(const struct truth_work *work, const struct start *start, vec3 direction, uint32_t seed,
-                     uint32_t i) {
+/* The radiance along one sample direction. */
+static vec3 sample_radiance(const struct truth_work *work, const struct start *start, vec3 direction, uint32_t seed,
+                            uint32_t i) {
     float u, v;
     if (!work->finished) return world_look(work->world, start->leave, direction, NULL);
     r2_point(i, hash_two(seed, 3), &u, &v);
     return finished_look(work->world, start->leave, direction, u, v);
 }
 
-/* Draws that go below the horizon, of the normal or of the surface itself, are repeated. */
-static vec3 average(const struct truth_work *work, const struct start *start, lobe *draw, uint32_t seed, float *weight,
-                    float *error) {
+/* Samples below the horizon, of the normal or of the surface itself, are repeated. */
+static vec3 average_lobe(const struct truth_work *work, const struct start *start, lobe *draw, uint32_t seed,
+                         float *weight, float *error) {
     enum { MOST_REPEATS = 64 };
     struct mean mean = {0};
     for (uint32_t i = 0; i < work->samples; i++) {
@@ -67,7 +67,7 @@ static vec3 average(const struct truth_work *work, const struct start *start, lo
         for (uint32_t k = 0; k < MOST_REPEATS; k++) {
             vec3 direction = draw(start->to_eye, start->normal, start->roughness, u, v);
             if (dot(direction, start->normal) > 0 && dot(direction, start->geometric) > 0) {
-                gather(&mean, arriving(work, start, direction, seed, work->first + i));
+                gather(&mean, sample_radiance(work, start, direction, seed, work->first + i));
                 break;
             }
             uint32_t again = hash_two(hash_two(seed, work->first + i), k);
@@ -98,8 +98,9 @@ static struct truth truth_of(const struct truth_work *work, uint32_t x, uint32_t
                           .geometric = seen.geometric,
                           .leave = world_leave(&seen, seen.geometric),
                           .roughness = work->pixels[index].roughness};
-    truth.ggx = average(work, &start, lobe_ggx, 2 * index, &truth.ggx_weight, &truth.ggx_error);
-    truth.blinn_phong = average(work, &start, lobe_blinn_phong, 2 * index + 1, &truth.phong_weight, &truth.phong_error);
+    truth.ggx = average_lobe(work, &start, lobe_ggx, 2 * index, &truth.ggx_weight, &truth.ggx_error);
+    truth.blinn_phong =
+        average_lobe(work, &start, lobe_blinn_phong, 2 * index + 1, &truth.phong_weight, &truth.phong_error);
     vec3 mirror = unit(reflected(start.to_eye, start.normal));
     struct hit hit = world_trace(work->world, start.leave, mirror, 0);
     if (!(hit.t < INFINITY)) return truth;

@@ -57,8 +57,7 @@ static inline vec3 unit(vec3 a) {
 static inline vec3 reflected(vec3 to_eye, vec3 normal) {
     return sub(scale(normal, 2 * dot(to_eye, normal)), to_eye);
 }
-/* Two axes that make a right-handed frame with the unit vector n (Duff et al. 2017, "Building an orthonormal basis,
-   revisited"). */
+/* Two axes that form a right-handed frame with the unit vector n (Duff et al. 2017, "Building an orthonormal basis, revisited"). */
 static inline void frame_of(vec3 n, vec3 *t, vec3 *b) {
     float sign = copysignf(1, n.z), a = -1 / (sign + n.z), c = n.x * n.y * a;
     *t = v3(1 + sign * n.x * n.x * a, sign * c, -sign * n.x);

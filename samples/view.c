@@ -1,4 +1,4 @@
-/* Right-handed view space that looks along -Z; NDC +1 is the top; jitter is part of view_to_clip. */
+/* Right-handed view space with the view along -Z; NDC +1 is at the top; jitter is part of view_to_clip. */
 #include "view.h"
 
 #include "noise.h"
@@ -18,11 +18,11 @@ static void normalised(double v[3]) {
     for (int i = 0; i < 3; i++) v[i] /= l;
 }
 
-static struct axes look(const double eye[3], const double target[3]) {
+static struct axes axes_of_view(const double eye[3], const double target[3]) {
     struct axes axes;
     for (int i = 0; i < 3; i++) axes.forward[i] = target[i] - eye[i];
     normalised(axes.forward);
-    /* Straight up or down, the world's up says nothing about the picture's. */
+    /* If the view is vertical, the world's up does not determine that of the image. */
     const double up[3] = {0, 1, 0}, ahead[3] = {0, 0, -1};
     crossed(axes.forward, fabs(axes.forward[1]) > 0.9999 ? ahead : up, axes.right);
     normalised(axes.right);
@@ -48,7 +48,7 @@ static void projection(struct view *view, enum glint_depth_encoding depth, doubl
         m[11] = n * f / (f - n);
         break;
     default:
-        m[11] = n; /* reversed, infinitely far */
+        m[11] = n; /* reversed, with an infinite far plane */
     }
 }
 
@@ -65,7 +65,7 @@ struct view view_through(const struct scene *scene, const struct glint_sample_op
             (i ? target : view.eye)[k] = (options->camera_given ? given[k] : (double)start[k]) + time * moves;
         }
     }
-    struct axes axes = look(view.eye, target);
+    struct axes axes = axes_of_view(view.eye, target);
     double *m = view.camera.world_to_view;
     for (int k = 0; k < 3; k++) {
         m[k] = axes.right[k];

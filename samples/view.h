@@ -1,34 +1,34 @@
-/* Cameras: matrices as a capture stores them, rays through pixels, positions on screen. */
+/* Cameras: matrices as stored in captures, rays through pixels, projection to the screen. */
 #ifndef SAMPLES_VIEW_H
 #define SAMPLES_VIEW_H
 
 #include "scene.h"
 
-/* Planes of the projection in metres; view-linear and infinite depth do not depend on the far one. */
+/* The planes of the projection in metres. View-linear and infinite depth do not depend on the far plane. */
 #define VIEW_NEAR 0.1
 #define VIEW_FAR 4000.0
 
 struct view {
-    struct glint_camera camera; /* without the world's offset */
+    struct glint_camera camera; /* without the offset of the world */
     double eye[3];
     double jitter_px[2];
     uint32_t width, height;
-    float pixel_rad; /* between neighbouring pixels in the middle */
+    float pixel_rad; /* angle between neighbouring pixels at the centre of the image */
 };
 
-/* Places in a pixel that a camera is jittered through: a Halton sequence, a power of two of it. */
+/* The number of jitter positions of a camera: a power of two of a Halton sequence. */
 enum { VIEW_PLACES = 16 };
 
-/* The camera of frame `number` through a place of its pixels; VIEW_PLACES: their centres. */
+/* The camera of frame `number` at a jitter position; VIEW_PLACES: without jitter. */
 struct view view_through(const struct scene *scene, const struct glint_sample_options *options, uint32_t width,
                          uint32_t height, int64_t number, uint32_t place);
-/* With the jitter of that frame; frames before the first are there too. */
+/* The camera with the jitter of that frame, also for frames before the first one. */
 struct view view_at(const struct scene *scene, const struct glint_sample_options *options, uint32_t width,
                     uint32_t height, int64_t number);
-/* Direction through the centre of a pixel, one unit deep: its length along the view axis is 1. */
+/* The direction through the centre of a pixel, scaled to a length of 1 along the view axis. */
 vec3 view_ray(const struct view *view, uint32_t x, uint32_t y);
 vec3 view_eye(const struct view *view);
-/* Where a point (w = 1) or direction (w = 0) is seen; false when it is behind the camera. */
+/* Projects a point (w = 1) or direction (w = 0); false behind the camera. */
 double view_depth(const struct view *view, vec3 point); /* along the view axis */
 bool view_project(const struct view *view, vec3 point, double w, double uv[2]);
 

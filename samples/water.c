@@ -12,9 +12,9 @@ struct water_work {
     struct texel *texels;
 };
 
-/* Slopes of a sum of waves, whose heights are too small to matter. */
+/* The slopes of a sum of waves, whose heights are negligible. */
 static vec3 ripples(const struct water *water, vec3 p) {
-    static const float waves[][4] = {/* wave vector in rad/m, phase, part of the slope */
+    static const float waves[][4] = {/* wave vector in rad/m, phase, fraction of the slope */
                                      {0.9f, 2.3f, 0.3f, 0.40f},  {-1.9f, 3.1f, 1.7f, 0.30f},
                                      {4.2f, 5.1f, 4.1f, 0.25f},  {-7.3f, 6.1f, 2.2f, 0.20f},
                                      {11.0f, 9.2f, 5.2f, 0.15f}, {3.0f, -13.0f, 0.9f, 0.12f}};
@@ -32,8 +32,8 @@ static float rounded(float value) {
     return imath_half_to_float(imath_float_to_half(value));
 }
 
-/* Share of unpolarised light that a smooth surface reflects, and the direction in which the rest goes on. */
-static float fresnel(vec3 to_eye, vec3 normal, vec3 *refracted) {
+/* The fraction of unpolarised light that a smooth surface reflects, and the direction of refraction. */
+static float fresnel_and_refraction(vec3 to_eye, vec3 normal, vec3 *refracted) {
     float in = dot(to_eye, normal), part = 1 / REFRACTIVE_INDEX;
     float out = sqrtf(1 - part * part * (1 - in * in));
     *refracted = along(scale(to_eye, -part), normal, part * in - out);
@@ -51,8 +51,8 @@ static vec3 seen_through(const struct world *world, const struct water *water, v
 
 static vec3 seen(const struct world *world, const struct water *water, vec3 at, vec3 to_eye, vec3 normal, vec3 color) {
     vec3 refracted, mirror = reflected(to_eye, normal);
-    float share = fresnel(to_eye, normal, &refracted);
-    mirror.y = fmaxf(mirror.y, 1e-3f); /* a ripple that reflects another one */
+    float share = fresnel_and_refraction(to_eye, normal, &refracted);
+    mirror.y = fmaxf(mirror.y, 1e-3f); /* a ripple that reflects another ripple */
     vec3 above = world_look(world, at, unit(mirror), NULL);
     return mix(seen_through(world, water, at, refracted, color), above, share);
 }

@@ -1,4 +1,4 @@
-/* Still water with ripples: a level plane over the scene's bottom, which rays otherwise pass. */
+/* Calm water with ripples: a plane above the scene's bottom, which other rays do not hit. */
 #ifndef SAMPLES_WATER_H
 #define SAMPLES_WATER_H
 
@@ -6,20 +6,20 @@
 
 struct water_pixel {
     float depth; /* of the surface, along the view axis; INFINITY: none */
-    vec3 normal; /* rounded to half floats, as the engine's buffer holds it */
-    vec3 color;  /* of the light that the water scatters */
+    vec3 normal; /* rounded to half floats as in the engine's buffer */
+    vec3 color;  /* colour of the light that the water scatters */
     float opacity, thickness;
-    vec3 scene; /* what the camera sees, the water included */
+    vec3 scene; /* the image including the water */
 };
 
-/* Over the frame's own pixels. `scene` is exact: Fresnel's formulas, the reflected and the refracted ray each followed to
-   where it ends. Neither meets the water again. */
+/* Renders water over the pixels of the frame. `scene` is exact: Fresnel's equations, with both the reflected and the refracted ray
+   traced to their hits, which do not hit the water again. */
 bool render_water(const struct world *world, const struct view *view, const struct pixel *pixels,
                   struct water_pixel *water, struct job *job, double weight, struct glint_error *err);
 
-/* The camera that sees what is above the water upside down, at any size of picture. */
+/* The camera mirrored at the water, for an image of any size. */
 struct view mirrored_view(const struct water *water, const struct view *view);
-/* Nothing below the water is drawn. Alpha is left alone; distance is along the view axis. */
+/* Renders everything above the water. Alpha stays unchanged; distance is along the view axis. */
 bool render_planar(const struct world *world, const struct view *mirrored, struct texel *texels, struct job *job,
                    double weight, struct glint_error *err);
 

@@ -1,4 +1,4 @@
-/* Rays through Embree, and the diffuse-only shading that every picture of a scene shares. */
+/* Traces rays with Embree, and computes the diffuse shading of all images. */
 #include "world.h"
 
 #include <embree3/rtcore.h>
@@ -11,8 +11,8 @@ struct world {
     enum world_kind kind;
     double time;
     RTCDevice device;
-    RTCScene tree, front;       /* front, in WORLD_ALL alone: what only the camera sees */
-    const struct mesh **meshes; /* by Embree's geometry id, which both share */
+    RTCScene tree, front;       /* front: meshes that only the camera sees, in WORLD_ALL only */
+    const struct mesh **meshes; /* by Embree's geometry id, which is the same in both */
     uint32_t mesh_count;
 };
 
@@ -30,7 +30,7 @@ static bool part_of(const struct mesh *mesh, enum world_kind kind) {
 }
 
 /* Rays are traced one at a time. */
-static void pass_holes(const struct RTCFilterFunctionNArguments *found) {
+static void skip_holes(const struct RTCFilterFunctionNArguments *found) {
     const struct RTCHit *hit = (const struct RTCHit *)(const void *)found->hit;
     if (look_hole(found->geometryUserPtr, hit->primID, hit->u, hit->v)) found->valid[0] = 0;
 }
@@ -49,8 +49,8 @@ static bool attach(struct world *world, RTCScene tree, const struct mesh *mesh, 
                                3 * sizeof(uint32_t), mesh->triangle_count);
     if (mesh->material.look && mesh->material.look->cutoff > 0) {
         rtcSetGeometryUserData(geometry, (void *)(uintptr_t)mesh);
-        rtcSetGeometryIntersectFilterFunction(geometry, pass_holes);
-        rtcSetGeometryOccludedFilterFunction(geometry, pass_holes);
+        rtcSetGeometryIntersectFilterFunction(geometry, skip_holes);
+        rtcSetGeometryOccludedFilterFunction(geometry, skip_holes);
     }
     rtcCommitGeometry(geometry);
     rtcAttachGeometryByID(tree, geometry, world->mesh_count);
@@ -59,8 +59,8 @@ static bool attach(struct world *world, RTCScene tree, const struct mesh *mesh, 
     return true;
 }
 
-/* A tree of the scene's meshes that are of the world, or of those before the camera. */
-static RTCScene grow(struct world *world, bool front, struct glint_error *err) {
+/* Builds a tree of the meshes of the world, or of those that only the camera sees. */
+static RTCScene build_tree(struct world *world, bool front, struct glint_error *err) {
     RTCScene tree = rtcNewScene(world->device);
     rtcSetSceneFlags(tree, RTC_SCENE_FLAG_ROBUST);
     for (uint32_t i = 0; i < world->scene->mesh_count; i++) {
@@ -82,14 +82,14 @@ struct world *world_create(const struct scene *scene, enum world_kind kind, doub
     }
     *world = (struct world){.scene = scene, .kind = kind, .time = time};
     world->meshes = calloc(scene->mesh_count ? scene->mesh_count : 1, sizeof *world->meshes);
-    /* One thread builds the tree: ties between triangles that share an edge then fall the same way everywhere. */
+    /* A single thread builds the tree, so that ties between triangles that share an edge are resolved equally everywhere. */
     world->device = rtcNewDevice("threads=1");
     if (!world->meshes || !world->device) {
         glint_fail(err, GLINT_ERROR_MEMORY, "Embree could not be started");
         goto failed;
     }
-    if (!(world->tree = grow(world, false, err))) goto failed;
-    if (kind == WORLD_ALL && !(world->front = grow(world, true, err))) goto failed;
+    if (!(world->tree = build_tree(world, false, err))) goto failed;
+    if (kind == WORLD_ALL && !(world->front = build_tree(world, true, err))) goto failed;
     enum RTCError error = rtcGetDeviceError(world->device);
     if (error == RTC_ERROR_NONE) return world;
     glint_fail(err, error == RTC_ERROR_OUT_OF_MEMORY ? GLINT_ERROR_MEMORY : GLINT_ERROR_UNSUPPORTED,
@@ -134,7 +134,7 @@ static void fill_hit(const struct world *world, const struct RTCRayHit *found, v
     hit->v = v;
 }
 
-static struct hit trace(const struct world *world, RTCScene tree, vec3 origin, vec3 direction, float t_min) {
+static struct hit trace_tree(const struct world *world, RTCScene tree, vec3 origin, vec3 direction, float t_min) {
     struct RTCRayHit ray = {.ray = {.org_x = origin.x,
                                     .org_y = origin.y,
                                     .org_z = origin.z,
@@ -158,12 +158,12 @@ static struct hit trace(const struct world *world, RTCScene tree, vec3 origin, v
 }
 
 struct hit world_trace(const struct world *world, vec3 origin, vec3 direction, float t_min) {
-    return trace(world, world->tree, origin, direction, t_min);
+    return trace_tree(world, world->tree, origin, direction, t_min);
 }
 
 struct hit world_see(const struct world *world, vec3 origin, vec3 direction, float t_min) {
     struct hit behind = world_trace(world, origin, direction, t_min);
-    struct hit front = trace(world, world->front, origin, direction, t_min);
+    struct hit front = trace_tree(world, world->front, origin, direction, t_min);
     return front.t < behind.t ? front : behind;
 }
 
@@ -229,7 +229,7 @@ vec3 world_direct(const struct world *world, vec3 position, vec3 normal) {
         float square = dot(way, way), cosine = dot(way, normal);
         if (square > light->range * light->range || cosine <= 0) continue;
         float distance = sqrtf(square), ratio = square / (light->range * light->range);
-        /* 0.12 m²: a lamp of some size, whose light does not grow without bound */
+        /* 0.12 m²: an area light, whose irradiance is bounded */
         float factor = (1 - ratio) * (1 - ratio) * cosine / (distance * (square + 0.12f));
         if (light->cos_outer < 1)
             factor *= smooth(light->cos_outer, light->cos_inner, -dot(way, light->axis) / distance);
@@ -239,7 +239,7 @@ vec3 world_direct(const struct world *world, vec3 position, vec3 normal) {
     return scale(sum, scene->gain);
 }
 
-/* Baked light knows nothing of what moves; near a moving box it fades. */
+/* Baked light does not contain moving objects; it is reduced near their bounding boxes. */
 static float contact_shade(const struct world *world, vec3 position) {
     const struct scene *scene = world->scene;
     float shade = 1;
@@ -256,7 +256,7 @@ static float contact_shade(const struct world *world, vec3 position) {
     return shade;
 }
 
-/* The footprint of the scene's own camera, which does not depend on who looks. */
+/* The footprint for the scene's own camera, which does not depend on the viewer. */
 static float seen_footprint(const struct world *world, const struct hit *hit) {
     vec3 way = sub(world->scene->seen_from, hit->position);
     float distance = length(way), cosine = fabsf(dot(way, hit->geometric)) / fmaxf(distance, 1e-6f);

@@ -1,4 +1,4 @@
-/* The cases of a self-test by their groups, and what was found of them. */
+/* The cases of a self-test by group, and their findings. */
 #ifndef GLINT_SELFTEST_INTERNAL_H
 #define GLINT_SELFTEST_INTERNAL_H
 
@@ -6,9 +6,9 @@
 
 struct selected_group {
     const struct case_group *group;
-    bool *selected; /* of all of the group's cases, like the findings */
+    bool *selected; /* for each case of the group, like the findings */
     struct glint_selftest_finding *findings;
-    struct glint_selftest_case *shown; /* the selected ones alone: what the public group points to */
+    struct glint_selftest_case *shown; /* the selected cases, which the public group points to */
     struct glint_selftest_finding *shown_findings;
     struct glint_selftest_group public;
 };

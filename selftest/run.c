@@ -1,4 +1,4 @@
-/* Runs the selected cases, groups side by side. */
+/* Runs the selected cases; groups run in parallel. */
 #include <dirent.h>
 #include <errno.h>
 #include <math.h>
@@ -29,21 +29,21 @@ static void remove_folder(const char *folder) {
     if (folder[0]) rmdir(folder);
 }
 
-/* Each worker has a device and a folder of its own. A worker that gets no device, or whose device has not the memory beside the
-   others, leaves its group to those that go on; the last one finds all of the device its own. */
+/* Each worker has its own device and folder. A worker that gets no device, or whose device has not enough memory beside the others,
+   leaves its group to the remaining workers; the last one has the device to itself. */
 struct work {
     struct glint_selftest *selftest;
     const struct glint_selftest_options *options;
     glint_progress progress;
     void *user;
-    pthread_mutex_t lock; /* of all that follows, and of calls of progress */
+    pthread_mutex_t lock; /* of the following members, and of calls of progress */
     bool waits[SELFTEST_GROUPS], alone;
-    size_t ready[SELFTEST_GROUPS]; /* cases of each group */
-    struct glint_error error;      /* of the first group that has one */
+    size_t ready[SELFTEST_GROUPS]; /* number of cases of each group */
+    struct glint_error error;      /* of the first group that failed */
     size_t failed;                 /* that group */
 };
 
-/* Progress goes by cases that have a finding; what a replay says of itself is too small for it. */
+/* Progress is counted in finished cases, ignoring the progress within replays. */
 struct group_progress {
     struct work *work;
     struct selected_group *group;
@@ -86,7 +86,7 @@ static bool run_group(struct work *work, struct glint_device *device, struct sel
                                          &progress};
     clock_gettime(CLOCK_MONOTONIC, &start);
     s->public.seconds = 0;
-    memset(s->findings, 0, s->group->count() * sizeof *s->findings); /* of a worker that left, or an earlier run */
+    memset(s->findings, 0, s->group->count() * sizeof *s->findings); /* of a worker that left, or of an earlier run */
     const bool ok = make_folder(folder, err) && s->group->run(&context, s->selected, s->findings, err);
     remove_folder(folder);
     if (!ok) return false;
@@ -101,7 +101,7 @@ static bool is_silent(const struct glint_device *device, struct glint_error *err
     return !messages || glint_fail(err, GLINT_ERROR_DEVICE, "%u validation messages, the last: %s", messages, last);
 }
 
-/* The first group that waits; the number of groups when none does, or when there is no use in going on. */
+/* The first waiting group; the number of groups if there is none, or no point in continuing. */
 static size_t take_group(struct work *work) {
     size_t g = 0;
     pthread_mutex_lock(&work->lock);
@@ -111,7 +111,7 @@ static size_t take_group(struct work *work) {
     return g;
 }
 
-/* starved: what failed may not fail where fewer devices are open. */
+/* starved: the group may succeed if fewer devices are open. */
 static void leave_group(struct work *work, size_t g, bool starved, const struct glint_error *err) {
     pthread_mutex_lock(&work->lock);
     if (starved && !work->alone) work->waits[g] = true;
@@ -124,7 +124,7 @@ static struct glint_device *open_device(struct work *work, struct glint_error *e
     struct glint_device *device = glint_device_create(&options, err);
     if (!device) return NULL;
     pthread_mutex_lock(&work->lock);
-    work->selftest->device = *glint_device_get_info(device); /* they are all the same device */
+    work->selftest->device = *glint_device_get_info(device); /* all workers use the same device */
     pthread_mutex_unlock(&work->lock);
     return device;
 }
@@ -139,7 +139,7 @@ static bool run_worker(void *user, uint32_t worker, size_t index) {
         const bool ran = device && run_group(work, device, &work->selftest->groups[g], &err);
         const bool starved = !device || err.code == GLINT_ERROR_DEVICE || err.code == GLINT_ERROR_MEMORY;
         if (ran && is_silent(device, &err)) continue;
-        glint_device_destroy(&device); /* before others take what it starved for */
+        glint_device_destroy(&device); /* before others allocate the memory that it needed */
         leave_group(work, g, starved, &err);
         break;
     }

@@ -1,4 +1,4 @@
-/* Which cases a self-test has, and what it shows of them. */
+/* Selects the cases of a self-test. */
 #include "glint/selftest.h"
 
 #include <stdlib.h>

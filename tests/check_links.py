@@ -12,13 +12,13 @@ LINK = re.compile(r"\]\(([^)\s]+)\)")
 
 
 def prose(path):
-    """The page without code, which may hold brackets that are no links."""
+    """The page without code, whose brackets may not be links."""
     text = re.sub(r"^```.*?^```", "", path.read_text(encoding="utf-8"), flags=re.S | re.M)
     return re.sub(r"`[^`\n]*`", "", re.sub(r"^    .*", "", text, flags=re.M))
 
 
 def anchor(heading):
-    """What a heading is linked by: lower case, hyphens for spaces, no punctuation."""
+    """The anchor of a heading: lower case, hyphens for spaces, no punctuation."""
     return "".join("-" if c == " " else c for c in heading.strip().lower()
                    if c in " -_" or unicodedata.category(c)[0] in "LN")
 

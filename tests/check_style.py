@@ -8,13 +8,13 @@ import sys
 import tempfile
 
 LONGEST = 500
-# What filters them itself, and passes that go over every texel of a face in every plan.
+# The filter itself, and passes that process every texel of a face in every plan.
 WHOLE_FACES = {"passes/shared/cube_filter.glsl", "passes/shared/cube_chain.glsl", "passes/prepare/cocoon/max.comp",
                "passes/prepare/cubemap_convert/dual_paraboloid.comp"}
 
 
 def sources():
-    """Paths of the tree's files but those that .gitignore names."""
+    """Paths of all files that .gitignore does not exclude."""
     with open(".gitignore", encoding="utf-8") as text:
         left_out = [pattern.strip("/") for pattern in text.read().split()]
 
@@ -30,7 +30,7 @@ files = sorted(sources())
 if len(files) < 500:
     sys.exit(f"only {len(files)} files in {os.getcwd()}, expected the whole tree")
 faults = []
-# Headers among the passes are rows for two languages, tables that clang-format cannot keep.
+# Headers of passes contain rows for two languages, which clang-format cannot format.
 formatted = [f for f in files if f.endswith((".c", ".h", ".cc")) and not re.search(r"^passes/[^i].*\.h$|\.pass\.h$", f)]
 run = subprocess.run(["clang-format", "--dry-run", "-Werror", *formatted], capture_output=True, text=True)
 if run.returncode:
@@ -44,7 +44,7 @@ for f in files:
         faults.append(f"{f}: {len(lines)} lines, at most {LONGEST}")
     if lines and lines[0].strip() == "":
         faults.append(f"{f}: does not open with its responsibility")
-    # Where the texels that lie beside each other may differ from plan to plan, devices may filter cube maps in another way.
+    # Devices may filter cube maps differently depending on neighbouring invocations, which differ from plan to plan.
     if f.startswith("passes/") and f not in WHOLE_FACES:
         faults += [f"{f}:{n}: a filtered lookup of a cube map; expected cube_finest or cube_levels (shared/cube_filter.glsl)"
                    for n, line in enumerate(lines, 1) if re.search(r"samplerCube\w*\([^()]*linear", line)]
@@ -74,7 +74,7 @@ for h in (f for f in files if "/include/glint/" in f and f.endswith(".h")):
                                   unit.name], capture_output=True, text=True)
         if run.returncode:
             faults.append(f"{h}: does not compile alone with {command[0]}:\n{run.stderr}")
-# libglint-capture shows what its headers declare, no more and no less.
+# libglint-capture exports exactly what its headers declare.
 declared = set()
 for name in ("common", "capture", "exr"):
     with open(f"capture-format/include/glint/{name}.h", encoding="utf-8") as text:
@@ -83,7 +83,7 @@ with open("capture-format/exports.map", encoding="utf-8") as text:
     shown = set(re.findall(r"\b(glint_\w+);", text.read()))
 for name in declared ^ shown:
     faults.append(f"capture-format/exports.map: {name} is " + ("missing" if name in declared else "in no public header"))
-# A room is a folder that one person can have in mind.
+# The size of a room is limited, so that it can be understood as a whole.
 ROOM_LINES = 2500
 for library in ("replay", "study"):
     for room in sorted(d for d in os.listdir(library) if os.path.isdir(f"{library}/{d}") and d != "include"):

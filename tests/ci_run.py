@@ -11,7 +11,7 @@ import tap  # noqa: E402
 
 
 def run(demo, test, readme=None):
-    """The exit status, what ./dev was called with, and the last line; `demo` and `test`: what these commands do, in shell."""
+    """The exit status, the arguments of ./dev, and the last line; `demo` and `test` are shell code for these commands."""
     with tempfile.TemporaryDirectory() as folder:
         os.mkdir(os.path.join(folder, ".ci"))
         shutil.copy(os.path.join(HERE, "../.ci/run"), os.path.join(folder, ".ci"))
@@ -55,7 +55,7 @@ class Tests:
         assert done.returncode == 1 and "main.c" in done.stderr and "clang-format" in done.stderr, done
 
     def test_a_program_that_gives_up_is_one_failure(self):
-        """Meson writes it as a case by its own name; and the line says why."""
+        """Meson lists it as a case of the same name; and the line gives the reason."""
         with tempfile.TemporaryDirectory() as folder:
             os.makedirs(os.path.join(folder, "build/meson-logs"))
             for name, text in (("junit.xml", '<testsuites><testsuite><testcase name="s / a" classname="s"><error/><system-out>Bail out! no b</system-out>'

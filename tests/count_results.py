@@ -18,7 +18,7 @@ for folder in sys.argv[1:]:
         program = case.get("classname", "")
         if case.find("failure") is not None or case.find("error") is not None:
             failed += 1
-            # A program that gave up before its first case is a case by its own name.
+            # A program that ended before its first case counts as a case of its own name.
             blamed.update((program, case.get("name")))
             why = re.search("^Bail out! *(.*)", case.findtext("system-out", ""), re.M)
             print(f"failed: {folder}: {program} {case.get('name')}" + (f": {why[1]}" if why else ""))

@@ -3,7 +3,7 @@
 import math
 import sys
 
-THRESHOLD = 0.1  # of the lobe's peak, below which the slides ignore directions
+THRESHOLD = 0.1  # relative to the lobe's peak; the slides ignore directions below it
 
 
 def power_of_roughness(roughness):
@@ -15,7 +15,7 @@ def roughness_of_power(power):
 
 
 def angle_of_power(power, threshold=THRESHOLD):
-    """Where cosⁿ has fallen to the threshold."""
+    """The angle at which cosⁿ falls to the threshold."""
     return math.acos(threshold ** (1 / power))
 
 
@@ -34,7 +34,7 @@ def lobe(power, up_to=math.pi / 2, nodes=400):
 
 
 def disc(radius, nodes=400):
-    """Directions spread evenly over a cone."""
+    """Directions evenly distributed over a cone."""
     step = radius / nodes
     weights = [math.sin((i + 0.5) * step) for i in range(nodes)]
     return [((i + 0.5) * step, w / sum(weights)) for i, w in enumerate(weights)]
@@ -50,7 +50,7 @@ def rms(nodes):
 
 
 def convolved(rays, cone, turns=16):
-    """Angles from the axis of directions that lie `cone` around `rays`."""
+    """Angles from the axis of directions at the angle `cone` around `rays`."""
     result = []
     for a, wa in rays:
         for b, wb in cone:
@@ -61,7 +61,7 @@ def convolved(rays, cone, turns=16):
 
 
 def farthest_apart(found, wanted, steps=256):
-    """Greatest difference of the shares of directions within an angle (Kolmogorov's distance)."""
+    """The largest difference of the fractions of directions within an angle (Kolmogorov's distance)."""
     top = max(a for a, _ in wanted)
     sums = [[0.0] * (steps + 1), [0.0] * (steps + 1)]
     for which, nodes in enumerate((found, wanted)):
@@ -75,7 +75,7 @@ def farthest_apart(found, wanted, steps=256):
 
 
 def slides_cone(power, share):
-    """The slides leave (1 - share) of the normal's angle to the MIP level."""
+    """In the slides, the MIP level covers (1 - share) of the normal's angle."""
     return (1 - share) * angle_of_power(power)
 
 
@@ -84,10 +84,10 @@ def mean_cosine(nodes):
 
 
 def filling_cone(rays, target):
-    """The cone whose filter cosᵐ, with the threshold at its rim, has the mean cosine that the rays' mean direction lacks."""
+    """The cone whose filter cosᵐ, with the threshold at its rim, has the ratio of both mean directions as its mean cosine."""
     lacking = mean_cosine(target) / mean_cosine(rays)
     low, high = 1e-4, 1.5
-    for _ in range(50):  # the filter's mean cosine falls with the angle
+    for _ in range(50):  # the filter's mean cosine decreases with the angle
         middle = (low + high) / 2
         if mean_cosine(lobe(power_of_angle(middle))) > lacking:
             low = middle
@@ -105,7 +105,7 @@ HORIZON = math.pi / 4  # of normals, seen along the surface normal: rays turn by
 
 
 def combined_rows(powers, shares):
-    """Of each power and share: the whole lobe above the horizon, the slides' sum of rays and cone, and ours."""
+    """For each power and share: the whole lobe above the horizon, the slides' sum of rays and cone, and ours."""
     for power in powers:
         angle = angle_of_power(power)
         target = reflected(lobe(power, HORIZON))
@@ -117,14 +117,14 @@ def combined_rows(powers, shares):
 
 
 def ggx_rays(roughness, part, nodes=60):
-    """Rays of the nearest `part` of GGX's normals, which lie below tan² = α² u/(1 - u) with a probability of u."""
+    """Rays of the central `part` of GGX's normals, which are below tan² = α² u/(1 - u) with a probability of u."""
     alpha = roughness**2
     us = [part * (i + 0.5) / nodes for i in range(nodes)]
     return [(2 * math.atan(alpha * math.sqrt(u / (1 - u))), 1 / nodes) for u in us]
 
 
 def ggx_rows(roughnesses, held_parts=(0.7, 0.8, 0.9, 0.95, 1), share=0.5, threshold=THRESHOLD):
-    """How far rays and cone are from the whole lobe when the cone holds a part of it, of what is above the horizon."""
+    """The difference of rays and cone from the whole lobe if the cone covers a part of the lobe above the horizon."""
     for roughness in roughnesses:
         a2 = roughness**4
         above = 1 / (1 + a2)
@@ -139,12 +139,12 @@ def ggx_rows(roughnesses, held_parts=(0.7, 0.8, 0.9, 0.95, 1), share=0.5, thresh
 
 
 def first_step(length, ratio, count):
-    """By adding the steps up."""
+    """Adds up the steps."""
     return length / sum(ratio**i for i in range(count))
 
 
 def cube_level(angle, travelled, distance, face, texel_scale=3.5):
-    """The cone's base in texels of the face, whose width at the distance of 1 is 2."""
+    """The radius of the cone's base in texels of a face that is 2 wide at distance 1."""
     radius_texels = math.tan(angle) * travelled / distance * face / 2
     return max(0.0, math.log2(radius_texels / texel_scale))
 
@@ -161,7 +161,7 @@ def self_test():
     check("power 30 is roughness 0.5", roughness_of_power(30), 0.5, 1e-12)
     check("power 30 falls to 0.1 at 0.3868", angle_of_power(30), 0.3868, 5e-5)
     check("and back", power_of_angle(angle_of_power(30)), 30, 1e-9)
-    # FACTS: two digits are given
+    # FACTS: rounded to two digits
     angle = angle_of_power(30)
     half = reflected(lobe(30, angle / 2))
     check("target lobe, rms of the ray", rms(reflected(lobe(30))), 0.50, 0.01)
@@ -170,11 +170,11 @@ def self_test():
         both = convolved(half[::8], disc(factor * angle, 50))
         total = sum(w for _, w in both)
         check(f"half by rays, a cone of {factor} angles", rms([(a, w / total) for a, w in both]), expected, 0.01)
-    # a cosine lobe's mean square angle by its moments: E[1 - cos θ] = 1/(n + 2)
+    # the mean square angle of a cosine lobe by its moments: E[1 - cos θ] = 1/(n + 2)
     for power in (2, 30, 1000):
         nodes = lobe(power)
         check(f"mean cosine of power {power}", sum(w * math.cos(a) for a, w in nodes), (power + 1) / (power + 2), 2e-5)
-    # the combined lobe keeps the mean direction of the whole one; the slides' is far narrower
+    # the combined lobe has the mean direction of the whole one; that of the slides is far narrower
     target = reflected(lobe(30, HORIZON))
     row = next(combined_rows([30], [0.5]))
     check("the cone gives the lobe's mean direction back", row["ours"]["mean"], mean_cosine(target), 1e-3)

@@ -18,7 +18,7 @@ WITHOUT = {"mandoc": "cli_help", "idiff": "cli_diff", "iinfo": "cli_view_more", 
 
 
 def path_without(folder, *names):
-    """All programs of this machine but these."""
+    """All programs on this machine except these."""
     for place in os.environ["PATH"].split(":"):
         for name in os.listdir(place) if os.path.isdir(place) else ():
             link = os.path.join(folder, name)
@@ -33,10 +33,10 @@ class Tests:
             self.tests = {test["name"]: test for test in json.load(file)}
 
     def says(self, name, **environment):
-        """A test's exit status, and all that it says, in this environment."""
+        """The exit status and all output of a test in this environment."""
         words = self.tests[name]["cmd"]
         if words[1:] and words[1].endswith(".py"):
-            words = [sys.executable, *words[1:]]  # whatever stands for python3 on the PATH
+            words = [sys.executable, *words[1:]]  # whichever program is python3 on the PATH
         done = subprocess.run(words, env={**os.environ, **self.tests[name]["env"], **environment}, cwd=BUILD, text=True,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         return done.returncode, done.stdout

@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
-/* cmocka wants these before it */
+/* cmocka needs these before its own header */
 #include <cmocka.h>
 #include <stdio.h>
 #include <stdlib.h>

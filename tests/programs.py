@@ -14,7 +14,7 @@ class Missing(Exception):
 
 
 def find(name, *others):
-    """The path of the program, or of one that does as well."""
+    """The path of the program, or of an alternative."""
     for path in map(shutil.which, (name, *others)):
         if path:
             return path

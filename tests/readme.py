@@ -18,12 +18,12 @@ import time
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 FOLDER = os.path.join(ROOT, "build-release/readme")
 LEFT = {"./dev test": "the suite runs by itself"}
-# Exit statuses that say what was found, where the README says that something is.
+# Exit statuses that report a finding, where the README states that there is one.
 TELLING = {"diff": (0, 2), "lint": (0, 1)}
 
 
 def commands(text):
-    """Each command, and what the README says it prints."""
+    """Each command, and its output according to the README."""
     found = []
     for line in text.splitlines():
         if not line.startswith("    "):
@@ -38,7 +38,7 @@ def commands(text):
 
 
 def box(low, high):
-    """Corners and outward normals of a box, four to a side; and triangles."""
+    """Corners and outward normals of a box, four for each side; and triangles."""
     corners, normals, triangles = [], [], []
     for axis in range(3):
         for side in (0, 1):
@@ -57,7 +57,7 @@ def box(low, high):
 
 
 def write_scene(path):
-    """A floor that mirrors, walls and crates of several colours, a camera: what a small scene exported from an editor holds."""
+    """A mirror-like floor, walls, coloured crates and a camera, like a small scene exported from an editor."""
     parts = [((-6, -0.2, -6), (6, 0, 6), (0.3, 0.3, 0.32), 0.15, 0), ((-6, 0, -6.2), (6, 4, -6), (0.7, 0.25, 0.2), 0.6, 0),
              ((-6.2, 0, -6), (-6, 4, 6), (0.2, 0.5, 0.3), 0.6, 0), ((6, 0, -6), (6.2, 4, 6), (0.3, 0.35, 0.7), 0.6, 0),
              ((-2.5, 0, -3), (-1, 1.5, -1.5), (0.9, 0.75, 0.3), 0.3, 1), ((0.5, 0, -2), (1.7, 1.2, -0.8), (0.85, 0.85, 0.85), 0.4, 0),
@@ -92,7 +92,7 @@ def write_scene(path):
 
 
 def prepare(glint):
-    """What a reader has: a scene, a clone; an engine's capture whose normals are in view space, which nothing in it says."""
+    """The files of a reader: a scene, a clone, and an engine's capture with undeclared view-space normals."""
     write_scene(os.path.join(FOLDER, "scene.glb"))
     os.symlink(os.path.join(ROOT, "passes"), os.path.join(FOLDER, "passes"))
     frame = os.path.join(FOLDER, "frame.exr")
@@ -105,7 +105,7 @@ def prepare(glint):
 
 
 def run(line, prints):
-    """Whether it did what a reader expects: comparisons may say that things differ, and whoever watches presses Ctrl-C."""
+    """Whether the result is as expected: comparisons may report differences, and a watch ends with Ctrl-C."""
     start = time.monotonic()
     words = line.split()
     prefix = os.path.join(FOLDER, "installed")
@@ -125,13 +125,13 @@ def run(line, prints):
 
 
 def tree_key(lines):
-    """What commands were run of, and on: another tree starts anew."""
+    """A key of the tree and the machine: another tree begins again."""
     parts = [subprocess.run(["git", *words], cwd=ROOT, check=True, capture_output=True).stdout for words in (("rev-parse", "HEAD"), ("diff", "HEAD"))]
     return hashlib.sha256(b"".join(parts) + json.dumps(lines).encode()).hexdigest()
 
 
 class Record:
-    """Which commands are done."""
+    """The commands that are done."""
 
     def __init__(self, key, make):
         self.path = os.path.join(FOLDER, "done.json")

@@ -11,7 +11,7 @@ sys.path.append(os.path.join(ROOT, "tests/viewer-cli"))
 import tap  # noqa: E402
 
 GLINT = sys.argv[1]
-OWN = ("glint", "chosen by")  # what no document says
+OWN = ("glint", "chosen by")  # no document
 
 
 def documents():
@@ -23,7 +23,7 @@ def documents():
 
 class Tests:
     def named(self, source, documents_):
-        """A source is made up here, or its text has a document's name, section by section after it."""
+        """A source is our own, or names one of the documents."""
         return source.startswith(OWN) or any(d in source for d in documents_)
 
     def test_declarations_name_documents_that_the_page_has(self):

@@ -20,12 +20,12 @@ def steps():
     """The files and commands of the page, in order: (file, text) or (None, command)."""
     with open(os.path.join(ROOT, "docs/writing-a-pass.md"), encoding="utf-8") as page:
         text = page.read()
-    # Code inside of a fenced block is no command: the expression takes the whole block first.
+    # Code inside of a fenced block is not a command: the expression matches the whole block first.
     return [(m["file"], m["text"]) if m["file"] else (None, m["command"]) for m in STEP.finditer(text)]
 
 
 def copied(folder):
-    """The tree without what was built, and without what is large and not needed to build."""
+    """The tree without build results, and without large files that the build does not need."""
     tree = os.path.join(folder, "glint")
     shutil.copytree(ROOT, tree, ignore=shutil.ignore_patterns("build*", ".git", "out", "bundle", "__pycache__", "*.jpg", "*.png"))
     return tree

@@ -15,14 +15,14 @@ import tempfile
 import time
 
 SIZE, CUBE, SCENE = "1920x1080", "512", "street"
-# The pipeline without the chains that stand for cones and without the cocoon: what is left are the slides' rows.
+# The pipeline without chains for cones and without the cocoon, which leaves the slides' rows.
 LEAN = ["--use", "cubemap_mips=none", "--use", "sky_mips=none", "--use", "lit_mips=none", "--use", "cocoon=none",
         "--set", "cubemap_trace.fallback=lookup"]
 PHASES = (("read", "read what the passes need"), ("upload", "upload"), ("passes", "all passes, one round and a warm-up"),
           ("readback", "readback"), ("write", "EXR writing still to do after the last readback"))
 
 
-# The slides' rows (1080p on a PS4, ms) and the slots that do their work here.
+# The slides' rows (1080p on a PS4, ms) and the corresponding slots here.
 SLIDES = (("down-sample G-buffer", 0.25, ("downsample",)), ("SSR trace", 0.55, ("classify", "hiz", "screen_trace")),
           ("select best starting CM", 0.25, ("cubemap_select",)),
           ("CM trace", 0.90, ("classify_unfinished", "cubemap_trace")), ("half-res resolve", 0.35, ("resolve",)),
@@ -32,7 +32,7 @@ TEXEL = {"R8UI": 1, "R32UI": 4, "R16F": 2, "RG16F": 4, "RGBA16F": 8, "R32F": 4, 
 
 
 def measured(command):
-    """Seconds and peak memory in bytes of one whole process."""
+    """Seconds and peak memory in bytes of a whole process."""
     start = time.monotonic()
     pid = os.posix_spawnp(command[0], command, os.environ, file_actions=[(os.POSIX_SPAWN_OPEN, 1, os.devnull, os.O_WRONLY, 0)])
     _, status, usage = os.wait4(pid, 0)
@@ -46,7 +46,7 @@ def spread(values):
 
 
 def copy_gbs():
-    """Bytes read and written a second by copies of host memory that no cache holds, best of five."""
+    """Bytes read and written per second by copies of host memory larger than all caches, best of five."""
     source = bytearray(os.urandom(1 << 20) * 256)
     target, times = bytearray(len(source)), []
     for _ in range(5):
@@ -71,7 +71,7 @@ def least_bytes(glint, result):
 
 
 def time_second_frame(options, folder, run):
-    """Of a shot, because the first frame has no history to look up."""
+    """Of a shot, because the first frame has no history."""
     first, second = (os.path.join(folder, f"shot.000{n}.exr") for n in (1, 2))
     before = os.path.join(folder, "before")
     measured([options.glint, "sample", SCENE, "-o", os.path.join(folder, "shot.exr"), "--frames", "2", "--size", SIZE,
@@ -179,7 +179,7 @@ def passes_table(records):
 
 
 def slides_table(records):
-    """Per record: time, bytes that must move, and the time that these bytes take at its bandwidth over the time."""
+    """Per record: time, bytes that must be transferred, and the fraction of the time that these take at the device's bandwidth."""
     heads = ["the slides' row", "PS4, ms"]
     for r in records:
         heads += [r["as"] + ", ms", "MB", f"bandwidth's share ({r['bandwidth_gbs']:.0f} GB/s)"]

@@ -39,7 +39,7 @@ def brief(value):
 
 
 def bought(player, cost):
-    """As glint blame has it: what the reference buys, or what the slot's own milliseconds do already."""
+    """As in glint blame: the error that the reference removes per millisecond, or that the slot's own milliseconds avoid."""
     removed, ms = player["removed"], cost["added_ms"]
     if ms is None:
         return "not timed"
@@ -79,7 +79,7 @@ def scene(told):
 
 
 def said(mean):
-    """In a sentence: what errs most, what mends most alone, where time is spent best."""
+    """A sentence: the largest share, the largest single improvement, and where time is best spent."""
     errors = mean["errors"]["reference"]["all"]
     players = errors["players"]
     total = errors["preset"] - errors["reference"]

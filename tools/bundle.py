@@ -10,7 +10,7 @@ GLIBC = re.compile(r"/(ld-linux|libc|libm|libdl|libpthread|librt|libresolv|libut
 
 
 def libraries(program):
-    """Every shared library that the program needs, without those of glibc."""
+    """All shared libraries of the program except those of glibc."""
     lines = subprocess.run(["ldd", program], capture_output=True, text=True, check=True).stdout.split("\n")
     paths = [line.split("=>")[1].split("(")[0].strip() for line in lines if "=>" in line]
     missing = [line.strip() for line in lines if "not found" in line]
@@ -20,7 +20,7 @@ def libraries(program):
 
 
 def licences(paths, folder):
-    """The copyright files of the packages that the libraries, and the font in the program, come from."""
+    """The copyright files of the packages of the libraries, and of the font in the program."""
     os.mkdir(folder)
     packages = {"fonts-dejavu-core"}
     for path in paths:

@@ -28,7 +28,7 @@ def replay(glint, capture, folder, preset, precision, *more):
 
 
 def weights(glint, capture, folder, *more):
-    """How far filtered lookups are from exact weights, and from weights of 8 bits, at most: parts of the texels' difference."""
+    """The largest errors of filtered lookups compared with exact weights, and with weights of 8 bits, relative to the texels' difference."""
     made = folder / "filter"
     replay(glint, capture, made, "mafia3", "float", "--shader", f"resolve={HERE.parent / 'tests/filter.comp'}", "--outputs", "reflection_half", *more)
     told = json.loads(run(glint, "info", next(made.glob("*-resolve.exr")), "--json"))
@@ -61,7 +61,7 @@ def difference(glint, a, b):
 
 
 def flips(folder, image, places):
-    """How many of these pixels some seed decided otherwise."""
+    """The number of these pixels whose decision some seed changes."""
     found = 0
     told = json.loads((folder / "run.json").read_text())
     for row in (row for p in told["passes"] for row in p["images"] if row["name"] == image):
@@ -75,7 +75,7 @@ def flips(folder, image, places):
 
 
 def census_of(glint, a, b, stable):
-    """stable(): the folder of glint stability, which is asked where a ray ends otherwise."""
+    """stable(): the folder of glint stability, which is run where rays end differently."""
     told = difference(glint, a, b)
     rows = []
     for image in told["images"]:

@@ -9,7 +9,7 @@ from pages import Times, errors, options, picture, preset, run, sample, sheet, t
 
 SCENES = ('street', 'room', 'hotel')
 SIZE, CUBE, TRUTH, FINISHED = '640x360', '16', '8', '16'
-# Name on the page, what is changed.
+# Name on the page, changed settings.
 TRUST = [
     ('`kf2`', ''),
     ('without `resolve.viewer`, rays towards the viewer traced', 'resolve.viewer=false screen_trace.viewer_limit=1'),
@@ -33,7 +33,7 @@ COLOUR = [
     ('5 × 5 taps: `resolve.taps=5`', 'resolve.taps=5'),
     ('at most 6 pixels: `resolve.blur_limit=6`', 'resolve.blur_limit=6'),
 ]
-# With a gun before the camera; with a finished picture.
+# With a weapon in front of the camera; with a final image.
 FRONT_SCENES, FINISHED_SCENES = ('street', 'room'), ('street', 'room', 'hotel')
 FRONT = [
     ('`kf2`', ''),
@@ -82,7 +82,7 @@ def replayed(glint, capture, folder, name, words):
 
 
 def attenuations(glint, capture, folder, docs):
-    """Each by itself, and what all of them make of the source's trace, in which all is solid."""
+    """Each by itself, and all together on the source's trace, in which everything is solid."""
     every, none = (replayed(glint, capture, folder, name, f'{SOLID} {words}') for name, words in (('every', ''), ('none', NONE)))
     resolved, white = next(every.glob('*-resolve.exr')), ('--as', 'raw', '--range', '0,1')
     tiles = [(text, picture(glint, f'{resolved}:attenuation:{name}', folder / f'{name}.png', *white)) for text, name in (
@@ -95,7 +95,7 @@ def attenuations(glint, capture, folder, docs):
 
 
 def lookups(glint, capture, folder, docs):
-    tiles, near = [], ('--crop', '320,180,320,180')  # the column's foot
+    tiles, near = [], ('--crop', '320,180,320,180')  # the foot of the column
     for name, words in (('diffuse', 'resolve.deferred=false'), ('finished', '')):
         made = replayed(glint, capture, folder, name, words)
         tiles.append((f'reflection, {name} picture', picture(glint, f'{made}:reflection', folder / f'{name}.png', *near)))

@@ -10,8 +10,8 @@ from pages import Times, compare, errors, options, picture, preset, run, sample,
 SIZE, CUBE, TRUTH = '320x180', '128', '64'
 SCENES = ('street', 'room', 'hotel')
 ALONE = 'cubemap_trace.length_m=0.001 cubemap_trace.length_lq_m=0.001 cubemap_trace.exhausted=fallback cubemap_trace.fallback=black'
-FOG = ('--set', 'resolve.fog=false')  # which the truth lacks
-# Name on the page, what is changed.
+FOG = ('--set', 'resolve.fog=false')  # the truth has no fog
+# Name on the page, changed settings.
 COLOUR = [
     ('`mafia_de`', ''),
     ('`downsample.lobe=half_vector`', 'downsample.lobe=half_vector'),
@@ -36,7 +36,7 @@ COLOUR = [
     ('16 rays: `upscale=bilinear`', 'pipeline.rays=16 upscale=bilinear'),
     ('16 rays: blind', 'pipeline.rays=16 blur.edges=false upscale=bilinear'),
 ]
-# A camera that has moved far since the frame before, so that much was hidden then.
+# A camera that moves far per frame, so that much is disoccluded.
 MOVED, MOVED_SCENES = ('--first-frame', '2', '--travel', '0.5,0,-0.2'), ('street', 'room')
 MOVING = [
     ('`mafia_de`', ''),
@@ -76,7 +76,7 @@ def replayed(glint, capture, folder, name, words):
 
 
 def levels(glint, capture, folder, docs):
-    """The article's own sequence of pictures, and the same without edges."""
+    """The article's own sequence of passes, and the same without edges."""
     aware, blind = (replayed(glint, capture, folder, name, words) for name, words in (('aware', ''), ('blind', 'blur.edges=false upscale=bilinear')))
     picked, blurred = next(aware.glob('*-downsample.exr')), next(aware.glob('*-blur.exr'))
     tiles = [

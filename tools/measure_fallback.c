@@ -1,8 +1,7 @@
-/* Mirror rays of a shot that no cube map could follow: their error against the truth, and how much those that fell back
-   in either of two frames change from the one to the next, where the best cube map changes and where it stays, with the
-   truth's own change beside it.
-   measure_fallback PRESET [SLOT.PARAMETER=VALUE | SLOT=VARIANT]… , CAPTURE… prints one JSON object. A texel shows the same
-   pixel in each frame (set downsample.alternate=false), and a mirror ray (downsample.jitter=false). */
+/* Mirror rays of a shot that no cube map could follow: their error against the truth, and how much those that fell back in either of two
+   frames change from the one to the next, where the best cube map changes and where it stays, with the truth's own change beside it.
+   measure_fallback PRESET [SLOT.PARAMETER=VALUE | SLOT=VARIANT]… , CAPTURE… prints one JSON object. A texel shows the same pixel in each
+   frame (set downsample.alternate=false), and a mirror ray (downsample.jitter=false). */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -108,7 +107,8 @@ static double symmetric(const float *found, const float *truth) {
     return sum / 3;
 }
 
-static void add(const struct frame *before, const struct frame *now, struct tally *error, struct tally change[2]) {
+static void add_change(const struct frame *before, const struct frame *now, struct tally *error,
+                       struct tally change[2]) {
     for (size_t i = 0; i < (size_t)now->width * now->height; ++i) {
         if (now->fell[i]) {
             error->rays++;
@@ -164,7 +164,7 @@ int main(int argc, char **argv) {
             !glint_replay_run(replay, pipeline, &options, NULL, NULL, &err))
             die(&err);
         struct frame now = frame_of(replay, capture);
-        add(&before, &now, &error, change);
+        add_change(&before, &now, &error, change);
         free_frame(&before);
         before = now;
         glint_replay_load(replay, NULL, NULL);

@@ -1,7 +1,6 @@
-/* Screen traces against the truth that a capture carries: what share of the mirror rays whose true hit the depth buffer
-   shows they find (recall), what share of the hits they report is right (precision), and what an oracle finds in the
-   same depth buffer. measure_traces CAPTURE REPEAT PRESET [VARIANT [SLOT.PARAMETER=VALUE | SLOT=VARIANT]… ,]…
-   prints one JSON object a line, the first for the oracle. */
+/* Screen traces against the truth that a capture carries: what share of the mirror rays whose true hit the depth buffer shows they find
+   (recall), what share of the hits they report is right (precision), and what an oracle finds in the same depth buffer. measure_traces
+   CAPTURE REPEAT PRESET [VARIANT [SLOT.PARAMETER=VALUE | SLOT=VARIANT]… ,]… prints one JSON object a line, the first for the oracle. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -44,7 +43,7 @@ static double tolerance(const struct truth *truth, size_t i) {
 }
 
 /* Whether the texel where a ray truly ends shows that place, and how much of its surface a texel covers. */
-static void look(struct truth *truth, size_t i, const struct depth_ray *ray) {
+static void compare_ray(struct truth *truth, size_t i, const struct depth_ray *ray) {
     double place[2], depth, slopes[2], t = (double)truth->distance[i], angle = depth_grid_texel_angle(&truth->grid);
     if (!(t < 3e38) || !depth_ray_project(&truth->grid, ray, t, place, &depth)) return;
     truth->footprint_m[i] = (float)(angle * depth);
@@ -66,7 +65,7 @@ struct best {
 };
 
 /* The oracle takes, of all surfaces of the buffer that the ray comes upon, the one that is right. */
-static bool meets(void *user, const struct depth_cell *cell) {
+static bool meets_cell(void *user, const struct depth_cell *cell) {
     struct best *best = user;
     if (cell->own) return true;
     double near = tolerance(best->truth, best->i), t = (double)best->truth->distance[best->i];
@@ -81,10 +80,10 @@ static void judge(struct truth *truth, size_t count[2]) {
         struct depth_ray ray;
         if (!depth_ray_init(&ray, &truth->grid, (uint32_t)(i % truth->width), (uint32_t)(i / truth->width))) continue;
         truth->has_ray[i] = 1;
-        look(truth, i, &ray);
+        compare_ray(truth, i, &ray);
         if (!truth->shown[i]) continue;
         struct best best = {truth, i, false};
-        depth_ray_traverse(&truth->grid, &ray, 1e5, meets, &best);
+        depth_ray_traverse(&truth->grid, &ray, 1e5, meets_cell, &best);
         truth->oracle[i] = best.found;
         count[0]++;
         count[1] += best.found;
@@ -193,7 +192,8 @@ static void print(const char *name, const struct tally *t, double pyramid_ms, do
     fflush(stdout);
 }
 
-static void run(struct glint_replay *replay, struct glint_pipeline *pipeline, uint32_t repeat, bool diagnostics) {
+static void run_pipeline(struct glint_replay *replay, struct glint_pipeline *pipeline, uint32_t repeat,
+                         bool diagnostics) {
     struct glint_error err = {0};
     /* So many rounds until a GPU that was idle has raised its clocks. */
     struct glint_replay_options options = {
@@ -251,7 +251,7 @@ int main(int argc, char **argv) {
                       : glint_pipeline_use(pipeline, argv[a], &err)))
                 die(&err);
         }
-        run(replay, pipeline, 0, true);
+        run_pipeline(replay, pipeline, 0, true);
         if (!truth.depth_m) {
             truth.depth_m = image(replay, "depth_half", GLINT_F32, &truth.width, &truth.height);
             truth.normal = image(replay, "normal_half", GLINT_F32, NULL, NULL);
@@ -263,7 +263,7 @@ int main(int argc, char **argv) {
                    glint_device_get_info(device)->name, count[0], share((double)count[1], (double)count[0]));
         }
         struct tally tally = tally_of(replay, &truth);
-        if (repeat) run(replay, pipeline, repeat, false);
+        if (repeat) run_pipeline(replay, pipeline, repeat, false);
         print(name, &tally, time_of(replay, "hiz"), time_of(replay, "screen_trace"));
         glint_pipeline_destroy(&pipeline);
     }

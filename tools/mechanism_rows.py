@@ -11,7 +11,7 @@ def surface(rows, name):
 
 
 def fallen(against):
-    """Rays that no cube map could follow, and the error over them."""
+    """Rays that no cube map could follow, and their error."""
     fell = [r for r in against["rays"] if r["tracer"] == "cube map" and r["reason"] in ("shadow_region", "fallback", "no_cubemap")]
     count = sum(r["rays"] for r in fell)
     return count, sum(r["rays"] * r["radiance_error"] for r in fell) / max(count, 1)
@@ -26,7 +26,7 @@ def of_noise(what, kind, frame=16):
 
 
 def of_mean(what, kind):
-    """How far the mean is off, whichever way."""
+    """The absolute error of the mean."""
     return (what, "truth", lambda a: 100 * abs(surface(a["image"]["surfaces"], kind)["mean_error"]) / surface(a["image"]["surfaces"], kind)["truth_mean"])
 
 
@@ -60,7 +60,7 @@ CAPPED = CUBES + ["set cubemap_trace.depth=capped"]
 COCOON_ALONE = CUBES + ["set cubemap_trace.depth=captured", "set cubemap_trace.cocoon_start=surface"]
 LQ_AS_HQ = "set cubemap_trace.steps_lq=24 set cubemap_trace.refinements_lq=4 set cubemap_trace.length_lq_m=300"
 
-# (step, mechanism, scene, what both have, what turns it off, what is looked at[, what is traded for it])
+# (step, mechanism, scene, common settings, settings that turn it off, measured figure[, figure that it costs])
 ROWS = [
     ("down-sampling", "edge detection", "room", MIRROR, "set downsample.edges=false", SMOOTH, "four depths compared"),
     ("down-sampling", "pick, never a mixture", "room", MIRROR, "use downsample=bilinear", SMOOTH),
@@ -179,7 +179,7 @@ ROWS = [
     ("sharp", "variance clamping", "moving:room", HISTORY, "set temporal_sharp.clamp_history=false", SMOOTH, "flicker for lag"),
 ]
 
-# Why a row does not move, or moves the wrong way: (mechanism, what is looked at or None for all).
+# Why a row does not change, or changes in the wrong direction: (mechanism, measured figure or None for all).
 PRICE = "its price; what it buys is in the other row"
 REASONS = {
     ("128 cells, 48 for rough surfaces", None): "what fewer cells leave unfinished the cube maps find about as well here; plaza's rough surfaces do not",

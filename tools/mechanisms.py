@@ -16,20 +16,20 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "tests")
 import formulas  # noqa: E402
 from mechanism_rows import (CUBES, HISTORY, MIRROR, PICTURE, RAYS, REASONS, ROWS, SMOOTH, surface)
 
-os.environ["GLINT_CACHE"] = "none"  # each run is to take its own time
+os.environ["GLINT_CACHE"] = "none"  # each run measures its own time
 
 WORK = pathlib.Path("out/docs")
 SIZE, CUBE, TRUTH = "480x270", "128", "64"
 SHOT_SIZE, FRAMES, TOLD = "320x180", 16, (1, 4, 16)
 FULL_SIZE, FULL_CUBE = "1920x1080", "512"
-# Rays a pixel of the shots' truth where it is looked at; of pixels' areas: in each of 16 places.
+# Rays per pixel of the shots' truth where it is measured; of pixels' areas: at each of 16 jitter positions.
 SHOT_TRUTH, PLACE_TRUTH = 32, 4
-# Metres a frame, aside, so that things uncover others.
+# Metres per frame sideways, so that surfaces are disoccluded.
 TRAVEL = {"room": "0.05,0,-0.05", "street": "0.1,0,-0.05"}
-# Rays a pixel and frame of what noise is measured against, whose own noise is then an eighth of one frame's or less.
+# Rays per pixel and frame of the reference for noise, whose own noise is at most an eighth of one frame's.
 CONVERGED = 64
 
-# Rays that fell back: a camera that moves aside, with the truth of each frame, and the ray of each texel by itself.
+# Rays that fell back: a camera that moves sideways, with the truth of each frame and of each texel's single ray.
 FALLEN_TRAVEL, FALLEN_TRUTH = {"room": "0.05,0,-0.05", "hotel": "0.06,0,0.06"}, 16
 ONE_RAY = ["downsample.jitter=false", "downsample.alternate=false", "resolve.fog=false", "blur=none", "temporal=none",
            "upscale=bilinear", "resolve_sharp=none", "temporal_sharp=none"]
@@ -40,7 +40,7 @@ FALLBACKS = ["black", "lookup", "cocoon"]
 
 
 class Unknown(Exception):
-    """What a row asks for does not exist, or fails."""
+    """What a row requires does not exist, or fails."""
 
 
 def switches(text):
@@ -61,7 +61,7 @@ class Bench:
         return done.stdout
 
     def scene(self, name):
-        """Paths of the scene's captures; mechanism_rows.py says what kinds there are."""
+        """Paths of the scene's captures; mechanism_rows.py lists the kinds."""
         kind, _, scene = name.rpartition(":")
         if kind in ("", "full"):
             path = WORK / f"{kind}{'-' if kind else ''}{scene}.exr"
@@ -83,7 +83,7 @@ class Bench:
         return [told.get(n, frames[n - 1]) for n in range(1, FRAMES + 1)]
 
     def camera(self, scene):
-        """Where the scene's camera stands, so that it can be told to stay there."""
+        """The position of the scene's camera, to keep it static."""
         camera = json.loads(self.run("info", self.scene(scene)[0], "--json"))["camera"]
         target = [p + d for p, d in zip(camera["position"], camera["forward"])]
         return ",".join(f"{v:.6f}" for v in camera["position"] + target)
@@ -92,7 +92,7 @@ class Bench:
         return [o for s in ["set resolve.fog=false", *settings] for o in switches(s)]
 
     def replay(self, scene, settings):
-        """Comparisons with the truth, one for each frame, each with the time of all its passes."""
+        """Comparisons with the truth, one for each frame, each with the total time of all passes."""
         key = (scene, *settings)
         if key not in self.known:
             captures = self.scene(scene)
@@ -111,7 +111,7 @@ class Bench:
         key = ("noise", scene, *settings)
         if key not in self.known:
             captures, moving = self.scene(scene), scene.startswith("moving:")
-            # What only changes how samples are drawn and collected converges to the same.
+            # Settings that only change the sampling converge to the same result.
             kept = [s for s in settings if not s.startswith(("set downsample.pattern", "set downsample.shuffle", "set temporal.", "use temporal="))]
             kept += [f"set pipeline.rays={CONVERGED * (4 if moving else 1)}"]
             kept += ["use temporal=none"] if moving else ["use temporal=rough", "set temporal.extra=false"]
@@ -124,13 +124,13 @@ class Bench:
         return self.known[key]
 
     def flicker(self, scene, settings):
-        """How far the last frame of a shot is from the one before it."""
+        """The difference between the last two frames of a shot."""
         captures, folder = self.scene(scene), WORK / "before"
         self.run("replay", *captures, "-o", folder, "--no-cache", *self.options(settings))
         return self.against(captures, folder / captures[-2].stem, settings)[-1]
 
     def fallen(self, scene, settings):
-        """What became of the rays that fell back, over a shot with the truth in each frame."""
+        """The ends of the rays that fell back, over a shot with the truth in each frame."""
         frames = [WORK / f"fallen-{scene}.{i:04}.exr" for i in range(1, FRAMES + 1)]
         if not frames[-1].exists():
             self.run("sample", scene, "-o", WORK / f"fallen-{scene}.exr", "--frames", FRAMES, "--truth", FALLEN_TRUTH, "--unjittered",
@@ -254,7 +254,7 @@ def fallbacks(bench):
 
 
 def noise_of_frames(bench):
-    """Each of n frames weighs 1/n up to 16, so the noise of a camera that stands falls with 1/√n; past that to √(1/31)."""
+    """Each of n frames weighs 1/n up to 16, so the noise of a static camera falls with 1/√n; beyond that to √(1/31)."""
     settings = [*HISTORY, "set temporal.extra=false", "set downsample.alternate=false"]
     rows = []
     still = {scene: bench.noise(f"centred:{scene}", settings) for scene in TRAVEL}
@@ -270,7 +270,7 @@ def noise_of_frames(bench):
 
 
 def exchanged(bench):
-    """The same frame with each ray's best cube map chosen by another rule: what jumps when a moving camera changes it."""
+    """The same frame with another rule for each ray's best cube map: the jump when a moving camera changes it."""
     rows = []
     for scene in ("room", "hotel"):
         for fallback in FALLBACKS:
@@ -318,7 +318,7 @@ def formula_tables():
 
 
 def attempt(title, text, titles, make, *arguments):
-    """A section, unless what it measures does not exist yet."""
+    """A section, unless its mechanism does not exist yet."""
     try:
         return f"## {title}\n\n{text}\n\n{table(titles, make(*arguments))}\n"
     except Unknown as reason:

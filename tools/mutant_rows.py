@@ -1,16 +1,16 @@
-"""What is asked of the tests that mutants.py tries, and why a mutant that they do not notice is harmless."""
+"""The limits for the tests that mutants.py runs, and the reasons why unnoticed mutants are harmless."""
 
-LEAST = 0.85  # of all mutants are noticed, the harmless ones among them
+LEAST = 0.85  # fraction of noticed mutants, including harmless ones
 # A mutant may loop without end. What takes so many times the processor time of unchanged sources, and this long at least, counts as
 # noticed, and so does what takes this many times longer still by the clock.
 SLOWER, AT_LEAST_S, HANGS = 10, 30, 20
-# What a reason is known for is tried by the likeliest programs alone, as many as take so long.
+# Mutants with a known reason are tried by the likeliest programs only, within this time.
 ARGUED_S = 60
 
 OUTSIDE = "invocations beyond the picture fetch nothing that is kept: what is stored outside of an image is discarded, and no workgroup waits for them"
 COUNT = "a count of fetches that diagnostics show; no other bit depends on it"
 
-# (file, line as it is, line as it becomes): why.
+# (file, original line, mutated line): reason.
 HARMLESS = {
     ("reflection/compose/brdf.comp", "float cosine = clamp(dot(to_viewer, normalize(surface.xyz)), 0.0, 1.0);",
      "float cosine = clamp(dot(to_viewer, normalize(surface.xyz)), 0.0, 2.0);"):
@@ -93,5 +93,5 @@ HARMLESS = {
         "what has no surface has a way of 0 that ended nowhere, which is no source either: the guard spares the asking",
 }
 
-# {(file, line, line): what case is missing}: not harmless, and not noticed yet. A new one of these fails the test.
+# {(file, line, line): missing case}: neither harmless nor noticed yet. A new one fails the test.
 MISSING = {}

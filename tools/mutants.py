@@ -40,26 +40,26 @@ HOST_TEST = "test_cubemap_active"
 # ---- Programs ----
 
 class Program:
-    """What may notice: its name, and how to run it."""
+    """A program that may notice a mutant: its name, and how to run it."""
 
     def __init__(self, name, command, selftest=False):
         self.name, self.command, self.selftest = name, [str(c) for c in command], selftest
-        self.failing = []  # cases that do not count
+        self.failing = []  # cases that are ignored
 
     def only(self, case):
-        """Of the self-test: just what has the case's name."""
+        """The self-test with only the case of this name."""
         program = Program(self.name, [*self.command[:4], "--only", case], True)
         program.failing = self.failing
         return program
 
     def run(self, passes, limit_s):
-        """What failed, a list; how many cases there were; seconds of processor time."""
+        """A list of failed cases, the number of cases, and seconds of processor time."""
         with tempfile.TemporaryDirectory(prefix="gm") as folder:
             environment = {**os.environ, **ENVIRONMENT, "GLINT_PASSES": str(passes), "TMPDIR": folder}
             limits = ["prlimit", f"--cpu={math.ceil(limit_s)}", "stdbuf", "-oL"]
             process = subprocess.Popen([*limits, *self.command], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True,
                                        env=environment, start_new_session=True, errors="replace")
-            late = threading.Timer(HANGS * limit_s, self.stop, [process])  # a device that hangs takes no processor time
+            late = threading.Timer(HANGS * limit_s, self.stop, [process])  # a device that hangs uses no processor time
             late.start()
             failed, cases = (self.read_json if self.selftest else self.read_tap)(process)
             if failed:
@@ -77,7 +77,7 @@ class Program:
 
     @staticmethod
     def stop(process):
-        """Its group is gone when it is."""
+        """Its process group may be gone already."""
         try:
             os.killpg(process.pid, signal.SIGKILL)
         except ProcessLookupError:
@@ -115,7 +115,7 @@ def programs_of(build):
 
 
 def version_of(build, programs):
-    """Of all that runs."""
+    """A hash of everything that runs."""
     files = {p.command[0] for p in programs} | {str(p) for folder in ("capture-format", "replay") for p in (build / folder).glob("*.so")}
     return hashlib.sha256(b"".join(pathlib.Path(f).read_bytes() for f in sorted(files))).hexdigest()[:16]
 
@@ -151,7 +151,7 @@ def control(programs, jobs):
 # ---- Mutants ----
 
 def key_of(source, mutant):
-    """Tells a mutant in other versions of its file, too."""
+    """A key that identifies a mutant in other versions of its file."""
     start, end = source.text.rfind("\n", 0, mutant.start) + 1, source.text.find("\n", mutant.end)
     before, after = source.text[start:end].strip(), (source.text[start:mutant.start] + mutant.new + source.text[mutant.end:end]).strip()
     return before, " ".join(after.split("\n")), source.text.count("\n", 0, mutant.start) + 1
@@ -181,7 +181,7 @@ def write_mutant(row, folder):
 
 
 def try_host(row, folder, build):
-    """What runs on the host is linked into its test anew."""
+    """Host code is linked into its test again."""
     program = f"{folder}/{HOST_TEST}"
     archives = sorted(str(p) for p in (build / "passes").glob("*.a")) + sorted(str(p) for p in (build / "capture-format").glob("*.so"))
     subprocess.run(["cc", "-std=c11", "-D_POSIX_C_SOURCE=200809L", "-D_DEFAULT_SOURCE", "-g", "-I", ROOT / "passes/include", "-I", build / "passes/include", "-I",
@@ -232,7 +232,7 @@ def in_order(row, programs, told):
 
 
 def attempt(row, build, programs, told):
-    """The row with what became of it."""
+    """The row with its result."""
     failed, by, spent_s, tried = [], None, 0, set()
     with tempfile.TemporaryDirectory(prefix="gm") as folder:
         if row["file"].endswith(".c"):
@@ -295,7 +295,7 @@ def with_mutants(path):
 
 
 def begun(build, path, programs, jobs):
-    """The record to go on with: without verdicts, unless they are of these programs and this device."""
+    """The record to continue: without results, unless they are of these programs and this device."""
     record, of = with_mutants(path), {"programs": version_of(build, programs), "device": device_of(build)}
     if record.items() >= of.items():
         return record
@@ -313,7 +313,7 @@ def run(build, path, jobs):
     build, path = pathlib.Path(build).resolve(), pathlib.Path(path)
     programs = list(programs_of(build))
     record = begun(build, path, programs, jobs)
-    # What unchanged sources fail on this device tells nothing: cases of the self-test, and whole test programs.
+    # Failures with unchanged sources on this device are ignored: cases of the self-test, and whole test programs.
     programs = [p for p in programs if p.selftest or not record["control"][p.name]["failing"]]
     for program in programs:
         program.failing = record["control"][program.name]["failing"]

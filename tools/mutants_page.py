@@ -32,7 +32,7 @@ def missing(m):
 
 
 def faults(record):
-    """What is not as it should be."""
+    """What deviates from the expectations."""
     mutants, found = record["mutants"], []
     survivors = [m for m in mutants if m.get("verdict") != "killed"]
     killed = len(mutants) - len(survivors)
@@ -60,7 +60,7 @@ def code(text):
 
 
 def parted(before, after):
-    """The two without what they share at their ends, but for some of it."""
+    """Both texts without most of their common beginning and end."""
     first = next((i for i, (a, b) in enumerate(zip(before, after)) if a != b), min(len(before), len(after)))
     last = next((i for i, (a, b) in enumerate(zip(before[::-1], after[::-1])) if a != b), 0)
     last = min(last, len(before) - first, len(after) - first)

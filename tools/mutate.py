@@ -14,7 +14,7 @@ import mechanism_rows
 from pages import preset
 
 SEED = 7
-SHARE, FEWEST, MOST = 0.015, 1, 2  # mutants of a file, as a part of what could be made of it
+SHARE, FEWEST, MOST = 0.015, 1, 2  # mutants per file, as a fraction of all possible ones
 # Not functions: constants that the host sets, and lists of rows.
 LEFT_OUT = ("shared/interface.glsl", "shared/end_reasons.glsl")
 
@@ -36,7 +36,7 @@ def tokens_of(text):
 
 
 class Source:
-    """A file's tokens, and what could be made of them."""
+    """The tokens of a file, and its possible mutants."""
 
     def __init__(self, file, text):
         self.file, self.text, self.tokens = file, text, tokens_of(text)
@@ -44,7 +44,7 @@ class Source:
         for i, token in enumerate(self.tokens):
             if token.text in OPEN:
                 open_.append(i)
-            elif token.text in CLOSE and open_:  # a block of push constants is opened by another file
+            elif token.text in CLOSE and open_:  # the block of push constants begins in another file
                 self.partner[open_[-1]] = i
                 self.partner[i] = open_.pop()
 
@@ -89,7 +89,7 @@ class Source:
         return found + [(first, self.partner[i])]
 
     def make(self, operator, first, last, new):
-        """Tokens first to last - 1 become `new`."""
+        """Replaces tokens first to last - 1 by `new`."""
         return Mutant(self.file, self.tokens[first].start, self.tokens[last - 1].end, new, operator)
 
     def is_level(self, i):
@@ -99,7 +99,7 @@ class Source:
     def of_number(self, i):
         text = self.word(i)
         if text == "0" and self.word(i + 1) == ")" and self.is_level(i):
-            return  # an image without levels has no other, and what a fetch of it gives is not defined
+            return  # an image without levels has no other level, and fetching from it is undefined
         if re.fullmatch(r"(?:\d+|0[xX][0-9a-fA-F]+)[uU]?", text):
             suffix = text[-1] if text[-1] in "uU" else ""
             yield self.make("constant changed", i, i + 1, f"{int(text.rstrip('uU'), 0) + 1}{suffix}")
@@ -149,7 +149,7 @@ class Source:
             yield self.make("sign exchanged", i, i + 1, "-=" if text == "+=" else "+=")
 
     def of_choice(self, i):
-        """Without the condition and what it chooses: `c ? a : b` becomes `b`."""
+        """Removes a condition and its first alternative: `c ? a : b` becomes `b`."""
         first, colon, depth = i, i + 1, 0
         while self.word(first - 1) not in ("(", "[", "{", ",", ";", "=", "return", "?", ":", "+=", "*="):
             first = self.partner[first - 1] if self.word(first - 1) in CLOSE else first - 1
@@ -165,7 +165,7 @@ class Source:
                 yield from (m for m in makers[token.kind](i) if m.new != self.text[m.start:m.end])
 
     def statement_words(self, at):
-        """Words of the statement around a place in the text."""
+        """The words of the statement around a position in the text."""
         i = max(k for k, t in enumerate(self.tokens) if t.start <= at)
         first = last = i
         while first > 0 and self.word(first - 1) not in (";", "{", "}"):
@@ -176,7 +176,7 @@ class Source:
 
 
 class Tree:
-    """The files of passes/, who includes whom, and the code that each shader compiles to."""
+    """The files of passes/, their includes, and the code that each shader compiles to."""
 
     def __init__(self, root):
         self.root = pathlib.Path(root)
@@ -185,7 +185,7 @@ class Tree:
         self.mutable = [f for f in self.sources if f not in LEFT_OUT]
         self.closures = {f: self.closure(f) for f in self.sources if not f.endswith(".glsl")}
         self.codes = {}
-        self.generated = tempfile.TemporaryDirectory()  # what the build makes of passes/row_kinds.py
+        self.generated = tempfile.TemporaryDirectory()  # headers that the build generates from passes/row_kinds.py
         made = [pathlib.Path(self.generated.name) / f for f in ("shared/bindings.glsl", "shared/push_begin.glsl", "glint/row_kinds.h")]
         for path in made:
             path.parent.mkdir(exist_ok=True)
@@ -204,15 +204,15 @@ class Tree:
         return found
 
     def shader(self, slot, variant):
-        """The file of a pass, whatever effect it belongs to; None when there is no such pass."""
+        """The file of a pass of any effect; None if there is no such pass."""
         return next((f for f in self.closures if f.split("/")[-2:] in ([slot, f"{variant}.comp"], [slot, f"{variant}.c"])), None)
 
     def passes_with(self, file):
-        """Passes that have the file in them."""
+        """The passes that include the file."""
         return [p.rsplit(".", 1)[0] for p, files in sorted(self.closures.items(), key=lambda c: (len(c[1]), c[0])) if file in files]
 
     def digest(self):
-        """Of all that the choice of mutants depends on."""
+        """A hash of everything that the choice of mutants depends on."""
         texts = [f + s.text for f, s in sorted(self.sources.items())] + [pathlib.Path(p).read_text() for p in (__file__, mechanism_rows.__file__)]
         return hashlib.sha256("".join(texts).encode()).hexdigest()[:16]
 
@@ -221,7 +221,7 @@ class Tree:
         return text[:mutant.start] + mutant.new + text[mutant.end:]
 
     def compile(self, folder, name):
-        """A shader's code without what it does not call, None when it does not compile."""
+        """A shader's code without unused functions, or None if it does not compile."""
         with tempfile.TemporaryDirectory() as out:
             spirv, plain = f"{out}/a.spv", f"{out}/b.spv"
             done = subprocess.run(["glslangValidator", "--quiet", "--target-env", "vulkan1.3", f"-I{folder}", f"-I{self.generated.name}", "-o", spirv, f"{folder}/{name}.comp"],
@@ -254,7 +254,7 @@ class Tree:
 
 
 def varied(mutants, name):
-    """In an order that takes the operators in turn."""
+    """An order that alternates between the operators."""
     rng = random.Random(f"{SEED} {name}")
     by = {o: [] for o in OPERATORS}
     for m in mutants:
@@ -290,7 +290,7 @@ def mechanism_places(tree):
 
 
 def made_from(source, word):
-    """Variables that statements with the word give a value to."""
+    """Variables that are assigned by statements with the word."""
     found, since = set(), 0
     for i, token in enumerate(source.tokens):
         if token.text in (";", "{", "}"):
@@ -306,7 +306,7 @@ def is_in(tree, mutant, places):
 
 
 def choose(root, progress, is_known):
-    """Mutants with the mechanisms that each is in, and what was rejected, by state. What is_known() compiled before."""
+    """Mutants with their mechanisms, and the number of rejected ones by state. Those for which is_known() holds compiled before."""
     tree = Tree(root)
     rejected, chosen, made = collections.Counter(), [], {}
     places = mechanism_places(tree)

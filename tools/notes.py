@@ -26,7 +26,7 @@ CUBEMAP = [
 
 def measure(glint, capture, settings):
     command = [glint, 'replay', str(capture), '--json', '--against', 'truth']
-    # What comes after the traces, or serves rough surfaces alone, is left out.
+    # Passes after the traces, or for rough surfaces only, are disabled.
     command += ['--use', 'screen_trace=linear']
     for slot in ('hiz', 'cubemap_mips', 'sky_mips', 'lit_mips', 'blur', 'temporal', 'resolve_sharp', 'temporal_sharp'):
         command += ['--use', f'{slot}=none']
@@ -36,7 +36,7 @@ def measure(glint, capture, settings):
     if run.returncode:
         sys.exit(run.stderr)
     found = json.loads(run.stdout)
-    while 'against_truth' not in found:  # one capture's report, or a list of them
+    while 'against_truth' not in found:  # the report of one capture, or a list
         found = found[0] if isinstance(found, list) else next(v for v in found.values() if isinstance(v, (list, dict)))
     return found['against_truth']['rays']
 

@@ -9,7 +9,7 @@ import subprocess
 import sys
 import tempfile
 
-os.environ["GLINT_CACHE"] = "none"  # each run is to do its own work
+os.environ["GLINT_CACHE"] = "none"  # each run executes all passes
 
 HERE = pathlib.Path(__file__).parent
 PRESETS = HERE.parent / "samples/presets"
@@ -32,7 +32,7 @@ def sample(glint, scene, folder, size, cube, *options):
 
 
 def options(words):
-    """Of glint replay."""
+    """The options of glint replay for these words."""
     return [o for word in words.split() for o in ("--set" if "." in word.split("=")[0] else "--use", word)]
 
 
@@ -49,7 +49,7 @@ def preset(name, words=""):
 
 
 def usable(glint, presets):
-    """Without settings that a replaced variant had and its successor has not, as --use leaves them out."""
+    """Without settings of a replaced variant that its successor does not have; --use drops them as well."""
     known = {(p["slot"], p["variant"]): {parameter["name"] for parameter in p["parameters"]} for p in json.loads(run(glint, "passes", "--json"))["passes"]}
     return {key: {**made, "set": {name: value for name, value in made["set"].items()
                                   if not (slot := name.split(".")[0]) in made["slots"] or name in known[slot, made["slots"][slot]]}}
@@ -57,7 +57,7 @@ def usable(glint, presets):
 
 
 def compare(glint, capture, presets, rounds, together=6):
-    """The device, and what glint compare tells of each of {key: preset}; so many at a time take turns and share the memory."""
+    """The device, and the results of glint compare for each of {key: preset}; a limited number alternates and shares the memory."""
     told, keys, presets = {}, list(presets), usable(glint, presets)
     with tempfile.TemporaryDirectory() as folder:
         for first in range(0, len(keys), together):
@@ -71,14 +71,14 @@ def compare(glint, capture, presets, rounds, together=6):
 
 
 def errors(glint, capture, name, words, *more, figures=("rmse",)):
-    """Of the reflection against the truth: mirror-like, glossy and rough surfaces, one cell for each figure."""
+    """Error of the reflection against the truth: mirror-like, glossy and rough surfaces, one cell for each figure."""
     told = json.loads(run(glint, "replay", capture, "--preset", name, "--json", "--against", "truth", *options(words), *more))
     found = {row["surfaces"]: row for row in told["runs"][0]["against_truth"]["image"]["surfaces"]}
     return [", ".join(f"{found[kind][figure]:.3f}" for kind in KINDS) for figure in figures]
 
 
 def picture(glint, source, out, *more):
-    """What glint view makes of a run's image or a file's layer, without its legend."""
+    """The picture of glint view for a run's image or a file's layer, without its legend."""
     run(glint, "view", source, "--no-legend", "-o", out, *more)
     return out
 
@@ -108,10 +108,10 @@ def draw(glint, charts, docs):
 
 
 class Times:
-    """A page's columns of milliseconds, one for each device that there is a record of."""
+    """A page's columns of milliseconds, one for each device with a record."""
 
     def __init__(self, page=None):
-        """No page: no columns."""
+        """Without a page there are no columns."""
         self.records = [json.loads(path.read_text()) for path in sorted(RECORDS.glob("*.json"))] if page else []
         self.page = page
         self.heads = [self.head(r) for r in self.records]
@@ -128,12 +128,12 @@ class Times:
         return [self.cell(self.scene(r, scene).get(key)) for r in self.records]
 
     def timed_columns(self, scene, keys):
-        """Heads and {key: cells} of the devices that the scene was timed on."""
+        """Headings and {key: cells} of the devices with times of the scene."""
         records = [r for r in self.records if self.scene(r, scene)]
         return [self.head(r, [scene]) for r in records], {key: [self.cell(self.scene(r, scene).get(key)) for r in records] for key in keys}
 
     def untimed(self, scene):
-        """The devices that it was not timed on."""
+        """The devices without times of the scene."""
         return ", ".join(r["as"] for r in self.records if not self.scene(r, scene))
 
     @staticmethod

@@ -30,7 +30,7 @@ def numbered(n):
 
 
 class Style:
-    """What an escape sequence of colours sets."""
+    """The style that an escape sequence of colours sets."""
 
     def __init__(self):
         self.reset()
@@ -69,7 +69,7 @@ class Style:
 
 
 def to_html(screen, title):
-    """What tmux captured, cell by cell, so that blocks meet whatever the font says of its glyphs' widths."""
+    """The screen that tmux captured, cell by cell, so that blocks touch for any width of the font's glyphs."""
     style, rows = Style(), []
     for line in screen.rstrip().splitlines():
         cells = []
@@ -87,7 +87,7 @@ div {{ height: 16px; white-space: pre; }} i {{ font-style: normal; display: inli
 
 
 def terminal(folder, path, columns, lines, *commands):
-    """Types commands into a fresh tmux; what its screen shows then, with its colours."""
+    """Types commands into a new tmux, and returns its screen with colours."""
     socket = os.path.join(folder, "tmux")
 
     def tmux(*words):
@@ -100,7 +100,7 @@ def terminal(folder, path, columns, lines, *commands):
         for command in commands:
             tmux("send-keys", "-l", command)
             tmux("send-keys", "Enter")
-            time.sleep(0.5)  # for the command to begin; its end is when the prompt is back
+            time.sleep(0.5)  # for the command to begin; it has ended when the prompt is back
             while tmux("display-message", "-p", "#{pane_current_command}").strip() != "bash" or not tmux("capture-pane", "-p").rstrip().endswith("$"):
                 time.sleep(0.2)
         return tmux("capture-pane", "-e", "-p")
@@ -122,7 +122,7 @@ def main():
         call("view", "run", "--no-legend", "-o", os.path.join(docs, "street.png"))
         call("view", "run", "--sheet", "--image", "normal_jittered,screen_end,cubemap_end,travelled,cubemap_index,reflection",
              "-o", os.path.join(docs, "street-passes.png"))
-        # Behind a car the picture does not know what there is: the cube map goes on.
+        # The screen image shows nothing behind a car: the cube map continues the ray.
         call("probe", "street.exr", "552,318", "-o", "ray.svg")
         browser.open(os.path.join(folder, "ray.svg"))
         browser.picture(os.path.join(docs, "probe.png"), 1000, 1350)

@@ -41,7 +41,7 @@ def planned(given, capture, *options):
 
 
 def counts(given, capture, folder, *options):
-    """Texels of cube maps that were filtered, pixels that a ray was traced for, on screen or in cube maps, and surfaces that reflect."""
+    """Filtered texels of cube maps, pixels whose ray was traced, on screen or in cube maps, and reflecting surfaces."""
     run = pathlib.Path(folder) / "run"
     pages.run(given.glint, "replay", capture, "-o", run, "--outputs", "composed,screen_end,cubemap_end", "--diagnostics", "--no-cache", *options)
     told = json.loads((run / "run.json").read_text())
@@ -54,13 +54,13 @@ def counts(given, capture, folder, *options):
 
 
 def reading(given, capture):
-    """Milliseconds in which all pixels' inputs are read once."""
+    """Milliseconds for reading the inputs of all pixels once."""
     told = json.loads(pages.run(given.glint, "replay", capture, "--shader", f"compose={READ}", "--repeat", max(given.rounds, 10), "--json"))
     return next(p["time_ns"]["median"] for p in told["runs"][0]["passes"] if p["slot"] == "compose") / 1e6
 
 
 def ruled(given, capture, folder):
-    """What rules with an error save, and how far they take the picture from the one without them."""
+    """The savings of rules with an error, and the difference of their image from one without them."""
     base, other, found = pathlib.Path(folder) / "base", pathlib.Path(folder) / "other", {}
     for rule in ("", *RULES):
         into, options = (other, ["--set", rule]) if rule else (base, [])
@@ -130,13 +130,13 @@ def times(r):
 
 
 def faces(counts, kind):
-    """Of counts: faces of cube maps, which records from before they were counted lack."""
+    """Of counts: faces of cube maps, which old records do not contain."""
     done, of = counts["faces"][kind] if "faces" in counts else (0, 0)
     return f"{done} of {of}" if of else "not counted"
 
 
 def worked(r):
-    """What does not depend on the device; of the record that counted."""
+    """The part that does not depend on the device; of the record with counts."""
     rows = []
     for scene, row in r["scenes"].items():
         p, w = (row["counts"][side] for side in ("planned", "whole"))
@@ -148,7 +148,7 @@ def worked(r):
 
 
 def everything_ran(r):
-    """With --all: passes that were not dispatched over all of their texels."""
+    """With --all: passes that did not process all of their texels."""
     return [f"`{scene}`: `{slot}`" for scene, row in r["scenes"].items()
             for slot, (done, of) in row["counts"]["whole"]["texels"].items() if done < of]
 
@@ -184,7 +184,7 @@ def points(r, kind):
 
 
 def fit(pairs):
-    """Constant and slope of a line through what reflects at all, relative errors counting alike, and the largest of them."""
+    """Constant and slope of a line over the reflecting pixels by relative least squares, and the largest relative error."""
     some = [(x, y, 1 / y ** 2) for x, y in pairs if x > 0]
     weight = sum(w for _, _, w in some)
     mx, my = (sum(v[i] * v[2] for v in some) / weight for i in (0, 1))

@@ -13,11 +13,11 @@ SCENES = ("street", "plaza", "room", "kitchen", "hotel", "lake", "glasshouse", "
 ORDER = ("mafia3", "mafia3_shipped", "kf2", "gtav", "mafia_de")
 SIZE, CUBE, TRUTH = "480x270", "128", "64"
 SURFACES = ("mirror-like", "glossy", "rough", "all")
-FOUND = ("hit", "sky")  # ends of rays that met what they were to find
+FOUND = ("hit", "sky")  # ends of rays with a valid result
 
 
 def presets():
-    """By name, the ones of the systems first; `reference` is no system's."""
+    """Sorted by name, presets of games first; `reference` is not one of these."""
     there = {p.stem for p in PRESETS.glob("*.json")} - {"reference"}
     return [p for p in ORDER if p in there] + sorted(there - set(ORDER))
 
@@ -31,19 +31,19 @@ def surface(preset, name):
 
 
 def error(row):
-    """Error, and the share of pixels that it is over."""
+    """The error, and the fraction of pixels that it covers."""
     if row is None:
         return "no such surface"
     return f"{row['symmetric']:.3f} ({100 * row['coverage']:.0f} %)" if row.get("symmetric") is not None else "none covered"
 
 
 def kinds(compared):
-    """The classes of surfaces that the scene has, all of them together last."""
+    """The classes of surfaces in the scene, followed by all together."""
     return [s for s in SURFACES if any(surface(p, s) for p in compared)]
 
 
 def errors(compared):
-    """Over what each preset covers."""
+    """Over the pixels that each preset covers."""
     there = kinds(compared)
     rows = [[f"`{p['preset']}`", *(error(surface(p, s)) if p["ran"] else "failed" for s in there)] for p in compared]
     return table(["preset", *(f"error, {s} (covered)" for s in there)], rows)
@@ -61,7 +61,7 @@ def shared(compared):
 
 
 def cost(scene, compared, times):
-    """What rays found and what finding it took."""
+    """The results of rays, and their cost."""
     tracers = dict.fromkeys(e["tracer"] for p in compared if p["ran"] for e in p["ends"])
 
     def found(p, tracer):
@@ -77,7 +77,7 @@ def cost(scene, compared, times):
 
 
 def over(compared):
-    """The finished picture where water or glass covers what the other tables compare."""
+    """The final image where water or glass covers the surfaces that the other tables compare."""
     parts = dict.fromkeys(o["part"] for p in compared if p["ran"] for o in p["over"])
 
     def cell(p, part):
@@ -90,7 +90,7 @@ def over(compared):
 
 
 def ends(compared):
-    """Why rays ended: a row for each reason that occurs, a column for each preset with rays."""
+    """End reasons of rays: a row for each reason that occurs, a column for each preset with rays."""
     traced = [p for p in compared if p["ran"] and p["rays"]]
     reasons = dict.fromkeys((e["tracer"], e["reason"]) for p in traced for e in p["ends"])
     rows = []

@@ -18,8 +18,8 @@ from pages import HERE, KINDS, options, preset, run, sample, table
 RECORDS = HERE / "records/reference"
 SCENES = ("street", "room")
 PRESETS = ("mafia3", "mafia_de", "gtav")
-FOG = ("--set", "pipeline.fog=false")  # which the truth lacks
-# Mirror rays alone, in captures of their own: one a pixel.
+FOG = ("--set", "pipeline.fog=false")  # the truth has no fog
+# Only mirror rays, in separate captures: one per pixel.
 MIRROR_SIZE, MIRROR_CUBE, MIRROR_TRUTH = "240x135", "128", "16"
 MIRROR = "pipeline.rays=1 downsample.jitter=false pipeline.fog=false"
 CHOSEN = "**`dda`, as the reference**"
@@ -45,7 +45,7 @@ def noise(found):
 
 
 def progress(glint, capture, folder, rays, sensitivity):
-    """The noise of each number of rays, with the sequence and without, and the folder that the reference leaves."""
+    """The noise for each number of rays, with the sequence and without, and the folder of the reference."""
     kept, white, made = folder / "reference", folder / "white", {"noise": {}, "independent": {}}
     for n in rays:
         found = trace(glint, capture, "-o", kept, "--rays", n)
@@ -157,7 +157,7 @@ def told(size):
 
 
 def helps(names):
-    """What the handbook says of parameters of the preset reference."""
+    """The text of the handbook on parameters of the preset reference."""
     variants = preset("reference")["slots"]
     sections = dict(re.findall(r"^#### `([^`]+)`\n(.*?)(?=^#|\Z)", (HERE.parent / "docs/passes.md").read_text(), re.M | re.S))
     rows = {name: re.search(rf"^\| {re.escape(name)} \|.*\| ([^|]+) \|$", sections[f"{(slot := name.split('.')[0])}/{variants[slot]}"], re.M) for name in names}

@@ -19,13 +19,13 @@ import pages
 SCENES, SIZE, CUBE, TRUTH = "street,room", "960x540", "256", "64"
 RAYS, SETS, OTHER_SETS = 8, 4, 2
 STEPS = "4,6,8,11,16,23,32,45,64,91,128,256,512,1024"
-# What a surface is, its thickness and the cube maps as the reference has them: all that differs is how a ray is followed.
+# Surfaces, thickness and cube maps are those of the reference: only the tracing differs.
 SCREEN = "screen_trace=linear_facets screen_trace.thickness=0.01 screen_trace.solid=32 screen_trace.first_step=0.001"
 CUBES = ("cubemap_trace=march cubemap_trace.count=strides cubemap_trace.surfaces=exact cubemap_trace.bias=0 cubemap_trace.hq_roughness=1 "
          "cubemap_trace.first_step_m=0.01 cubemap_trace.length_m=300 cubemap_active.chain=8 cubemap_trace.chain=8 "
          "cubemap_trace.fallback=lookup cubemap_trace.exhausted=fallback")
 THICK = CUBES.replace("surfaces=exact cubemap_trace.bias=0", "surfaces=thick")
-# The march's own limit: the reference's tracer, following the same cube maps by a fifth of its steps; and by those that it has.
+# The limit of the march: the reference's tracer, which traces the same cube maps with a fifth of its steps; and with its own.
 CHAIN = "cubemap_trace.maps=chain cubemap_trace.unseen=stop cubemap_active.chain=8"
 OWN = f"{CHAIN} cubemap_trace.texel_part=0.1 cubemap_trace.skip=false cubemap_trace.steps=1000000"
 CURVES = {
@@ -48,7 +48,7 @@ DRAWN = {"reference": [("screen", "reference"), ("cubes", "own"), ("cubes", "ref
 
 
 def swept(glint, capture, folder, words, vary, reference, rays):
-    """Per point: what was varied, and the row of the capture."""
+    """Per point: the varied values, and the row of the capture."""
     told = json.loads(pages.run(glint, "sweep", capture, "-o", folder, "-p", "reference", *pages.options(f"{words} {rays}"), "--vary", vary,
                                 "--reference", reference, "--repeat", "0", "--no-pictures", "--json"))
     return [(next(iter(p["values"].values())), p["captures"][0]) for p in told["points"]]
@@ -60,7 +60,7 @@ def figures(row):
 
 
 def measure_set(given, found, capture, folder, n):
-    """One set of rays: the references of them, and what each curve is away from them."""
+    """One set of rays: its references, and the error of each curve."""
     def against(words, vary, reference, name):
         return [(steps, figures(row)) for steps, row in swept(given.glint, capture, f"{folder}-{name}", words, vary, reference, rays)]
 
@@ -98,13 +98,13 @@ def measure(given):
 
 
 def estimate(sets, answer, metric="rmse"):
-    """Mean over the sets of rays, and its standard error."""
+    """The mean over the sets of rays, and its standard error."""
     values = [s[answer][metric] for s in sets]
     return statistics.mean(values), statistics.stdev(values) / math.sqrt(len(values)) if len(values) > 1 else 0
 
 
 def rises(curve, answer):
-    """Where the error is higher than at fewer steps, by more than twice the standard error of the difference, set by set."""
+    """Where the error exceeds that of fewer steps by more than twice the standard error of the difference, set by set."""
     found, points = [], sorted(curve, key=int)
     for i, after in enumerate(points):
         for before in points[:i]:
@@ -116,7 +116,7 @@ def rises(curve, answer):
 
 
 def falling(values):
-    """The least squares fit that rises nowhere: neighbours that rise are pooled."""
+    """The monotonic least-squares fit: neighbours that rise are pooled."""
     pools = []
     for value in values:
         pools.append((value, 1))
@@ -186,7 +186,7 @@ def rows(found):
 
 
 def fall(found, key, answer):
-    """What is seen of a curve, as a line of a list."""
+    """The properties of a curve as an item of a list."""
     curve = found["curves"][key]
     up, at, points = rises(curve, answer), knee(curve, answer), sorted(curve, key=int)
     first, last, limit = (told(*estimate(curve[p], answer)) for p in (points[0], "128", points[-1]))

@@ -13,7 +13,7 @@ import time
 import pages
 
 PAGES = ("presets", "kf2", "gtav", "mafia_de")
-TRIES = 3  # of which the fastest counts: a GPU's clock falls while a scene is rendered, and rises only after seconds of work
+TRIES = 3  # the fastest counts, since the clock of a GPU falls while a scene is rendered and rises only after seconds of work
 
 
 def milliseconds(showing):

@@ -18,19 +18,19 @@ import pages
 RECORDS = pages.HERE / "records/tune"
 SEEN, HELD_OUT = ("street", "room"), "hotel"
 BUDGETS = (50, 25)
-# Counts, thresholds and switches of the traces: what both costs know of.
+# Counts, thresholds and switches of the traces, which affect both costs.
 TRACES = ("screen_trace.cells=1..384", "screen_trace.cells_lq=1..384", "cubemap_trace.steps_hq=1..96", "cubemap_trace.steps_lq=1..96",
           "cubemap_trace.refinements=1..8", "cubemap_trace.refinements_lq=1..8", "cubemap_trace.chain=1..4", "downsample.share",
           "screen_trace.hq_roughness", "cubemap_trace.hq_roughness", "cubemap_trace.length_m=10..300", "cubemap_trace.length_lq_m=10..300",
           "cubemap_trace.scale_min=1..2", "cubemap_trace.scale_max=1..2", "cubemap_trace.scale_min_lq=1..2", "cubemap_trace.scale_max_lq=1..2",
           "cubemap_trace.verify", "cubemap_trace.step_back", "cubemap_trace.rough_level=0..4")
-# What takes time without tracing.
+# Passes that take time without tracing.
 FRAME = ("lit_mips.reach=0..3", "screen_trace=hiz,linear", "screen_trace.steps=2..64", "upscale=best_match,bilinear", "upscale.around",
          "blur=plus,none", "temporal.extra", "cubemap_select=score,nearest")
 
 
 def tuned(given, folder, captures, held_out, budget):
-    """What it says, or why it found nothing."""
+    """The result, or why there is none."""
     command = [given.glint, "tune", *captures, "--held-out", held_out, "-o", folder / f"{budget}.json", "--folder", given.folder or folder / "tune",
                f"--budget-{given.cost}", f"{budget}%", "--baseline", "scale", "--over", "worst", "--rays", given.rays,
                "--tries", given.tries, "--rounds", given.rounds, "--repeat", given.repeat, "--seed", given.seed, "--json"]
@@ -47,7 +47,7 @@ def tuned(given, folder, captures, held_out, budget):
 
 
 def measure(given):
-    """Adds its budgets to those of the same measurement that the record holds."""
+    """Adds the budgets to those of the same measurement in the record."""
     record = {"as": given.name, "cost": given.cost, "slots": given.slots, "size": given.size, "cube": given.cube, "rays": given.rays, "tries": given.tries,
               "repeat": given.repeat, "device": json.loads(pages.run(given.glint, "devices", "--json"))["devices"][0]["name"]}
     before = json.loads(given.output.read_text()) if given.output.exists() else {}
@@ -72,7 +72,7 @@ def interval(figure, key="value", digits=4):
 
 
 def scene(record, one):
-    """Rows of a scene: what errs how much at which cost; then what the differences are."""
+    """Rows of a scene: error and cost of each; then the differences."""
     rows, names = [], {"start": "`mafia3`", "tuned": "tuned", "scaled": f"all steps × {one['contenders']['scaled']['factor']:.3g}"}
     for key, name in names.items():
         told = one["contenders"][key]

@@ -45,8 +45,7 @@ static error_t cmd_passes_parse(int key, char *arg, struct argp_state *state) {
     return ARGP_ERR_UNKNOWN;
 }
 
-/* "reflection" takes every pass of the effect, "screen_trace" every variant of the slot, "screen_trace/linear" one pass,
-   NULL all. */
+/* "reflection" takes every pass of the effect, "screen_trace" every variant of the slot, "screen_trace/linear" one pass, NULL all. */
 static bool selected(const struct glint_pass *pass, const char *what) {
     if (!what || !strcmp(pass->effect, what)) return true;
     size_t slot = strcspn(what, "/");

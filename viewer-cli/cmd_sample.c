@@ -307,8 +307,8 @@ static enum status list_scenes(bool json) {
     return STATUS_DONE;
 }
 
-/* Any name that is not a built-in scene must be a file. */
-static bool known_scene(const char *scene, struct glint_error *err) {
+/* A name that is not a built-in scene must be a file. */
+static bool check_scene(const char *scene, struct glint_error *err) {
     size_t count = 0;
     const struct glint_sample *scenes = glint_samples(&count);
     struct nearest near = nearest_to(scene);
@@ -327,7 +327,7 @@ static enum status cmd_sample_run(int argc, char **argv) {
     command_parse(&cmd_sample, argc, argv, &a);
     if (a.list) return list_scenes(a.json);
     struct glint_error err = {0};
-    if (!known_scene(a.scene, &err)) return command_fail(&cmd_sample, &err);
+    if (!check_scene(a.scene, &err)) return command_fail(&cmd_sample, &err);
     struct progress progress;
     struct pipe pipe;
     progress_begin(&progress);

@@ -55,7 +55,7 @@ static void on_violation(void *user, const char *rule, const char *message) {
     }
 }
 
-/* What a valid capture should be asked about; a file of cube maps alone has no frame. */
+/* Adds the notes of a valid capture. A file of cube maps alone has no frame. */
 static void add_notes(const char *file, json_t *record) {
     struct glint_capture *capture = glint_capture_open(file, NULL, NULL);
     if (!capture) return;

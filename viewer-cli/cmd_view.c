@@ -1,4 +1,4 @@
-/* glint view: a picture of anything that glint reads or writes. */
+/* glint view: shows any image that glint reads or writes. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -123,20 +123,20 @@ static void parse_crop(struct arguments *a, char *arg, struct argp_state *state)
     a->render.has_crop = true;
 }
 
-/* What is asked for beside a picture. */
-static bool prints(const struct arguments *a) {
+/* Whether text is requested besides or instead of a picture. */
+static bool has_text_output(const struct arguments *a) {
     return a->statistics.table || a->statistics.histogram || a->tev;
 }
 
 static void end_arguments(struct arguments *a, struct argp_state *state) {
     if (!a->paths.count) argp_error(state, "no image given");
-    if (!a->out && !a->terminal && !prints(a) && !isatty(STDOUT_FILENO))
+    if (!a->out && !a->terminal && !has_text_output(a) && !isatty(STDOUT_FILENO))
         argp_error(state, "no output given: -o FILE.png or --terminal");
-    a->terminal = a->terminal || (!a->out && !prints(a));
+    a->terminal = a->terminal || (!a->out && !has_text_output(a));
     if (a->statistics.json && !a->statistics.table && !a->statistics.histogram)
         argp_error(state, "--json needs --stats or --histogram");
     if (a->statistics.json && a->terminal) argp_error(state, "--json and --terminal cannot share stdout");
-    if (a->sheet && (prints(a) || a->levels))
+    if (a->sheet && (has_text_output(a) || a->levels))
         argp_error(state, "--sheet cannot be combined with options for a single image");
     if (!a->sheet && a->paths.count > 1)
         argp_error(state, "%s and %s: expected one image; several runs need --sheet", a->paths.items[0],
@@ -261,7 +261,7 @@ static error_t cmd_view_parse(int key, char *arg, struct argp_state *state) {
     return output == ARGP_ERR_UNKNOWN ? parse_color(key, arg, state, a) : output;
 }
 
-/* Of what --crop leaves: its rows moved together. */
+/* Computes statistics of the cropped part, whose rows are moved together. */
 static bool print_statistics(const struct source *source, const struct arguments *a, struct glint_error *err) {
     const uint32_t *crop = a->render.crop;
     struct source part = *source;
@@ -281,8 +281,8 @@ static bool print_statistics(const struct source *source, const struct arguments
     return ok;
 }
 
-/* The picture of one image, and what is printed of it. */
-static bool show_one(struct picture *picture, struct arguments *a, struct glint_error *err) {
+/* Draws one image, and prints what is requested of it. */
+static bool show_image(struct picture *picture, struct arguments *a, struct glint_error *err) {
     struct source source = {0};
     size_t invalid = 0;
     bool ok = source_open(&source, &a->choice, err);
@@ -309,7 +309,7 @@ static enum status cmd_view_run(int argc, char **argv) {
     bool ok = a.choice.path != NULL;
     if (ok && a.sheet)
         ok = render_sheet(&picture, a.paths.items, a.paths.count, list_or_null(&a.images), &a.render, &err);
-    else if (ok) ok = show_one(&picture, &a, &err);
+    else if (ok) ok = show_image(&picture, &a, &err);
     if (ok && a.out) ok = png_file_write(a.out, &picture, &err);
     progress_end(&progress);
     if (ok && a.terminal) ok = terminal_draw(&picture, a.terminal_mode, &err);

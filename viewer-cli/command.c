@@ -1,4 +1,4 @@
-/* How a command reads its arguments (argp) and reports what went wrong. */
+/* Parses the arguments of a command (argp) and reports errors. */
 #include "command.h"
 
 #include <ctype.h>
@@ -30,7 +30,7 @@ static error_t command_parse_key(int key, char *arg, struct argp_state *state) {
     return result;
 }
 
-/* "-5,3" is read as an option 5 that has a value, and handed on as the argument that it is. */
+/* "-5,3" is parsed as the option 5 with a value, and passed on as an argument. */
 static error_t parse_number(int key, char *arg, struct argp_state *state) {
     (void)arg;
     if (key < '0' || key > '9') return ARGP_ERR_UNKNOWN;
@@ -74,7 +74,7 @@ static char *examples_text(const struct command *command) {
     return text;
 }
 
-/* argp shows the wrapped table's text through this: options get their run-time values, the end gets the examples. */
+/* argp prints the wrapped table's help through this filter, which adds run-time values to options and the examples at the end. */
 static char *filter(int key, const char *text, void *input) {
     const struct parsing *parsing = input;
     if (!parsing) return (char *)text;

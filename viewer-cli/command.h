@@ -1,4 +1,4 @@
-/* What a command of glint is: one table entry, from which --help, the man page and the completion derive. */
+/* The definition of a command, from which --help, the man page and the completion derive. */
 #ifndef GLINT_VIEWER_COMMAND_H
 #define GLINT_VIEWER_COMMAND_H
 
@@ -19,32 +19,32 @@ struct command {
     const char *summary;     /* one line for the list of commands */
     const char *description; /* a paragraph or two */
     const struct argp_option *options;
-    bool one_dash;    /* long options may begin with one dash too */
-    bool numbers;     /* arguments may be numbers below zero: -5,3 */
+    bool one_dash;    /* long options may begin with a single dash */
+    bool numbers;     /* arguments may be negative numbers: -5,3 */
     int usage_status; /* of a usage error; 0: STATUS_USAGE */
     argp_parser_t parse;
-    const struct example *examples; /* ends with a NULL line */
-    /* Text that is known only at run time (names of encodings, scenes, views), appended to an option's help; malloc'd,
-       NULL for none. May be NULL. */
+    const struct example *examples; /* ends with an entry whose text is NULL */
+    /* Values that are known only at run time (encodings, scenes, views), appended to the help of an option; malloc'd,
+       NULL for none. The function may be NULL. */
     char *(*values)(int key);
     enum status (*run)(int argc, char **argv);
 };
 
-/* Every command, in the order in which help lists them. */
+/* All commands in the order of the help. */
 extern const struct command *const commands[];
 extern const size_t command_count;
 const struct command *command_find(const char *name);
 
-/* Parses argv[1…] into `input`, which the command's parse function finds in state->input. Options may stand anywhere.
+/* Parses argv[1…] into `input`, which the command's parse function finds in state->input. Options may follow arguments.
    A usage error prints a message and exits with 2, --help exits with 0. */
 void command_parse(const struct command *command, int argc, char **argv, void *input);
 
 /* An option's help with its run-time values, malloc'd. */
 char *command_option_help(const struct command *command, const struct argp_option *option);
 
-/* Prints "glint COMMAND: message" and returns the exit status that its code asks for. */
+/* Prints "glint COMMAND: message" and returns the exit status of the error's code. */
 enum status command_fail(const struct command *command, const struct glint_error *err);
-/* The same without the status, for what does not stop the command. */
+/* Prints a message without ending the command. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))
 #endif

@@ -1,9 +1,8 @@
-/* The commands of glint: add one here, in its own cmd_NAME.c, and in meson.build. */
+/* The list of commands. A new one is added here and to meson.build, with its own cmd_NAME.c. */
 #include "command.h"
 
 #include <string.h>
 
-/* A line each. */
 /* clang-format off */
 extern const struct command
     cmd_sample,

@@ -1,4 +1,4 @@
-/* glint: finds the command and hands over to it. */
+/* glint: runs the command that the first argument names. */
 #include "command.h"
 
 #include <errno.h>
@@ -51,7 +51,7 @@ static enum status dispatch(int argc, char **argv) {
         puts("glint " GLINT_VERSION);
         return STATUS_DONE;
     }
-    /* Not for people: the build makes the man page and the completion with these. */
+    /* Undocumented: the build generates the man page and the completion with these. */
     if (!strcmp(first, "--man") || !strcmp(first, "--completion")) {
         (first[2] == 'm' ? print_man_page : print_completion)();
         return STATUS_DONE;

@@ -1,4 +1,4 @@
-/* The man page and bash's completion, from the tables that --help shows. */
+/* Generates the man page and the completion of bash from the tables that --help prints. */
 #include "command.h"
 
 #include <ctype.h>
@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Text in mdoc: control characters escaped, nothing taken for a macro, one sentence a line. */
+/* Prints text in mdoc: control characters are escaped, and each sentence begins a new line. */
 static void print_text(const char *text) {
     bool start = true;
     for (const char *p = text; *p; p++) {
@@ -15,7 +15,7 @@ static void print_text(const char *text) {
         if (*p == '\\') fputs("\\e", stdout);
         else if (*p == '-') fputs("\\-", stdout);
         else if (*p == '\n') {
-            /* mdoc paragraphs are macros; a blank line is not one */
+            /* mdoc has macros for paragraphs; blank lines are an error */
             while (p[1] == '\n') p++;
             fputs("\n.Pp\n", stdout);
             start = true;

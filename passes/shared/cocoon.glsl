@@ -1,6 +1,6 @@
-// The cocoon as an image of its own, small enough to stay in the caches. A sample holds 1 / distance along the face's
-// axis, which is linear over a face where the cocoon is a plane; samples lie on the borders of the faces, so that
-// neighbouring faces agree there, and plain bilinear filtering is continuous all around. 0: no end, all is sky.
+// The cocoon as a separate image that is small enough for the caches. A sample holds 1 / distance along the face's axis, which is linear on a
+// face where the cocoon is planar. Samples lie on the borders of the faces, so that neighbouring faces agree there and bilinear filtering is
+// continuous across them. 0: sky, no cocoon.
 #ifndef GLINT_COCOON
 #define GLINT_COCOON
 #include "shared/cubemap.glsl"
@@ -11,7 +11,7 @@ vec3 direction_of_sample(ivec2 texel, int face) {
     return direction_from_face(vec3(vec2(texel) / float(COCOON_SIZE - 1), face));
 }
 
-// |v| / distance of the cocoon in direction v: 1 on it, less inside, and growing with |v|.
+// |v| / distance of the cocoon in direction v: 1 on the cocoon, less inside, proportional to |v|.
 float cocoon_gauge(texture2DArray cocoon, vec3 v, uint place) {
     vec3 face = face_from_direction(v), a = abs(v);
     vec2 uv = (face.xy * float(COCOON_SIZE - 1) + 0.5) / float(COCOON_SIZE);
@@ -20,12 +20,10 @@ float cocoon_gauge(texture2DArray cocoon, vec3 v, uint place) {
     return major > 0.0 ? major * found : 0.0;
 }
 
-// Where the ray from_center + t · direction leaves the cocoon for the first time; < 0: never. A ray that
-// starts outside first enters the cocoon, unless it is inside for less than a step.
-//
-// Samples are even in w, t = reach · w/(1 - w): with reach = |from_center| their directions from the centre turn evenly,
-// and the last is the ray's own. Times 1 - w, the place along the ray is mix(from_center, reach · direction, w), so that
-// where the cocoon is a plane, gauge - 1 becomes linear in w, and the straight line between two samples meets it.
+// The t at which the ray from_center + t · direction first leaves the cocoon; < 0: never. A ray that starts outside first enters it, unless
+// it is inside for less than a step. Samples are evenly spaced in w with t = reach · w/(1 - w). With reach = |from_center| their directions from
+// the centre are at even angles, and the last one is the ray's own. Multiplied by 1 - w, the position is mix(from_center, reach · direction, w),
+// so that gauge - 1 is linear in w where the cocoon is planar, and the secant between two samples hits it exactly.
 float leaves_cocoon(texture2DArray cocoon, vec3 from_center, vec3 direction, uint place, int steps, int refinements) {
     float reach = max(length(from_center), 0.1), low = 0.0, high = 2.0, low_gap = 0.0, high_gap = 0.0;
     vec3 far = reach * direction;

@@ -1,11 +1,11 @@
-// Levels of cube maps: the box mean of the finer level, and its pre-filter. A single cube map is an array of one.
+// Levels of cube maps: the box mean of the finer level, and its pre-filter. A single cube map is an array with one element.
 #ifndef GLINT_CUBE_CHAIN
 #define GLINT_CUBE_CHAIN
 #include "shared/cubemap.glsl"
 #include "shared/levels.glsl"
 #include "shared/sampling.glsl"
 
-// The centre of a texel, and its cube map. `at` is a texel and its layer, 6 · cube + face.
+// The direction of a texel's centre, and its cube map. `at` is a texel and its layer, 6 · cube + face.
 vec4 texel_direction(ivec2 texel, int size, int layer) {
     return vec4(direction_from_face(vec3((vec2(texel) + 0.5) / float(size), layer % 6)), layer / 6);
 }

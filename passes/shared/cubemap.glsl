@@ -2,7 +2,7 @@
 #ifndef GLINT_CUBEMAP
 #define GLINT_CUBEMAP
 
-// xy: place on the face in [0, 1]² from its top left corner; z: face 0 … 5 for +X -X +Y -Y +Z -Z.
+// xy: position on the face in [0, 1]² from its top left corner; z: face 0 … 5 for +X -X +Y -Y +Z -Z.
 vec3 face_from_direction(vec3 d) {
     vec3 a = abs(d);
     bool z = a.z >= a.x && a.z >= a.y, y = !z && a.y >= a.x;
@@ -32,9 +32,9 @@ vec3 direction_from_face(vec3 face) {
     return vec3(-p.x, -p.y, -1.0);
 }
 
-// Width in radians that one texel spans across the direction d: 2/size at distance 1, seen from |d| / largest component.
+// The angle in radians of one texel across the direction d: a texel is 2/size wide at distance 1, seen from |d| / largest component.
 float texel_angle(vec3 d, float face_size) {
-    vec3 a = abs(d), v = d / max(a.x, max(a.y, a.z)); // the sum of squares of d itself may not fit a float
+    vec3 a = abs(d), v = d / max(a.x, max(a.y, a.z)); // the sum of squares of d may overflow
     return 2.0 / face_size * inversesqrt(dot(v, v));
 }
 #endif

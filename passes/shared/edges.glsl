@@ -1,6 +1,5 @@
-// Edges between the texels of a level, four of two bits in a byte: how much neighbours belong to one surface, in thirds.
-// Levels are those of downsample/mips: texel t stands for texels 2t and 2t + 1 of the finer level, and an odd last row or
-// column belongs to none.
+// Edges between the texels of a level, four in a byte with two bits each: how much neighbours belong to one surface, in thirds. Levels are
+// those of downsample/mips: texel t covers the texels 2t and 2t + 1 of the finer level, and an odd last row or column belongs to none.
 #ifndef GLINT_EDGES
 #define GLINT_EDGES
 
@@ -10,8 +9,8 @@ float open_side(uint edges, uint side) { return float(edges >> 2u * side & 3u) /
 
 uint packed_side(float open, uint side) { return uint(clamp(open, 0.0, 1.0) * 3.0 + 0.5) << 2u * side; }
 
-// How much each texel of a 2x2 block belongs to the surface of its texel `from`, both x + 2y; for a diagonal by the better of both paths.
-// edges: of the block, in that order.
+// How much each texel of a 2x2 block belongs to the surface of its texel `from`, both as x + 2y; diagonally by the better of both paths.
+// edges: of the block's texels, in that order.
 vec4 open_in_block(uvec4 edges, uint from) {
     vec2 across = vec2(open_side(edges.x, SIDE_RIGHT), open_side(edges.z, SIDE_RIGHT));
     vec2 down = vec2(open_side(edges.x, SIDE_DOWN), open_side(edges.y, SIDE_DOWN));

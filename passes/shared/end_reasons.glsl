@@ -1,4 +1,4 @@
-// The values of end_reasons.h. Its rows are the only list: the place in it is the value, counted by __LINE__.
+// The values of end_reasons.h, whose rows are the only list: a reason's value is the number of its line.
 #ifndef GLINT_END_REASONS
 #define GLINT_END_REASONS
 #define REASON(name, text) const uint END_##name = __LINE__ - 2;

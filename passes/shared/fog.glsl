@@ -4,13 +4,13 @@
 #include "shared/constants.glsl"
 #include "shared/stable.glsl"
 
-// Integral of density · exp(-height/scale) over a ray of length_m that starts `height` over the base and climbs `slope`
-// metres per metre; scale 0: the same density everywhere. Exponents stay below 80, where fog is opaque anyway.
+// The integral of density · exp(-height/scale) over a ray of length_m that starts at `height` above the base and rises by `slope` metres per
+// metre; scale 0: constant density. Exponents are limited to 80, where fog is opaque.
 float fog_optical_depth(float density, float height, float slope, float scale_m, float length_m) {
     if (density <= 0.0 || length_m <= 0.0) return 0.0;
     if (scale_m <= 0.0) return density * length_m;
     float start = exp(min(-height / scale_m, 80.0));
-    float climb = slope / scale_m; // the exponent falls by this in each metre
+    float climb = slope / scale_m; // the decrease of the exponent per metre
     if (length_m >= LARGEST) return climb > 0.0 ? density * start / climb : LARGEST;
     float fall = climb * length_m;
     if (abs(fall) < 1e-6) return density * start * length_m;

@@ -1,5 +1,5 @@
-// A neighbour's weight by its images. Next include of a pass that reads depth_half, normal_half and pick, has the rows of
-// reuse_rows.h and a constant `brdf`.
+// The weight of a neighbour from the images of its texel. Next include of a pass that reads depth_half, normal_half and pick, with the
+// rows of reuse_rows.h and a constant `brdf`.
 #include "shared/camera.glsl"
 #include "shared/reuse.glsl"
 
@@ -7,7 +7,7 @@ struct Surface {
     float depth_m;
     vec3 position; // in view space
     vec4 normal;   // world axes; w: roughness
-    bool shown;    // by the picture: what is not is nobody's neighbour
+    bool shown;    // visible; invisible reflections are not shared
 };
 
 Surface surface_at(ivec2 texel) {

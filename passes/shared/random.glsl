@@ -1,13 +1,13 @@
-// Random numbers from a hash: no state, the same bits on every device.
+// Random numbers from a hash: stateless, with identical bits on every device.
 #ifndef GLINT_RANDOM
 #define GLINT_RANDOM
 
-// What a number is used for; numbers of different dimensions are independent.
+// The use of a number; numbers of different dimensions are independent.
 const uint RANDOM_SCREEN_START = 1u;
 const uint RANDOM_STEP_SCALE = 2u;
-const uint RANDOM_NDF = 16u; // and those after it: one for each try
+const uint RANDOM_NDF = 16u; // and the following ones, one for each attempt
 
-// Four hashed words. M. Jarzynski, M. Olano, Hash Functions for GPU Rendering, JCGT 9(3), 2020: pcg4d.
+// Hashes four words. M. Jarzynski, M. Olano, Hash Functions for GPU Rendering, JCGT 9(3), 2020: pcg4d.
 uvec4 hash4(uvec4 v) {
     v = v * 1664525u + 1013904223u;
     for (int round = 0; round < 2; ++round) {
@@ -20,7 +20,7 @@ uvec4 hash4(uvec4 v) {
     return v;
 }
 
-// Uniform in the open interval (0, 1). The words stay integers up to here; 23 bits and a half are exact in a float.
+// Uniform in the open interval (0, 1). 23 bits and a half are exact in a float.
 vec4 random4(uvec2 pixel, uint frame_number, uint dimension) {
     return (vec4(hash4(uvec4(pixel, frame_number, dimension)) >> 9u) + 0.5) * 1.1920928955078125e-7;
 }

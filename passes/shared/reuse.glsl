@@ -4,9 +4,9 @@
 #include "shared/constants.glsl"
 #include "shared/stable.glsl"
 
-// How far the lobes of two surfaces agree (Mafia III talk, Neighbor sample reuse): the lobe's value cosⁿ at the other one's unjittered
-// normal, 1 for equal normals and 0 where roughness differs by more than `difference`. Both: unit normal, w: roughness.
-// n = 2/r⁴ - 2; 1 - cos is half the squared difference of the normals, which does not cancel.
+// The agreement of the lobes of two surfaces (Mafia III talk, Neighbor sample reuse): cosⁿ at the other surface's unjittered normal, which is 1 for
+// equal normals, and 0 if roughness differs by more than `difference`. Both: unit normal, w: roughness. n = 2/r⁴ - 2; 1 - cos is half the
+// squared difference of the normals, which does not cancel.
 float lobe_agreement(vec4 surface, vec4 other, float difference) {
     if (!(abs(surface.w - other.w) <= difference)) return 0.0;
     vec3 apart = surface.xyz - other.xyz;
@@ -17,7 +17,7 @@ float lobe_agreement(vec4 surface, vec4 other, float difference) {
     return exp(log1p(-away) * 2.0 * (1.0 - r4) / r4);
 }
 
-// The same of GGX: D(θ)/D(0) = (α²/(sin² θ + α² cos² θ))².
+// The same for GGX: D(θ)/D(0) = (α²/(sin² θ + α² cos² θ))².
 float ggx_agreement(vec4 surface, vec4 other, float difference) {
     if (!(abs(surface.w - other.w) <= difference)) return 0.0;
     vec3 apart = surface.xyz - other.xyz;
@@ -27,9 +27,9 @@ float ggx_agreement(vec4 surface, vec4 other, float difference) {
     return part * part;
 }
 
-// Whether a point lies in a surface's tangent plane, within a part of its depth. NaN and infinity do not.
+// Whether a point lies in a surface's tangent plane, within a fraction of its depth. False for NaN and infinity.
 bool in_plane(vec3 offset, vec3 normal, float depth_m, float part) { return abs(dot(offset, normal)) <= part * depth_m; }
 
-// 0 at `from`, 1 at `to`.
+// Rises from 0 at `from` to 1 at `to`.
 float fade(float x, float from, float to) { return to > from ? clamp((x - from) / (to - from), 0.0, 1.0) : float(x >= to); }
 #endif

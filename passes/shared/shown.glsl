@@ -5,7 +5,7 @@ bool is_shown(ivec2 pixel) {
     return frame.work.y != 0u || !(texelFetch(albedo_full, pixel, 0).a == 0.0 && texelFetch(specular_full, pixel, 0).x == 0.0);
 }
 
-// The same of the pixels of a 2x2 block, of which `block` is the first: bit x + 2y.
+// The same for the 2x2 block whose first pixel is `block`, as bits x + 2y.
 uint shown_in_block(ivec2 block) {
     vec2 between = vec2(block + 1) / vec2(frame.size.xy); // gather's order is (0,1) (1,1) (1,0) (0,0)
     vec4 metalness = textureGather(sampler2D(albedo_full, nearest_clamp), between, 3).wzxy;

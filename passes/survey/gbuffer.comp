@@ -23,7 +23,7 @@
 const int ALL_FIGURES = 512;
 const int FIGURES = whole ? ALL_FIGURES : 128; // words of a workgroup: plans only need the first lines of figures.h
 shared uint figures[ALL_FIGURES];
-// The bits of floats that are not negative are ordered like their values.
+// The bits of non-negative floats have the order of their values.
 const uint COUNTED = 0u, LOWEST = 1u, HIGHEST = 2u;
 uint kind_of(int figure) {
 #define COUNT(name, bins, meaning)
@@ -52,13 +52,13 @@ void bin(inout Row row, int figure, int number, int most) {
 // The figures of an invocation, accumulated over its pixels.
 struct Sums {
     Row by_surface_roughness, by_reflecting_roughness, by_metalness, by_weight;
-    uvec2 stencil; // an id, and how often it came in a row
+    uvec2 stencil; // an id, and its number of consecutive pixels
     uint sky, surfaces, reflecting, water, transparent, moved, moving;
     vec2 surface_roughness, reflecting_roughness, depth, light; // lowest, highest
     float transparent_roughest;
 };
-void widen(inout vec2 range, float value) { range = vec2(min(range.x, value), max(range.y, value)); }
-float held(float roughness) { return roughness > 0.0 ? min(roughness, 1.0) : 0.0; } // NaN is 0
+void extend(inout vec2 range, float value) { range = vec2(min(range.x, value), max(range.y, value)); }
+float clamped(float roughness) { return roughness > 0.0 ? min(roughness, 1.0) : 0.0; } // NaN is 0
 
 void add_stencil(inout uvec2 stencil) {
     for (uint left = stencil.y > 0u ? stencil.x : 0u; left != 0u; left &= left - 1u)
@@ -71,7 +71,7 @@ float weight_of(ivec2 pixel, float depth_m, vec4 surface, vec4 base, float specu
     vec3 view = view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
     float cosine = clamp(dot(-normalize(mat3(frame.world_from_view) * view), normalize(surface.xyz)), 0.0, 1.0);
     float rise = texelFetch(fresnel_full, min(pixel, textureSize(fresnel_full, 0) - 1), 0).x;
-    vec3 weight = environment_reflectance(reflectance_at_normal(base.rgb, base.a, specular), held(surface.w), cosine, rise);
+    vec3 weight = environment_reflectance(reflectance_at_normal(base.rgb, base.a, specular), clamped(surface.w), cosine, rise);
     return max(weight.r, max(weight.g, weight.b));
 }
 
@@ -89,10 +89,10 @@ vec2 moved_px(ivec2 pixel, float depth_m, vec2 moved) {
 
 // Figures that no plan depends on.
 void count_more(ivec2 pixel, float depth_m, vec4 surface, vec4 base, float specular, inout Sums sums) {
-    float roughness = held(surface.w);
-    widen(sums.depth, max(depth_m, 0.0));
+    float roughness = clamped(surface.w);
+    extend(sums.depth, max(depth_m, 0.0));
     bin(sums.by_surface_roughness, at_surface_roughness, int(roughness * 10.0), 9);
-    bin(sums.by_metalness, at_metalness, int(held(base.a) * 10.0), 9);
+    bin(sums.by_metalness, at_metalness, int(clamped(base.a) * 10.0), 9);
     vec2 motion = texelFetch(motion_full, min(pixel, textureSize(motion_full, 0) - 1), 0).xy;
     vec2 moved = moved_px(pixel, depth_m, motion);
     if (moved.x > 1.0 / 64.0) sums.moved++;
@@ -107,11 +107,11 @@ bool has_part(texture2D image) { return textureSize(image, 0) == ivec2(frame.siz
 
 void count_picture(ivec2 pixel, inout Sums sums) {
     float light = dot(texelFetch(lit, pixel, 0).rgb, vec3(0.2126, 0.7152, 0.0722));
-    if (light >= 0.0 && light < LARGEST) widen(sums.light, light);
+    if (light >= 0.0 && light < LARGEST) extend(sums.light, light);
     if (has_part(water_color) && texelFetch(water_color, pixel, 0).a > 0.0) sums.water++;
     if (has_part(transparent_color) && texelFetch(transparent_color, pixel, 0).a > 0.0) {
         sums.transparent++;
-        sums.transparent_roughest = max(sums.transparent_roughest, held(texelFetch(transparent_normal, pixel, 0).w));
+        sums.transparent_roughest = max(sums.transparent_roughest, clamped(texelFetch(transparent_normal, pixel, 0).w));
     }
     if (textureSize(stencil_full, 0) == ivec2(frame.size.xy)) {
         uint id = texelFetch(stencil_full, pixel, 0).x;
@@ -125,12 +125,12 @@ void count_pixel(ivec2 pixel, inout Sums sums) {
     float depth_m = texelFetch(depth_full, pixel, 0).x, specular = texelFetch(specular_full, pixel, 0).x;
     vec4 surface = texelFetch(normal_full, pixel, 0), base = texelFetch(albedo_full, pixel, 0);
     if (depth_m < INFINITE) {
-        float roughness = held(surface.w);
+        float roughness = clamped(surface.w);
         sums.surfaces++;
-        widen(sums.surface_roughness, roughness);
+        extend(sums.surface_roughness, roughness);
         if (!(base.a == 0.0 && specular == 0.0)) {
             sums.reflecting++;
-            widen(sums.reflecting_roughness, roughness);
+            extend(sums.reflecting_roughness, roughness);
         }
         if (whole) count_more(pixel, depth_m, surface, base, specular, sums);
     } else sums.sky++;

@@ -99,8 +99,7 @@ static bool step_key(struct run *run, struct step *step, struct glint_error *err
                         block_width(run->sizes, pass), run->gpu->info.filters_together, err))
         return false;
     uint64_t key = mix_number(step->spirv.hash, run->options->float_precision);
-    /* The first constants switch diagnostics and probes on, which changes nothing else; what a user's shader makes of them is
-       not known. */
+    /* The first constants switch diagnostics and probes on, which changes nothing else; what a user's shader makes of them is not known. */
     const uint32_t skipped = step->pass->entry->shader ? 0 : 2;
     key = mix_bytes(key, step->constants.data + skipped, (step->constants.count - skipped) * sizeof(uint32_t));
     key = mix_bytes(key, step->constants.push, step->constants.push_count * sizeof(uint32_t));

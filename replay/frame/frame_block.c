@@ -42,8 +42,7 @@ struct projection {
     double a, b, c, d, front;
 };
 
-/* In front of the camera clip w = front · view z is positive, so depth = front · view z and
-   NDC x = a · view.x / depth + c · front. */
+/* In front of the camera clip w = front · view z is positive, so depth = front · view z and NDC x = a · view.x / depth + c · front. */
 static struct projection projection_of(const struct glint_camera *camera) {
     const double *p = camera->view_to_clip;
     double front = p[14] < 0 ? -1 : 1;

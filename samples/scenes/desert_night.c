@@ -1,5 +1,5 @@
-/* desert_night: dunes under the moon, with a mirror that somebody left in the sand. Nothing else reflects. The night is a painted
-   dome, as engines have them, so that no ray and no cube map ever comes to the sky. */
+/* desert_night: dunes in moonlight, with a mirror in the sand as the only reflecting object. The night sky is a textured dome, as in
+   engines, so that no ray and no cube map ever reaches the sky. */
 #include "../noise.h"
 #include "../scenes.h"
 
@@ -20,7 +20,7 @@ static void paint_night(struct surface *s) {
     float up = fmaxf(d.y, 0), band = fractal2(4 * d.x + 3, 4 * d.z + 3 * d.y, 4, 8);
     s->emission = mix(v3(0.035f, 0.045f, 0.085f), v3(0.006f, 0.009f, 0.022f), powf(up, 0.4f));
     s->emission = along(s->emission, v3(0.03f, 0.032f, 0.05f), smooth(0.5f, 0.8f, band) * up);
-    vec3 flat = scale(v3(d.x, 0, d.z), 280 / (1 + up)); /* stereographic: cells keep their shape */
+    vec3 flat = scale(v3(d.x, 0, d.z), 280 / (1 + up)); /* stereographic projection, which keeps the shape of cells */
     float star = cell_random((int32_t)floorf(flat.x), (int32_t)floorf(flat.z), 11);
     if (star > 0.994f && d.y > 0) s->emission = along(s->emission, gray(1), 0.3f * (star - 0.994f) / 0.006f);
 }

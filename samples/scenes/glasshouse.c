@@ -1,5 +1,5 @@
-/* glasshouse: a hall of glass on a terrace by day, with beds and tables inside. Its panes are the only thing that reflects
-   much, before and behind what they reflect. */
+/* glasshouse: a glass hall on a terrace by day, with beds and tables inside. Its panes are the only strong reflectors, in front of and
+   behind what they reflect. */
 #include "../noise.h"
 #include "../scenes.h"
 
@@ -74,7 +74,7 @@ void build_glasshouse(struct scene *scene) {
         scene_mesh(scene, i % 2 ? &leaves : &blossom, MESH_PLAIN);
         scene_sphere(scene, v3(x + 0.7f, 1.05f, -5.6f), 0.55f, 24);
     }
-    for (int i = 0; i < 4; i++) { /* what stands before the panes and is seen in them */
+    for (int i = 0; i < 4; i++) { /* objects in front of the panes that they reflect */
         float x = -5 + 3.1f * (float)i;
         box(scene, &brick, v3(x, 0, -1.4f), v3(x + 0.6f, 0.5f, -0.8f));
         scene_mesh(scene, i % 2 ? &blossom : &leaves, MESH_PLAIN);

@@ -1,7 +1,7 @@
-/* hotel: a lobby of double height with a gallery, the cellar under it, and the street before it at night; 22 cube maps.
-   Ten on the player's floor are nearer than those of the street, which door and windows show: an outdoor one has to be
-   forced. Those of the cellar, behind the floor, are nearer than those of the lobby unless distance along up counts
-   more. The house is -8 ≤ x ≤ 8, -14 ≤ z ≤ 0; the gallery lies at 3.6 m over z < -7.5. */
+/* hotel: a lobby of double height with a gallery, the cellar below and the street in front of it at night; 22 cube maps. Ten of the
+   player's floor are nearer than those of the street, which is visible through door and windows, so an outdoor cube map has to be
+   forced. Those of the cellar, behind the floor, are nearer than those of the lobby unless vertical distance has more weight. The house
+   is -8 ≤ x ≤ 8, -14 ≤ z ≤ 0; the gallery is at a height of 3.6 m over z < -7.5. */
 #include "../noise.h"
 #include "../props.h"
 #include "../scenes.h"
@@ -194,7 +194,7 @@ static void lights(struct scene *scene) {
         }
         scene_lamp(scene, add(at, v3(0, -0.1f, 0)), v3(17, 12, 6.8f), 14, 0.95f);
     }
-    for (int i = 0; i < 8; i++) { /* under the gallery, and over it */
+    for (int i = 0; i < 8; i++) { /* below the gallery, and above it */
         vec3 at = v3(-6 + 4 * (float)(i % 4), i < 4 ? UPPER - 0.45f : TOP - 0.15f, -10.8f);
         scene_mesh(scene, &glow, MESH_PLAIN);
         scene_sphere(scene, at, 0.11f, 14);
@@ -232,7 +232,7 @@ static void furniture(struct scene *scene) {
     scene_place(scene, gray(0), 0);
 }
 
-static void outside(struct scene *scene) {
+static void add_street(struct scene *scene) {
     const struct material road = {
         .albedo = gray(0.05f), .roughness = 0.4f, .specular = 0.45f, .stencil = STENCIL_WORLD, .paint = paint_road};
     const struct material pavement = {
@@ -297,7 +297,7 @@ void build_hotel(struct scene *scene) {
     gallery(scene);
     lights(scene);
     furniture(scene);
-    outside(scene);
+    add_street(scene);
     probes(scene);
     scene->eye = v3(-1.2f, 1.75f, -9.6f);
     scene->target = v3(0.5f, 0.8f, 0);

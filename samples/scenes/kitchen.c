@@ -1,14 +1,14 @@
-/* kitchen: two rooms of a house by day, dim inside and bright outside. The mirror on the back wall shows, beside each other, the window's
-   reveal with the sky in it and the open door, behind which the second room has a window of its own. The kitchen is
-   0 ≤ x ≤ 5, -4.5 ≤ z ≤ 0, its window looks along +X; the second room is 1.2 ≤ x ≤ 6.2, 0.25 ≤ z ≤ 4.75, its window looks along
-   +Z. One cube map or two a room and one outdoors, as an artist would place them. */
+/* kitchen: two rooms of a house by day, dim inside and bright outside. The mirror on the back wall shows side by side the reveal of the
+   window with the sky in it and the open door to the second room, which has its own window. The kitchen is 0 ≤ x ≤ 5, -4.5 ≤ z ≤ 0,
+   with a window towards +X; the second room is 1.2 ≤ x ≤ 6.2, 0.25 ≤ z ≤ 4.75, with a window towards +Z. Each room has one or two cube
+   maps and there is one outdoors, as an artist would place them. */
 #include "../noise.h"
 #include "../props.h"
 #include "../scenes.h"
 
 #define HIGH 2.7f
 #define GAP 0.003f
-#define BACK (-4.5f + GAP) /* of what stands before the back wall */
+#define BACK (-4.5f + GAP) /* of objects in front of the back wall */
 
 static vec3 sky(vec3 d) {
     float up = d.y > 0 ? d.y : 0, plane = 1 / (up + 0.1f);
@@ -34,7 +34,7 @@ static void paint_wood(struct surface *s) {
     s->albedo = mix(v3(0.22f, 0.12f, 0.06f), v3(0.40f, 0.25f, 0.13f), ring);
 }
 
-/* A worktop of dark granite, polished unevenly. */
+/* A worktop of dark, unevenly polished granite. */
 static void paint_granite(struct surface *s) {
     float speck = noise2(70 * s->position.x, 70 * (s->position.z + s->position.y), 5);
     float worn = fractal2(1.3f * s->position.x, 1.3f * s->position.z, 3, 6);
@@ -101,8 +101,8 @@ static void box(struct scene *scene, const struct material *material, uint32_t f
     scene_box(scene, low, high);
 }
 
-/* The inside of a wall with one opening: along +X from 0, facing -Z. */
-static void skin(struct scene *scene, float length_m, const struct opening *o) {
+/* The inner side of a wall with one opening: along +X from 0, facing -Z. */
+static void inner_wall(struct scene *scene, float length_m, const struct opening *o) {
     const float pieces[][4] = {{0, o->from, 0, HIGH},
                                {o->to, length_m, 0, HIGH},
                                {o->from, o->to, 0, o->low},
@@ -113,8 +113,8 @@ static void skin(struct scene *scene, float length_m, const struct opening *o) {
     }
 }
 
-/* Rooms are skins, with solid walls, roof and base a gap behind them: what lies on the edge of two skins is baked with the light of
-   the room, where it would look into a wall that is lit from outside. */
+/* Rooms are inner walls with solid outer walls, roof and base at a gap behind them, because vertices on the edge of two inner walls
+   would be baked inside of a wall that is lit from outside. */
 static void shell(struct scene *scene) {
     static const struct opening door = {3.0f, 3.95f, 0, 2.1f}, door_behind = {2.25f, 3.2f, 0, 2.1f},
                                 window = {1.2f, 3.5f, 1.0f, 2.35f}, far_window = {2.5f, 4.4f, 0.75f, 2.25f};
@@ -132,13 +132,13 @@ static void shell(struct scene *scene) {
     scene_mesh(scene, &plaster, MESH_PLAIN);
     scene_room(scene, low, high, FACE_NX | FACE_NZ);
     scene_room(scene, low2, high2, FACE_NX | FACE_PX);
-    skin(scene, 5, &door);
+    inner_wall(scene, 5, &door);
     scene_place(scene, v3(5, 0, 0), 0.5f * PI_F);
-    skin(scene, 4.5f, &window);
+    inner_wall(scene, 4.5f, &window);
     scene_place(scene, v3(6.2f, 0, 0.25f), PI_F);
-    skin(scene, 5, &door_behind);
+    inner_wall(scene, 5, &door_behind);
     scene_place(scene, v3(1.2f, 0, 4.75f), 0);
-    skin(scene, 5, &far_window);
+    inner_wall(scene, 5, &far_window);
     scene_mesh(scene, &plaster, MESH_PLAIN);
     scene_place(scene, v3(-0.3f, 0, GAP), 0);
     prop_wall(scene, 6.8f, HIGH, 0.25f - 2 * GAP, &door_core, 1);
@@ -195,7 +195,7 @@ static void chair(struct scene *scene, vec3 at, float turn_rad) {
     scene_place(scene, gray(0), 0);
 }
 
-/* It hangs from the ceiling, and is on by day. */
+/* A pendant lamp, which is on by day. */
 static void lamp(struct scene *scene, vec3 at, vec3 light) {
     const struct material shade = {
         .albedo = gray(0.5f), .emission = light, .roughness = 0.8f, .specular = 0.2f, .stencil = STENCIL_WORLD};
@@ -238,7 +238,7 @@ static void second_room(struct scene *scene) {
     lamp(scene, v3(3.7f, 2.05f, 2.5f), v3(0.9f, 0.72f, 0.45f));
 }
 
-static void outside(struct scene *scene) {
+static void add_garden(struct scene *scene) {
     const struct material gravel = {
         .albedo = {0.24f, 0.22f, 0.19f}, .roughness = 1, .specular = 0.2f, .stencil = STENCIL_WORLD};
     const struct material lawn = {.albedo = {0.12f, 0.17f, 0.06f},
@@ -283,7 +283,7 @@ static void probes(struct scene *scene) {
 
 void build_kitchen(struct scene *scene) {
     scene->sky = sky;
-    scene->sun_direction = unit(v3(-0.55f, 0.72f, -0.42f)); /* onto the fronts across, not into the windows */
+    scene->sun_direction = unit(v3(-0.55f, 0.72f, -0.42f)); /* onto the opposite fronts, not into the windows */
     scene->sun_irradiance = v3(11, 10, 8.6f);
     scene->light_samples = 192;
     scene->bounces = 3;
@@ -292,7 +292,7 @@ void build_kitchen(struct scene *scene) {
     worktops(scene);
     table(scene);
     second_room(scene);
-    outside(scene);
+    add_garden(scene);
     probes(scene);
     scene->eye = v3(0.85f, 1.55f, -0.6f);
     scene->target = v3(2.95f, 1.2f, -4.3f);

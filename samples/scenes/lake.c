@@ -1,5 +1,5 @@
-/* lake: still water between hills in the evening, with a jetty, a boathouse and firs on the far shore. The water ripples; its
-   bottom falls off to 3 m. Little else reflects: wet stones, a tin roof, buoys. */
+/* lake: calm water between hills in the evening, with a jetty, a boathouse and firs on the far shore. The water has ripples, and its
+   bottom descends to 3 m. Little else reflects: wet stones, a tin roof, buoys. */
 #include "../noise.h"
 #include "../scenes.h"
 
@@ -13,7 +13,7 @@ static vec3 sky(vec3 d) {
     return d.y < 0 ? mix(color, v3(0.14f, 0.16f, 0.12f), smooth(0, 0.03f, -d.y)) : color;
 }
 
-/* The water's level is 0. */
+/* The height of the ground; the water is at 0. */
 static float ground(float x, float z) {
     float wx = x / 24, wz = (z + 25) / 21,
           r = sqrtf(wx * wx + wz * wz) + 0.18f * (fractal2(0.11f * x, 0.11f * z, 3, 7) - 0.5f);
@@ -56,7 +56,8 @@ static void firs(struct scene *scene) {
     for (int i = 0; i < 130; i++) {
         float turn = 2 * PI_F * cell_random(i, 0, 5), out = 1.12f + 0.75f * cell_random(i, 1, 5);
         float x = 24 * out * cosf(turn), z = -25 + 21 * out * sinf(turn);
-        if (z > -8 || (x > 9 && x < 21 && z > -46 && z < -36)) continue; /* not before the camera, nor on the house */
+        if (z > -8 || (x > 9 && x < 21 && z > -46 && z < -36))
+            continue; /* not in front of the camera, nor on the house */
         fir(scene, x, z, 4 + 5 * cell_random(i, 2, 5));
     }
 }

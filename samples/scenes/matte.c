@@ -1,5 +1,4 @@
-/* matte: painted blocks in the sun. No surface has specular or metal, so that nothing reflects and every pass is
-   wasted. */
+/* matte: painted blocks in the sun. No surface has specular or metalness, so that nothing reflects and no pass is needed. */
 #include "../scenes.h"
 
 static vec3 sky(vec3 d) {

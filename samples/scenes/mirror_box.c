@@ -1,6 +1,5 @@
-/* mirror_box: the closed box 0 ≤ x ≤ 8, 0 ≤ y ≤ 4, 0 ≤ z ≤ 6 m. The floor y = 0 is a perfect mirror (black in diffuse
-   light); walls and ceiling emit a smooth pattern of the position, so that both where a ray ends and what it brings
-   have closed forms. Nothing else is lit. */
+/* mirror_box: the closed box 0 ≤ x ≤ 8, 0 ≤ y ≤ 4, 0 ≤ z ≤ 6 m. The floor y = 0 is a perfect mirror without diffuse light. Walls and
+   ceiling emit a smooth function of the position, so that hit points and reflected radiance have closed forms. There is no other light. */
 #include "../scenes.h"
 
 static void paint_wall(struct surface *s) {
@@ -19,7 +18,7 @@ void build_mirror_box(struct scene *scene) {
     const struct material mirror = {
         .albedo = {0.95f, 0.95f, 0.95f}, .roughness = 0, .metalness = 1, .specular = 1, .stencil = STENCIL_WORLD};
     scene->unlit = true;
-    scene->cell = 8; /* nothing is baked, so that two triangles a side do */
+    scene->cell = 8; /* there is no baked light, so two triangles per side suffice */
     scene_mesh(scene, &wall, MESH_PLAIN);
     scene_room(scene, low, high, FACE_ALL & ~(uint32_t)FACE_NY);
     scene_mesh(scene, &mirror, MESH_PLAIN);

@@ -1,13 +1,13 @@
-/* plaza: an open square after sunset, its stone paving wet. The glow over the horizon is 20 to 100 times as bright as the ground and the
-   fronts, and what stands before it is a dark silhouette: a colonnade, a statue, trees, poles, benches, a parked car. The
-   camera looks along -Z into the glow, over ground of every roughness from 0.03 (puddles) to 0.6 at grazing angles. */
+/* plaza: an open square with wet stone paving after sunset. The glow at the horizon is 20 to 100 times as bright as the ground and the
+   facades, and objects in front of it are dark silhouettes: a colonnade, a statue, trees, poles, benches, a parked car. The camera
+   looks along -Z into the glow, at grazing angles over ground with roughness from 0.03 (puddles) to 0.6. */
 #include "../noise.h"
 #include "../props.h"
 #include "../scenes.h"
 
 static vec3 sky(vec3 d) {
     float up = d.y > 0 ? d.y : 0;
-    float off = 1 - dot(d, unit(v3(0.22f, 0.03f, -1))); /* from where the sun went down */
+    float off = 1 - dot(d, unit(v3(0.22f, 0.03f, -1))); /* from the direction of the sunset */
     vec3 color = mix(v3(0.30f, 0.34f, 0.48f), v3(0.16f, 0.22f, 0.42f), smooth(0, 0.7f, up));
     color = along(color, v3(0.85f, 0.55f, 0.45f), expf(-up / 0.16f));
     color = along(color, v3(4.6f, 2.5f, 1.3f), expf(-off / 0.12f));
@@ -18,7 +18,7 @@ static vec3 sky(vec3 d) {
     return d.y < 0 ? mix(color, v3(0.06f, 0.06f, 0.065f), smooth(0, 0.03f, -d.y)) : color;
 }
 
-/* Water stands in hollows, and around them stone dries gradually. */
+/* Water collects in hollows, around which the stone dries gradually. */
 static void paint_paving(struct surface *s) {
     float x = s->position.x, z = s->position.z, tx = x / 1.2f, tz = z / 0.8f;
     float row = floorf(tz), shifted = tx + 0.5f * (row - 2 * floorf(row / 2));
@@ -91,7 +91,7 @@ static void ground(struct scene *scene) {
     scene_quad(scene, v3(-90, 0, 10), v3(0, 0, 60), v3(180, 0, 0));
 }
 
-/* Fronts on all sides but where the sun went down. */
+/* Facades on all sides except towards the sunset. */
 static void fronts(struct scene *scene) {
     static const float blocks[][5] = {
         {-48, -26, -40, 4, 15},   {-50, -30, -66, -43, 11}, {-46, -14, -84, -62, 13}, {-13, -4, -92, -74, 8},

@@ -1,5 +1,5 @@
-/* rain_street: a lane under a grey sky in the rain. Everything is wet and rough: film on cobbles, plaster, roofs; no puddle is still and no
-   glass is clear, so that nothing is a mirror. */
+/* rain_street: an alley under an overcast sky in the rain. Everything is wet and rough: films on cobbles, plaster and roofs; puddles
+   ripple and glass is dirty, so that there is no mirror. */
 #include "../noise.h"
 #include "../scenes.h"
 

@@ -1,12 +1,12 @@
-/* room: a corridor that opens into a room with a row of windows. Polished tiles, a metal column, stairs, flower pots:
-   cube maps here see each other's places through openings only. The room is 0 ≤ x ≤ 8, -10 ≤ z ≤ 0, the corridor
-   3 ≤ x ≤ 5.2, 0 ≤ z ≤ 10; the windows look along +X into a garden. */
+/* room: a corridor that opens into a room with a row of windows. Polished tiles, a metal column, stairs, flower pots. Cube maps see
+   each other's surroundings only through openings. The room is 0 ≤ x ≤ 8, -10 ≤ z ≤ 0, the corridor 3 ≤ x ≤ 5.2, 0 ≤ z ≤ 10; the
+   windows face a garden towards +X. */
 #include "../noise.h"
 #include "../props.h"
 #include "../scenes.h"
 
 #define HIGH 3.4f
-#define LOW 2.7f /* of the corridor */
+#define LOW 2.7f /* height of the corridor */
 
 static vec3 sky(vec3 d) {
     float up = d.y > 0 ? d.y : 0, plane = 1 / (up + 0.1f);
@@ -28,7 +28,7 @@ static void paint_tiles(struct surface *s) {
     float line = smooth(0.004f, 0.012f, joint);
     s->albedo = mix(v3(0.22f, 0.2f, 0.18f), scale(stone, 0.92f + 0.16f * own), line);
     s->roughness = 0.5f + (0.03f + 0.09f * own * own - 0.5f) * line;
-    /* no tile lies quite level */
+    /* tiles are tilted slightly */
     vec3 tilt = v3(unit_float(hash_two((uint32_t)(int32_t)fx, 3)) - 0.5f, 0,
                    unit_float(hash_two((uint32_t)(int32_t)fz, 4)) - 0.5f);
     s->normal = unit(along(s->normal, tilt, 0.004f));

@@ -1,4 +1,4 @@
-/* still_life: fruit, a jug and a candlestick on a polished table, in the light of a window. Neither they nor the camera move. */
+/* still_life: fruit, a jug and a candlestick on a polished table in the light of a window. Objects and camera are static. */
 #include "../noise.h"
 #include "../scenes.h"
 
@@ -60,7 +60,7 @@ void build_still_life(struct scene *scene) {
     scene_box(scene, v3(-0.8f, 0.70f, -0.5f), v3(0.8f, 0.75f, 0.5f));
     things(scene);
     scene->cell = 0.4f;
-    coated(scene, coat(v3(0.62f, 0.58f, 0.5f), 0.85f, 0, 0)); /* chalk walls, with a window to the left */
+    coated(scene, coat(v3(0.62f, 0.58f, 0.5f), 0.85f, 0, 0)); /* chalk walls, with a window on the left */
     scene_room(scene, v3(-2.2f, 0, -1.6f), v3(2.2f, 2.6f, 2.4f), FACE_ALL & ~(uint32_t)FACE_NX);
     scene_box(scene, v3(-2.3f, 0, -1.6f), v3(-2.2f, 0.8f, 2.4f));
     scene_box(scene, v3(-2.3f, 2.2f, -1.6f), v3(-2.2f, 2.6f, 2.4f));

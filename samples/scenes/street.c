@@ -1,6 +1,6 @@
-/* street: a wet road at dusk. Puddles of varying roughness, lit windows, thin rails and poles, shrubs that fade by stipple, a car that drives away
-   and that no cube map holds, open sky at the end of the street. The street runs along -Z between house fronts at
-   x = ±7. Windows lie on a grid of 2.5 m by 3.2 m, so that paints find them from the position alone. */
+/* street: a wet road at dusk. Puddles of varying roughness, lit windows, thin rails and poles, shrubs that fade by stippling, a car
+   that drives away and is in no cube map, open sky at the end of the street. The street runs along -Z between house fronts at x = ±7.
+   Windows are on a grid of 2.5 m by 3.2 m, so that paints find them from the position alone. */
 #include "../noise.h"
 #include "../props.h"
 #include "../scenes.h"
@@ -25,7 +25,7 @@ static vec3 sky(vec3 d) {
     return d.y < 0 ? mix(color, v3(0.05f, 0.045f, 0.05f), smooth(0, 0.03f, -d.y)) : color;
 }
 
-/* Normal of a rough ground, flat where neighbouring pixels are farther apart than its grain. */
+/* The normal of rough ground; flat where pixels are farther apart than its grain. */
 static vec3 grain(const struct surface *s, float grain_m, float strength) {
     float kept = strength * (1 - smooth(0.4f, 2, s->footprint / grain_m));
     float x = s->position.x / grain_m, z = s->position.z / grain_m;
@@ -34,7 +34,7 @@ static vec3 grain(const struct surface *s, float grain_m, float strength) {
     return unit(along(s->normal, v3(nx, 0, nz), kept));
 }
 
-/* A gutter of wet setts, each a little dome: normals that turn from pixel to pixel. */
+/* A gutter of wet, domed setts, whose normals vary from pixel to pixel. */
 static void paint_setts(struct surface *s) {
     float x = s->position.x / 0.16f, z = s->position.z / 0.2f, row = floorf(x);
     z += 0.5f * (row - 2 * floorf(row / 2));
@@ -49,7 +49,7 @@ static void paint_setts(struct surface *s) {
 static void paint_road(struct surface *s) {
     float x = s->position.x, z = s->position.z;
     float worn = fractal2(1.7f * x, 1.7f * z, 3, 11), deep = fractal2(0.23f * x + 5, 0.17f * z, 4, 21);
-    /* wheels have pressed tracks into the asphalt, where water stays longer */
+    /* water stays longer in the wheel tracks */
     float track = expf(-4 * (fabsf(x) - 2) * (fabsf(x) - 2)), puddle = smooth(0.50f, 0.55f, deep + 0.035f * track);
     float shade = 0.040f + 0.035f * worn;
     s->albedo = v3(shade, shade, 1.04f * shade);
@@ -83,7 +83,7 @@ static void paint_wall(struct surface *s) {
     s->albedo = scale(s->albedo, (0.86f + 0.2f * brick) * (0.7f + 0.55f * stain));
 }
 
-/* Position within a window's cell, both in [0, 1). */
+/* The position within the cell of a window, both in [0, 1). */
 static void in_cell(const struct surface *s, float *u, float *v, uint32_t *id) {
     float z = s->position.z / GRID_Z, y = (s->position.y - SHOP) / FLOOR;
     *u = z - floorf(z);
@@ -119,7 +119,7 @@ static void paint_shop(struct surface *s) {
         s->roughness = 0.35f;
         return;
     }
-    /* goods of different heights on three boards, under a bright ceiling */
+    /* goods of different heights on three shelves under a bright ceiling */
     float board = y < 2.3f ? (y - 0.62f) / 0.56f : 0, above = board - floorf(board);
     float height = cell_random((int32_t)floorf(4.5f * z), (int32_t)floorf(board), id & 63);
     bool goods = y < 2.3f && above < 0.25f + 0.55f * height && above > 0.06f;
@@ -130,7 +130,7 @@ static void paint_shop(struct surface *s) {
     s->emission = times(scale(s->emission, ceiling * (above < 0.06f && y < 2.3f ? 0.25f : 1)), tint);
 }
 
-/* Letters of no language: a bit pattern in each cell of the board. */
+/* Random letters: a bit pattern in each cell of the sign. */
 static void paint_sign(struct surface *s) {
     float u = s->position.z / 0.42f, v = (s->position.y - 3.46f) / 0.22f, fu = u - floorf(u);
     uint32_t glyph = hash_two((uint32_t)(int32_t)floorf(u), s->position.x > 0);
@@ -156,10 +156,10 @@ static struct material pane(vec3 emission, void (*paint)(struct surface *)) {
 struct house {
     float side; /* -1 left, 1 right */
     int first, cells, floors;
-    vec3 wall, shop, sign; /* shop: light of its windows, 0 closed */
+    vec3 wall, shop, sign; /* shop: light of its windows, 0 if closed */
 };
 
-/* A rectangle on the front, facing the street, `out` metres before it. */
+/* A rectangle parallel to the facade, facing the street, `out` metres in front of it. */
 static void front_quad(struct scene *scene, float side, float out, float z0, float z1, float y0, float y1) {
     float x = side * (FRONT - out);
     if (side < 0) scene_quad(scene, v3(x, y0, z0), v3(0, y1 - y0, 0), v3(0, 0, z1 - z0));
@@ -338,7 +338,7 @@ static void probes(struct scene *scene) {
     for (int i = 0; i < 8; i++) {
         vec3 c = v3(centers[i][0], centers[i][1], centers[i][2]);
         struct glint_cubemap *map = scene_cubemap(scene, c, true);
-        if (i == 1) { /* a ball of clear air */
+        if (i == 1) { /* a sphere of free space */
             map->inner = GLINT_VOLUME_SPHERE;
             map->sphere_center[1] = 0.6;
             map->sphere_radius = 2.4;

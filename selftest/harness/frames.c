@@ -7,7 +7,7 @@
 
 #include "oracles/noise.h"
 
-/* ---- What is in a frame ---- */
+/* ---- Contents of a frame ---- */
 
 static void camera_at(struct glint_camera *camera, const double place[3], double turn) {
     const double c = cos(turn), s = sin(turn), near = 0.125, far = 1024;

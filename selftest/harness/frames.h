@@ -1,4 +1,4 @@
-/* Runs frames of a tiny picture through the passes that use history. */
+/* Runs frames of a tiny image through the passes that use history. */
 #ifndef GLINT_SELFTEST_FRAMES_H
 #define GLINT_SELFTEST_FRAMES_H
 
@@ -16,51 +16,51 @@ struct planes {
     const struct glint_cubemap *cubemap; /* of a cubemap.NNN, else NULL */
 };
 
-/* One frame: full resolution is the pipeline's, so that a pixel is a texel. */
+/* A frame; the pipeline runs at full resolution, so that pixels and texels are the same. */
 struct frame {
     struct glint_frame info;
     float depth[FRAME_PIXELS], normal[3][FRAME_PIXELS], roughness[FRAME_PIXELS], motion[2][FRAME_PIXELS];
     float color[4][FRAME_PIXELS];  /* contents of reflection_half and of reflection */
     float travelled[FRAME_PIXELS]; /* hit distances of the rays */
-    const struct planes *more;     /* further parts */
+    const struct planes *more;     /* additional parts */
     size_t more_count;
-    bool bare; /* without images of passes: they are among `more` */
+    bool bare; /* without images of passes, which are among `more` */
 };
 
-/* Where the wall of frame_ordinary() is, and how wide its pixels are there: powers of two, so that a move by a pixel is exact. */
+/* The depth of the wall in frame_ordinary(), and the width of pixels there: powers of two, so that a shift by a pixel is exact. */
 static const double frame_wall_m = 4, frame_pixel_m = 0.125;
 
-/* The camera at the origin looks along -z at a wall, 90 degrees wide, and stands still; the wall is rough, and its colours
-   are noise, evenly distributed in [0, 2), independent from pixel to pixel, channel to channel and frame to frame. */
+/* A static camera at the origin looks along -z at a wall with a field of view of 90 degrees. The wall is rough, and its colours are
+   noise, uniform in [0, 2) and independent for each pixel, channel and frame. */
 void frame_ordinary(struct frame *frame, uint32_t number);
-/* Cameras that look along -z from a place, turned to the left by an angle. */
+/* Sets cameras that look along -z from a position, rotated to the left by an angle. */
 void frame_cameras(struct frame *frame, const double now[3], const double before[3], double turn, double turn_before);
-/* In its view: x right, y up, z backwards. world: relative to the origin. */
+/* Transforms to view space: x right, y up, z backwards. world: relative to the origin. */
 void frame_to_view(const struct glint_camera *camera, const double world[3], double view[3]);
-/* Where a pixel's centre, moved by `shift` pixels, is at a depth. */
+/* The position of a pixel's centre, shifted by pixels, at a depth. */
 void frame_position(const struct frame *frame, double x, double y, double depth_m, double world[3]);
 
 struct frames {
     const struct case_context *context;
-    struct glint_replay *replay; /* one for all pipelines: programs that they share are made once */
+    struct glint_replay *replay; /* shared by all pipelines, so that common programs are compiled once */
     struct glint_pipeline *pipeline;
     struct glint_capture *capture;
     const char *const *passes; /* slots, NULL-terminated */
-    bool half;                 /* images as passes declare them, not as floats */
-    bool planned;              /* passes that have nothing to do are dropped */
+    bool half;                 /* images in their declared formats, not floats */
+    bool planned;              /* passes without work are dropped */
 };
 
 bool frames_begin(struct frames *frames, const struct case_context *context, struct glint_error *err);
 void frames_end(struct frames *frames);
-/* Another pipeline. settings: "slot=variant" or "slot.parameter=value", NULL-terminated. */
+/* Creates another pipeline. settings: "slot=variant" or "slot.parameter=value", NULL-terminated. */
 bool frames_pipeline(struct frames *frames, const char *const *passes, const char *const *settings,
                      struct glint_error *err);
-/* The pass of a slot becomes this shader. */
+/* Replaces the pass of a slot by this shader. */
 bool frames_shader(struct frames *frames, const char *slot, const char *text, struct glint_error *err);
 bool frames_run(struct frames *frames, const struct frame *frame, struct glint_error *err);
-/* The same of a capture that is there already. */
+/* The same for an existing capture. */
 bool frames_run_capture(struct frames *frames, const char *path, struct glint_error *err);
-/* FRAME_PIXELS times the image's components, where it has the size of a frame. */
+/* Reads FRAME_PIXELS times the image's components; the image must have the size of a frame. */
 bool frames_read(struct frames *frames, const char *image, float *out, struct glint_error *err);
 
 #endif

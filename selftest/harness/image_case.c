@@ -10,7 +10,7 @@
 void image_compare(struct glint_selftest_finding *finding, double found, double expected, double otherwise,
                    const char *format, ...) {
     double error = fmin(fabs(found - expected), fabs(found - otherwise));
-    if (found == expected || found == otherwise) error = 0; /* infinite ones, too */
+    if (found == expected || found == otherwise) error = 0; /* also if both are infinite */
     finding->ties += otherwise != expected;
     char place[200] = "";
     if (!(error <= finding->worst)) {

@@ -1,5 +1,5 @@
-/* Cases of functions that read images or work as a workgroup: a pass, or a stand-in for one, is run, and what it stores is
-   compared texel by texel. They are the second half of the group "functions". */
+/* Cases of functions that read images or work as a workgroup: a pass, or a shader that replaces one, runs, and its result is compared
+   texel by texel. They are the second part of the group "functions". */
 #ifndef GLINT_SELFTEST_IMAGE_CASE_H
 #define GLINT_SELFTEST_IMAGE_CASE_H
 
@@ -9,7 +9,7 @@ struct image_case {
     struct glint_selftest_case about;
     bool (*check)(struct frames *frames, const struct image_case *which, struct glint_selftest_finding *finding,
                   struct glint_error *err);
-    const char *glsl; /* what a stand-in evaluates; NULL: a pass as it is */
+    const char *glsl; /* the body of the replacing shader; NULL: the pass itself */
     const void *with; /* for `check` */
 };
 
@@ -18,7 +18,7 @@ struct image_list {
     size_t count;
 };
 
-/* found and expected may be either of two where a decision is a tie. */
+/* At a tie the result may be either of two values. */
 void image_compare(struct glint_selftest_finding *finding, double found, double expected, double otherwise,
                    const char *format, ...)
 #if defined(__GNUC__)
@@ -26,14 +26,14 @@ void image_compare(struct glint_selftest_finding *finding, double found, double 
 #endif
     ;
 
-/* A shader of a pass with its declaration included, and what `format` says as the rest of it. */
+/* The source of a shader with the declaration of a pass, followed by the text of `format`. */
 char *image_shader(const char *variant, const char *format, ...)
 #if defined(__GNUC__)
     __attribute__((format(printf, 2, 3)))
 #endif
     ;
 
-/* All values of an image of the last run, which has so many; the caller frees. NULL: err says why. */
+/* Reads all values of an image of the last run, which must have this number; the caller frees. NULL with an error. */
 void *image_read(struct frames *frames, const char *name, enum glint_type type, size_t values, struct glint_error *err);
 
 #endif

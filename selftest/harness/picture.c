@@ -1,4 +1,4 @@
-/* Small captures through a pipeline. */
+/* Replays small captures. */
 #include "harness/picture.h"
 
 #include <math.h>
@@ -27,13 +27,13 @@ bool pictures_begin(struct pictures *pictures, const struct case_context *contex
     return case_write_text(path, text, err) && pictures_begin_preset(pictures, context, path, err);
 }
 
-static void unload(struct pictures *pictures) {
+static void unload_pictures(struct pictures *pictures) {
     if (pictures->replay) glint_replay_load(pictures->replay, NULL, NULL);
     glint_capture_close(&pictures->capture);
 }
 
 void pictures_end(struct pictures *pictures) {
-    unload(pictures);
+    unload_pictures(pictures);
     glint_pipeline_destroy(&pictures->pipeline);
     glint_replay_destroy(&pictures->replay);
 }
@@ -41,7 +41,7 @@ void pictures_end(struct pictures *pictures) {
 bool pictures_replay(struct pictures *pictures, const char *path, const struct glint_replay_options *options,
                      struct glint_error *err) {
     const struct case_context *context = pictures->context;
-    unload(pictures);
+    unload_pictures(pictures);
     return (pictures->capture = glint_capture_open(path, NULL, err)) &&
            glint_replay_load(pictures->replay, pictures->capture, err) &&
            glint_replay_run(pictures->replay, pictures->pipeline, options, context->progress, context->user, err);
@@ -50,7 +50,7 @@ bool pictures_replay(struct pictures *pictures, const char *path, const struct g
 bool pictures_box(struct pictures *pictures, const struct open_box *box, struct glint_error *err) {
     char path[4096];
     snprintf(path, sizeof path, "%s/box.exr", pictures->context->folder);
-    unload(pictures);
+    unload_pictures(pictures);
     return open_box_write(box, path, err) &&
            pictures_replay(pictures, path, &(struct glint_replay_options){.float_precision = true, .all = true}, err);
 }

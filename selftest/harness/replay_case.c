@@ -1,4 +1,4 @@
-/* Cases that replay small captures and look at the images of their passes. */
+/* Cases that replay small captures and check images of passes. */
 #include "harness/replay_case.h"
 
 #include <math.h>
@@ -25,7 +25,7 @@ static bool is_setting(const char *word) {
     return memchr(word, '.', strcspn(word, "=")) != NULL;
 }
 
-/* The preset that the words make. */
+/* Writes the preset of these words. */
 static void print_preset(FILE *file, const char *words) {
     char word[256];
     const char *comma = "";

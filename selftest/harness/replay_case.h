@@ -1,4 +1,4 @@
-/* Cases that replay small captures and look at the images of their passes. */
+/* Cases that replay small captures and check images of passes. */
 #ifndef GLINT_SELFTEST_REPLAY_CASE_H
 #define GLINT_SELFTEST_REPLAY_CASE_H
 
@@ -7,7 +7,7 @@
 #include "oracles/noise.h"
 #include "oracles/plain_capture.h"
 
-/* The first error sticks: after it nothing is done any more, and images are NULL. */
+/* The first error is sticky: after it nothing runs, and images are NULL. */
 struct case_run {
     const struct case_context *context;
     struct glint_replay *replay;
@@ -15,9 +15,9 @@ struct case_run {
     struct glint_capture *capture;
     struct glint_error *err;
     bool ok;
-    /* Of a case; large pictures need them. */
-    bool half;                  /* images as passes declare them, not all in float */
-    const char *const *outputs; /* images that it looks at, NULL-terminated; NULL: any */
+    /* Set by cases with large images. */
+    bool half;                  /* images in their declared formats, not floats */
+    const char *const *outputs; /* images that are read, NULL-terminated; NULL: any */
 };
 
 struct replay_case {
@@ -25,9 +25,9 @@ struct replay_case {
     double bound;
     const char *reason;
     void (*check)(struct case_run *run, const struct replay_case *c, struct glint_selftest_finding *finding);
-    const char *use; /* what `check` gives to case_run_pipeline() */
-    int number;      /* which one, where a check serves several cases */
-    bool slow;       /* left out of a quick run */
+    const char *use; /* the argument of `check` for case_run_pipeline() */
+    int number;      /* distinguishes cases with the same `check` */
+    bool slow;       /* skipped in quick runs */
 };
 
 struct replay_case_list {
@@ -35,14 +35,14 @@ struct replay_case_list {
     size_t count;
 };
 
-/* Words: "slot=variant" make the pipeline, "slot.parameter=value" set it. */
+/* Words: "slot=variant" adds to the pipeline, "slot.parameter=value" sets a parameter. */
 void case_run_pipeline(struct case_run *run, const char *words);
-/* Everything in float and with diagnostics; no pass is left out for having nothing to do. */
+/* Runs with floats, diagnostics and all passes. */
 void case_run_plain(struct case_run *run, const struct plain *plain);
-/* What the file at `path` holds, through the pipeline. */
+/* Runs the pipeline on the file at `path`. */
 void case_run_file(struct case_run *run, const char *path);
 const char *case_run_path(const struct case_run *run, const char *name, char path[4096]);
-/* Images of the last run; the caller frees. width and height may be NULL. */
+/* Reads an image of the last run; the caller frees. width and height may be NULL. */
 float *case_run_floats(struct case_run *run, const char *name, uint32_t *width, uint32_t *height);
 uint32_t *case_run_uints(struct case_run *run, const char *name, uint32_t *width, uint32_t *height);
 
@@ -51,7 +51,7 @@ bool replay_cases_run(const struct replay_case_list *const *lists, size_t count,
 size_t replay_cases_count(const struct replay_case_list *const *lists, size_t count);
 struct glint_selftest_case replay_cases_get(const struct replay_case_list *const *lists, size_t i);
 
-/* GROUP_group, a group that is lists of replay cases. */
+/* GROUP_group, a group of lists of replay cases. */
 #define REPLAY_CASE_GROUP(group, what, ...)                                                                            \
     static const struct replay_case_list *const group##_lists[] = {__VA_ARGS__};                                       \
     static size_t group##_count(void) {                                                                                \

@@ -1,4 +1,4 @@
-/* The weights of the linear filter, at places between texels that no step of a power of two up to 1/1024 meets. */
+/* Measures the weights of the linear filter at positions between texels that are no multiples of powers of two down to 1/1024. */
 #include "harness/texture_filter.h"
 
 #include <math.h>
@@ -16,7 +16,7 @@ struct texels {
     uint32_t pick[TEXELS];
 };
 
-/* Beyond the texel's centre, in texels. */
+/* Distance from the texel's centre in texels. */
 static double beyond(size_t i, unsigned factor) {
     return (double)((i * factor) & 1023) / 1024 + 1.0 / 2048;
 }
@@ -90,7 +90,7 @@ static bool check_weights(struct frames *frames, const struct image_case *which,
     return ok;
 }
 
-/* The step of the weights: 0 where they are as exact as floats. */
+/* The step of the weights; 0 if they are as precise as floats. */
 static bool measure_step(const struct case_context *context, double *step, struct glint_error *err) {
     struct frames frames;
     struct glint_selftest_finding finding = {0};
@@ -100,7 +100,7 @@ static bool measure_step(const struct case_context *context, double *step, struc
     return ok;
 }
 
-/* ---- What ends that move by next to nothing bring ---- */
+/* ---- The effect of ends that move by a tiny distance ---- */
 
 static double largest_step(const float *rgb, uint32_t width, uint32_t height) {
     double largest = 0;

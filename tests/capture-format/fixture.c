@@ -11,7 +11,7 @@
 static const double PI = 3.14159265358979323846;
 
 struct glint_camera fixture_camera(const double eye[3], double near, double far) {
-    /* Turned about y and x so that no axis is special. */
+    /* Rotated about y and x, so that no axis is special. */
     const double a = 0.6, b = -0.2;
     const double r[9] = {cos(a),          0,       -sin(a),        sin(a) * sin(b), cos(b), cos(a) * sin(b),
                          sin(a) * cos(b), -sin(b), cos(a) * cos(b)};
@@ -109,8 +109,8 @@ static const char *const gbuffer_names[] = {"depth.Z",           "normal.X",    
                                             "motion.Z",          "vertexNormal.X",     "vertexNormal.Y",
                                             "vertexNormal.Z"};
 
-static void add(struct glint_part *part, struct fixture_channels *c, const char *name, const float *data,
-                size_t stride) {
+static void add_fixture_channel(struct glint_part *part, struct fixture_channels *c, const char *name,
+                                const float *data, size_t stride) {
     c->all[part->channel_count++] = (struct glint_channel){.name = name,
                                                            .type = GLINT_F32,
                                                            .data = data,
@@ -133,42 +133,42 @@ struct glint_part fixture_part(const struct fixture *f, enum fixture_part which,
     static const char *const rgba[] = {"R", "G", "B", "A"};
     memset(c, 0, sizeof *c);
     if (which == FIXTURE_GBUFFER || which == FIXTURE_PREVIOUS_GBUFFER) {
-        for (size_t i = 0; i < 16; i++) add(&part, c, gbuffer_names[i], f->gbuffer + i, 17);
+        for (size_t i = 0; i < 16; i++) add_fixture_channel(&part, c, gbuffer_names[i], f->gbuffer + i, 17);
         c->all[part.channel_count++] =
             (struct glint_channel){.name = "stencil.id", .type = GLINT_U32, .data = f->stencil};
         return part;
     }
     if (which == FIXTURE_MIRROR) {
-        add(&part, c, "distance.Z", f->gbuffer, 17);
-        add(&part, c, "visible", f->gbuffer + 5, 17);
+        add_fixture_channel(&part, c, "distance.Z", f->gbuffer, 17);
+        add_fixture_channel(&part, c, "visible", f->gbuffer + 5, 17);
         return part;
     }
     if (which == FIXTURE_ENGINE) {
-        add(&part, c, "hit.u", f->gbuffer + 5, 17);
-        add(&part, c, "whatever", f->gbuffer + 6, 17);
+        add_fixture_channel(&part, c, "hit.u", f->gbuffer + 5, 17);
+        add_fixture_channel(&part, c, "whatever", f->gbuffer + 6, 17);
         return part;
     }
     const float *color = cube ? f->cube : f->color;
     const size_t stride = cube ? 5 : 4;
-    for (size_t i = 0; i < 3; i++) add(&part, c, rgba[i], color + i, stride);
+    for (size_t i = 0; i < 3; i++) add_fixture_channel(&part, c, rgba[i], color + i, stride);
     if (which == FIXTURE_CUBEMAP_0 || which == FIXTURE_CUBEMAP_1) {
-        add(&part, c, "A", color + 3, stride);
-        add(&part, c, "distance.Z", color + 4, stride);
+        add_fixture_channel(&part, c, "A", color + 3, stride);
+        add_fixture_channel(&part, c, "distance.Z", color + 4, stride);
         part.cubemap = &f->cubemap;
     }
     if (which == FIXTURE_TRANSPARENT || which == FIXTURE_WATER) {
-        add(&part, c, which == FIXTURE_WATER ? "opacity" : "A", color + 3, stride);
-        for (size_t i = 0; i < 4; i++) add(&part, c, gbuffer_names[i], f->gbuffer + i, 17);
-        if (which == FIXTURE_WATER) add(&part, c, "thickness.Z", f->gbuffer + 5, 17);
-        else add(&part, c, "material.roughness", f->gbuffer + 4, 17);
+        add_fixture_channel(&part, c, which == FIXTURE_WATER ? "opacity" : "A", color + 3, stride);
+        for (size_t i = 0; i < 4; i++) add_fixture_channel(&part, c, gbuffer_names[i], f->gbuffer + i, 17);
+        if (which == FIXTURE_WATER) add_fixture_channel(&part, c, "thickness.Z", f->gbuffer + 5, 17);
+        else add_fixture_channel(&part, c, "material.roughness", f->gbuffer + 4, 17);
     }
     if (which == FIXTURE_PLANAR) {
-        add(&part, c, "depth.Z", f->gbuffer, 17);
+        add_fixture_channel(&part, c, "depth.Z", f->gbuffer, 17);
         part.planar = &f->planar;
     }
     if (which == FIXTURE_TRUTH) {
-        add(&part, c, "weight", color + 3, stride);
-        add(&part, c, "error", f->gbuffer + 4, 17);
+        add_fixture_channel(&part, c, "weight", color + 3, stride);
+        add_fixture_channel(&part, c, "error", f->gbuffer + 4, 17);
     }
     return part;
 }

@@ -1,4 +1,4 @@
-/* A small synthetic capture for the tests of the format: every role's channels, values from closed forms. */
+/* A small synthetic capture for the tests of the format, with the channels of every role and values from closed forms. */
 #ifndef FIXTURE_H
 #define FIXTURE_H
 
@@ -6,7 +6,7 @@
 
 enum { FIX_W = 40, FIX_H = 24, FIX_CUBE = 8 };
 
-/* A camera at `eye` that looks along -z of its own (right-handed, view z < 0 in front), near and far in units. */
+/* A right-handed camera at `eye` that looks along its own -z, with near and far planes in units. */
 struct glint_camera fixture_camera(const double eye[3], double near, double far);
 struct glint_frame fixture_frame(void);
 
@@ -46,12 +46,12 @@ enum fixture_part {
 struct fixture_channels {
     struct glint_channel all[20];
 };
-/* The part's description, with pixels from `f`; `channels` holds its channel list. */
+/* Describes a part with pixels from `f`; `channels` holds its list of channels. */
 struct glint_part fixture_part(const struct fixture *f, enum fixture_part which, struct fixture_channels *channels);
-/* Writes parts [0, count) with the frame; count FIXTURE_LIT + 1 is the smallest capture. */
+/* Writes the parts [0, count) and the frame. The smallest valid count is FIXTURE_LIT + 1. */
 bool fixture_write(const struct fixture *f, const char *path, int count, const struct glint_writer_options *options,
                    struct glint_error *err);
-/* A path in the test's own temporary folder ($TMPDIR or /tmp), in a buffer of the caller. */
+/* A path in the temporary folder of the test ($TMPDIR or /tmp), in the caller's buffer. */
 const char *fixture_path(char buffer[512], const char *name);
 
 #endif

@@ -1,5 +1,5 @@
-/* Feeds damaged captures to the reader. Built as a program it takes a capture and how many seeds to run from which first
-   one; with clang and -fsanitize=fuzzer -DGLINT_LIBFUZZER it is a libFuzzer target. */
+/* Reads damaged captures. As a program it takes a capture, the number of seeds and the first seed; built by clang with
+   -fsanitize=fuzzer -DGLINT_LIBFUZZER it is a libFuzzer target. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-// The public headers from C++, as an engine includes them: a part's description, and linking against the C names.
+// The public headers in C++: describes a part and links against the C functions, as an engine does.
 #include "glint/capture.h"
 #include "glint/common.h"
 #include "glint/exr.h"

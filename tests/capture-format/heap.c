@@ -1,4 +1,4 @@
-/* How much the program has on the heap. */
+/* Counts the heap memory of the program. */
 #define _GNU_SOURCE
 #include "heap.h"
 
@@ -8,7 +8,7 @@
 
 static atomic_size_t taken, peak;
 
-static void count(size_t bytes) {
+static void count_heap(size_t bytes) {
     const size_t now = atomic_fetch_add(&taken, bytes) + bytes;
     size_t seen = atomic_load(&peak);
     while (now > seen && !atomic_compare_exchange_weak(&peak, &seen, now)) {
@@ -41,7 +41,7 @@ int __sanitizer_install_malloc_and_free_hooks(void (*taken)(const volatile void 
 
 static void on_malloc(const volatile void *p, size_t bytes) {
     (void)p;
-    count(bytes);
+    count_heap(bytes);
 }
 
 static void on_free(const volatile void *p) {
@@ -55,19 +55,19 @@ __attribute__((constructor)) static void install(void) {
 #else
 
 void *__libc_malloc(size_t bytes);
-void *__libc_calloc(size_t count, size_t bytes);
+void *__libc_calloc(size_t count_heap, size_t bytes);
 void *__libc_realloc(void *p, size_t bytes);
 void __libc_free(void *p);
 
 void *malloc(size_t bytes) {
     void *p = __libc_malloc(bytes);
-    if (p) count(malloc_usable_size(p));
+    if (p) count_heap(malloc_usable_size(p));
     return p;
 }
 
 void *calloc(size_t n, size_t bytes) {
     void *p = __libc_calloc(n, bytes);
-    if (p) count(malloc_usable_size(p));
+    if (p) count_heap(malloc_usable_size(p));
     return p;
 }
 
@@ -75,7 +75,7 @@ void *realloc(void *old, size_t bytes) {
     const size_t before = old ? malloc_usable_size(old) : 0;
     void *p = __libc_realloc(old, bytes);
     if (p || !bytes) atomic_fetch_sub(&taken, before);
-    if (p) count(malloc_usable_size(p));
+    if (p) count_heap(malloc_usable_size(p));
     return p;
 }
 

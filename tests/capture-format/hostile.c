@@ -1,4 +1,4 @@
-/* What a stranger's bytes are put through: everything that the library does with a file. */
+/* Calls every function of the library on an untrusted file. */
 #define _GNU_SOURCE
 #include "hostile.h"
 
@@ -13,13 +13,13 @@
 const struct glint_limits hostile_limits = {
     .file_bytes = 1 << 24, .memory_bytes = 32 << 20, .width = 1024, .parts = 64};
 
-/* Every failure must set a code and a message: callers decide and report by them. */
-static bool explained(bool ok, const struct glint_error *err) {
+/* Every failure must set a code and a message, because callers depend on both. */
+static bool has_reason(bool ok, const struct glint_error *err) {
     if (!ok && (err->code == GLINT_OK || !err->message[0])) abort();
     return ok;
 }
 
-/* All of a part's half and float channels at once, or all of its uint channels; as stored, then decoded. */
+/* Reads all half and float channels of a part, or all its uint channels, as stored and decoded. */
 static bool read_kind(struct glint_capture *capture, const struct glint_part_info *part, bool integer,
                       struct glint_error *err) {
     const char *names[32];
@@ -31,10 +31,10 @@ static bool read_kind(struct glint_capture *capture, const struct glint_part_inf
     void *out = malloc((size_t)part->width * part->height * 4 * count);
     if (!out) abort();
     const enum glint_type type = integer ? GLINT_U32 : GLINT_F32;
-    bool ok = explained(glint_capture_read_raw(capture, part, names, count, type, out, 1, err), err);
+    bool ok = has_reason(glint_capture_read_raw(capture, part, names, count, type, out, 1, err), err);
     if (ok)
-        ok = explained(glint_capture_read(capture, part, names, count, integer ? GLINT_U32 : GLINT_F16, out, 2, err),
-                       err);
+        ok = has_reason(glint_capture_read(capture, part, names, count, integer ? GLINT_U32 : GLINT_F16, out, 2, err),
+                        err);
     free(out);
     return ok;
 }
@@ -52,9 +52,9 @@ static void ignore(void *user, const char *rule, const char *message) {
 bool hostile_use(const char *path, struct glint_error *err) {
     struct glint_error other = {0};
     size_t violations = 0;
-    explained(glint_capture_validate(path, &hostile_limits, ignore, NULL, &violations, &other), &other);
+    has_reason(glint_capture_validate(path, &hostile_limits, ignore, NULL, &violations, &other), &other);
     struct glint_capture *capture = glint_capture_open(path, &hostile_limits, err);
-    bool ok = explained(capture != NULL, err);
+    bool ok = has_reason(capture != NULL, err);
     for (size_t i = 0; capture && i < glint_capture_part_count(capture); i++)
         if (!read_part(capture, glint_capture_part(capture, i), err)) ok = false;
     glint_capture_close(&capture);
@@ -85,7 +85,7 @@ size_t hostile_damage(uint8_t *bytes, size_t size, uint32_t seed) {
                                      0x7f800000u, 0xff800000u, 0x7fc00000u, 255,         65536 * 6,   0xfffffff0u};
     const uint32_t hits = 1 + pick(seed, 0, 4);
     for (uint32_t h = 0; h < hits; h++) {
-        /* Two of three in the headers, where structure is. */
+        /* two of three changes hit the headers, which have most structure */
         const uint32_t span = (uint32_t)(pick(seed, 10 + h, 3) && size > 16384 ? 16384 : size);
         const uint32_t at = pick(seed, 20 + h, span), kind = pick(seed, 30 + h, 6);
         const uint32_t word = words[pick(seed, 40 + h, sizeof words / sizeof *words)];
@@ -93,7 +93,7 @@ size_t hostile_damage(uint8_t *bytes, size_t size, uint32_t seed) {
         if (kind == 1) bytes[at] = (uint8_t)pick(seed, 50 + h, 256);
         if (kind == 2 && at + 4 <= size) memcpy(bytes + at, &word, 4);
         if (kind == 3 && at + 8 <= size) memcpy(bytes + at, &(uint64_t){(uint64_t)word << 32 | word}, 8);
-        if (kind == 4) { /* a stretch from elsewhere */
+        if (kind == 4) { /* a copy of another range of the file */
             const uint32_t from = pick(seed, 50 + h, (uint32_t)size), left = (uint32_t)size - (from > at ? from : at);
             memmove(bytes + at, bytes + from, pick(seed, 60 + h, left < 64 ? left : 64));
         }

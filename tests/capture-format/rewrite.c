@@ -1,4 +1,4 @@
-/* A whole EXR file in memory, to be changed and written again. */
+/* Loads an EXR file into memory to change and rewrite it. */
 #include "rewrite.h"
 
 #include <setjmp.h>

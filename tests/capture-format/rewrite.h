@@ -1,4 +1,4 @@
-/* A whole EXR file in memory, to be changed and written again: how tests break the rules that the writer keeps. */
+/* Loads an EXR file into memory to change and rewrite it, so that tests can break rules that the writer enforces. */
 #ifndef REWRITE_H
 #define REWRITE_H
 

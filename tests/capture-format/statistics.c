@@ -1,5 +1,5 @@
-/* Writes the fixture and prints what any tool should find in it: part, channel, least, greatest and mean of the finite
-   values. uint channels are left out: tools show them scaled. usage: statistics FILE COMPRESSION */
+/* Writes the fixture and prints the minimum, maximum and mean of the finite values of each channel, which any tool should report. uint
+   channels are skipped, because tools scale them. usage: statistics FILE COMPRESSION */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
-/* Cameras whose rotation the engine kept in floats, at the origin and far from it: the position that was meant comes back,
-   rotations are rotations, and only what can be seen is told. */
+/* Cameras whose rotation an engine stored as floats, at the origin and far from it: the intended position is recovered, rotations are
+   orthonormal, and notes contain only effects that are visible. */
 #include <float.h>
 #include <math.h>
 #include <setjmp.h>
@@ -14,8 +14,8 @@
 
 static struct fixture fixture;
 
-/* As an engine has it: each number of the rotation a float, and the translation made from those in double. */
-static struct glint_camera in_floats(const double eye[3], bool mirrored) {
+/* An engine's matrix: the rotation in floats, and the translation computed from it in double. */
+static struct glint_camera camera_in_floats(const double eye[3], bool mirrored) {
     struct glint_camera camera = fixture_camera(eye, 0.1, 500);
     double *m = camera.world_to_view;
     for (int i = 0; i < 3; i++) {
@@ -71,19 +71,19 @@ static void cameras_stand_where_the_engine_put_them(void **unused) {
             const double previous[3] = {eye[0] - 0.125, eye[1], eye[2] + 0.25};
             struct glint_frame frame = fixture_frame();
             frame.metres_per_unit = 1;
-            frame.camera = in_floats(eye, mirrored), frame.previous = in_floats(previous, mirrored);
+            frame.camera = camera_in_floats(eye, mirrored), frame.previous = camera_in_floats(previous, mirrored);
             const struct glint_frame found = read_back(&frame, "camera.exr");
             const struct glint_camera *const cameras[] = {&found.camera, &found.previous};
             for (int i = 0; i < 2; i++) {
                 const double *m = cameras[i]->world_to_view, *place = i ? previous : eye;
                 double solved[3], transposed[3];
-                /* a double of 1e6 m holds 1e-10 m, and its products with a rotation no less than 1e-9 m */
+                /* a double near 1e6 m has a precision of 1e-10 m, and products with a rotation one of 1e-9 m */
                 glint_camera_position(cameras[i], solved);
                 assert_true(distance(solved, place) < 1e-8);
                 for (int c = 0; c < 3; c++) transposed[c] = -(m[c] * m[3] + m[4 + c] * m[7] + m[8 + c] * m[11]);
                 assert_true(distance(transposed, place) < 1e-8);
                 assert_true(off_rotation(m) < 1e-15 * 8);
-                /* the nearest rotation is no farther from what was stored than that is from one */
+                /* the nearest rotation is no farther from the stored matrix than the stored matrix is from the true rotation */
                 for (int n = 0; n < 12; n++)
                     if (n % 4 != 3)
                         assert_true(fabs(m[n] - (i ? &frame.previous : &frame.camera)->world_to_view[n]) < 1.2e-7);
@@ -102,16 +102,16 @@ static void a_precise_camera_keeps_its_bits(void **unused) {
     assert_int_equal(glint_frame_notes(&found, notes), 0);
 }
 
-/* Floats are as good as doubles near the origin: there is nothing to tell. */
-static void what_can_be_seen_is_told(void **unused) {
+/* Near the origin floats are as precise as doubles, so there are no notes. */
+static void visible_effects_are_noted(void **unused) {
     (void)unused;
     char notes[GLINT_NOTES][GLINT_NOTE_LENGTH];
     struct glint_frame frame = fixture_frame();
     frame.metres_per_unit = 1;
-    frame.camera = in_floats((const double[3]){10, 20, 30}, false), frame.previous = frame.camera;
+    frame.camera = camera_in_floats((const double[3]){10, 20, 30}, false), frame.previous = frame.camera;
     struct glint_frame found = read_back(&frame, "near.exr");
     assert_int_equal(glint_frame_notes(&found, notes), 0);
-    frame.camera = in_floats((const double[3]){1e6, 20, 30}, false);
+    frame.camera = camera_in_floats((const double[3]){1e6, 20, 30}, false);
     found = read_back(&frame, "far.exr");
     assert_int_equal(glint_frame_notes(&found, notes), 1);
     assert_non_null(strstr(notes[0], "gbuffer: glint.worldToView: expected a rotation in double precision, found"));
@@ -133,7 +133,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cameras_stand_where_the_engine_put_them),
         cmocka_unit_test(a_precise_camera_keeps_its_bits),
-        cmocka_unit_test(what_can_be_seen_is_told),
+        cmocka_unit_test(visible_effects_are_noted),
     };
     return cmocka_run_group_tests(tests, setup, NULL);
 }

@@ -1,4 +1,4 @@
-/* What goes in through the writer comes out of the reader. */
+/* The reader returns what was written. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -103,7 +103,7 @@ static void lengths_are_metres(void **state) {
     unlink(path);
 }
 
-/* A capture with one 256 x 256 channel `engine.any` / `any` of 65536 values. */
+/* A capture with the channel `any` of the part `engine.any`: 256 x 256 values. */
 static struct glint_capture *with_values(const char *path, enum glint_type type, const void *values) {
     const struct glint_channel channel = {.name = "any", .type = type, .data = values};
     const struct glint_part part = {
@@ -153,7 +153,7 @@ static void every_half_keeps_its_bits(void **state) {
     unlink(path);
 }
 
-/* Floats read as halves are the nearest half, ties to even: checked against the exact neighbours. */
+/* Floats are rounded to the nearest half, ties to even, compared with both exact neighbours. */
 static void floats_round_to_the_nearest_half(void **state) {
     (void)state;
     char path[512];
@@ -162,13 +162,13 @@ static void floats_round_to_the_nearest_half(void **state) {
     for (uint32_t i = 0; i < 65536; i++) {
         const double magnitude = ldexp(1 + fixture_noise(i, 1), (int)(fixture_noise(i, 2) * 44) - 28);
         in[i] = (float)(i & 1 ? -magnitude : magnitude);
-        /* Every eighth exactly between two halves. */
+        /* every eighth value is halfway between two halves */
         if (i % 8 == 0) in[i] = (float)ldexp(2 * (1024 + (int)(i >> 3 & 1023)) + 1, (int)(i % 29) - 25);
     }
     struct glint_capture *capture = with_values(fixture_path(path, "nearest.exr"), GLINT_F32, in);
     read_values(capture, 1, GLINT_F16, out);
     for (uint32_t i = 0; i < 65536; i++) {
-        double near[3]; /* the half below, the one returned, the one above */
+        double near[3]; /* the half below, the result, the half above */
         for (int d = -1; d <= 1; d++) {
             const int bits = (out[i] & 0x7fff) + d, e = bits >> 10, f = bits & 1023;
             near[d + 1] = bits < 0 ? -ldexp(1, -24) : e ? ldexp(1024 + f, e - 25) : ldexp(f, -24);
@@ -182,7 +182,7 @@ static void floats_round_to_the_nearest_half(void **state) {
     unlink(path);
 }
 
-/* Each 8- and 16-bit value comes back as the nearest to its own code. */
+/* Each 8- and 16-bit value decodes to the value nearest to its own code. */
 static void every_code_comes_back(void **state) {
     (void)state;
     static const enum glint_type types[] = {GLINT_UNORM8, GLINT_SNORM8, GLINT_UNORM16, GLINT_SNORM16};

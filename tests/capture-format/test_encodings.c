@@ -1,7 +1,7 @@
-/* One scene under every depth, normal, roughness, motion and colour encoding, in the storage formats that engines use,
-   decodes to the same values. The encoders here are written from FORMAT.md's formulas in the other direction, in double;
-   every bound is half a step of the storage format times the derivative of the decoder, plus the rounding of the float
-   that the reader returns (and, for 8-bit formats that the file keeps as half, the half's own rounding). */
+/* One scene in every encoding of depth, normals, roughness, motion and colour, in the storage formats of engines, decodes to the same
+   values. The encoders here invert the formulas of FORMAT.md in double. Every bound is half a step of the storage format times the
+   derivative of the decoder, plus the rounding of the float that the reader returns, and of the half for 8-bit formats that the file
+   stores as half. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -17,12 +17,12 @@ enum { COUNT = FIX_W * FIX_H };
 static struct fixture fixture;
 static const double NEAR = 0.1, FAR = 500;
 
-/* ---- storage formats: a value to what the engine keeps of it, and half its step there ---- */
+/* ---- storage formats: the stored value, and half the step there ---- */
 
 struct storage {
     const char *name;
     enum glint_type type;
-    int bits; /* of a fixed-point format, or 0 */
+    int bits; /* of a fixed-point format, else 0 */
     bool is_signed;
 };
 static const struct storage D16 = {"D16", GLINT_UNORM16, 16, false}, D24 = {"D24", GLINT_F32, 24, false},
@@ -32,7 +32,7 @@ static const struct storage D16 = {"D16", GLINT_UNORM16, 16, false}, D24 = {"D24
                             UNORM16 = {"R16", GLINT_UNORM16, 16, false}, SNORM8 = {"R8_SNORM", GLINT_SNORM8, 8, true},
                             SNORM16 = {"R16_SNORM", GLINT_SNORM16, 16, true};
 
-/* Largest difference between `v` and what the file returns before decoding. */
+/* The largest difference between `v` and the value in the file before decoding. */
 static double half_step(const struct storage *s, double v) {
     if (s->type == GLINT_F16) return fmax(fabs(v) * ldexp(1, -11), ldexp(1, -25));
     if (s->bits == 0) return fabs(v) * ldexp(1, -24);
@@ -43,7 +43,7 @@ static double half_step(const struct storage *s, double v) {
 }
 
 static uint16_t to_half(double v) {
-    /* By search through the ordered positive halves: independent of the library's bit tricks. */
+    /* Binary search in the ordered positive halves, independent of the library's conversion. */
     uint16_t low = 0, high = 0x7c00;
     const double a = fabs(v);
     while (high - low > 1) {
@@ -70,9 +70,9 @@ static void store(const struct storage *s, double v, size_t i, void *out) {
     else ((float *)out)[i] = (float)v;
 }
 
-/* ---- a capture with some of gbuffer's channels (or lit's) replaced ---- */
+/* ---- a capture in which some channels of gbuffer or lit are replaced ---- */
 
-static double bits[3][COUNT]; /* room for any type */
+static double bits[3][COUNT]; /* large enough for any type */
 
 static struct glint_capture *dump(const char *path, const char *part_name, const struct glint_encodings *encodings,
                                   const char *const *names, size_t count, enum glint_type type, const char *storage,
@@ -125,7 +125,7 @@ static void close_and_remove(struct glint_capture **capture, const char *path) {
 
 enum projection { FINITE, FINITE_REVERSED, INFINITE_REVERSED };
 
-/* Rows 2 and 3 of a projection for view z in front of sign `s` onto NDC [lo, 1]. */
+/* Rows 2 and 3 of a projection of view z, with sign `s` in front, to NDC [lo, 1]. */
 static void project(double m[16], enum projection p, double s, double lo) {
     /* ndc(t) = A s + B / t; solved for the two ends. */
     const double near_ndc = p == FINITE ? lo : 1, far_ndc = p == FINITE ? 1 : lo;
@@ -170,7 +170,7 @@ static void check_depth(enum glint_depth_encoding e, enum projection p, const st
             continue;
         }
         const double v = stored_depth(e, camera->view_to_clip, symmetric, t), step = half_step(s, v);
-        /* Both neighbours of the stored value: the decoder is not linear over a step of a coarse format. */
+        /* The bound uses both neighbours of the stored value, because decoders are not linear over a step of a coarse format. */
         double bound = 0;
         for (int side = -1; side <= 1; side += 2) {
             const double moved = v + side * step;
@@ -184,7 +184,7 @@ static void check_depth(enum glint_depth_encoding e, enum projection p, const st
             }
             bound = fmax(bound, fabs(back - t));
         }
-        /* One float rounding of the result, and the double arithmetic's cancellation near the far plane. */
+        /* One rounding to float, and the cancellation in double near the far plane. */
         bound = bound * 1.000001 + t * (ldexp(1, -24) + t / NEAR * 1e-15);
         if (isinf(bound)) continue;
         if (!(fabs((double)out[i] / unit - t) <= bound))
@@ -211,7 +211,7 @@ static void depth(void **state) {
     }
     check_depth(GLINT_DEPTH_VIEW_LINEAR, FINITE, &R32F, -1, GLINT_CLIP_Z_ZERO_TO_ONE, "gbuffer");
     check_depth(GLINT_DEPTH_VIEW_LINEAR, FINITE, &R16F, -1, GLINT_CLIP_Z_ZERO_TO_ONE, "gbuffer");
-    /* The previous frame's depth goes by the previous camera. */
+    /* The depth of the previous frame is decoded with the previous camera. */
     check_depth(GLINT_DEPTH_REVERSED, FINITE_REVERSED, &D32F, -1, GLINT_CLIP_Z_ZERO_TO_ONE, "previous.gbuffer");
 }
 
@@ -254,14 +254,14 @@ static void check_normals(enum glint_normal_encoding e, enum glint_normal_space 
     struct glint_encodings encodings = {.normal_space = space};
     if (at == 1) encodings.normal = e;
     else encodings.vertex_normal = e;
-    /* The other family is in world space then, which this test does not look at. */
+    /* The other images are in world space then, but are not tested here. */
     struct glint_capture *capture = dump(fixture_path(path, "normal.exr"), part, &encodings, pointers,
                                          e == GLINT_NORMAL_OCTAHEDRAL ? 2 : 3, s->type, s->name, &frame);
     assert_true(glint_part_has_channel(glint_capture_find(capture, part), names[2]));
     decoded(capture, part, pointers, 3, out);
-    /* Half a step on each component turns a unit normal by at most √3 half steps (1 for signed, 2 for unorm, whose scale
-       is 2). The octahedral map stretches angles by at most 2√3 · 2: at the middle of a face |n| = 1/√3 of its L1 norm,
-       the map's slope is 3 there and less elsewhere; both components err. */
+    /* Half a step in each component rotates a unit normal by at most √3 half steps (1 for signed, 2 for unorm, whose scale is 2). The
+       octahedral mapping stretches angles by at most 2√3 · 2: at the centre of a face |n| = 1/√3 of its L1 norm, where the slope is 3,
+       its maximum; both components have errors. */
     const double stretch = e == GLINT_NORMAL_SIGNED ? sqrt(3) : e == GLINT_NORMAL_UNORM ? 2 * sqrt(3) : 2 * 3 * sqrt(2);
     const double bound = stretch * half_step(s, 1) + 4 * ldexp(1, -23);
     for (size_t i = 0; i < COUNT; i++) {
@@ -330,7 +330,7 @@ static void check_roughness(enum glint_roughness_encoding e, const struct storag
     char path[512];
     static float out[COUNT];
     static const char *const names[] = {"material.roughness"};
-    /* A power that half can hold: below r = 0.0743 it is past 65504. */
+    /* The smallest roughness whose power a half can hold: below r = 0.0743 it exceeds 65504. */
     const double lowest = e == GLINT_ROUGHNESS_POWER ? 0.08 : 0;
     double r[COUNT];
     for (size_t i = 0; i < COUNT; i++) {
@@ -371,7 +371,7 @@ static void check_motion(enum glint_motion_encoding e, const struct storage *s, 
     static const char *const names[] = {"motion.X", "motion.Y"};
     struct glint_frame frame = fixture_frame();
     frame.clip_y = clip_y;
-    /* What one uv is in the stored numbers. */
+    /* One uv in stored units. */
     double scale[2] = {1, 1};
     if (e == GLINT_MOTION_NDC) scale[0] = 2, scale[1] = clip_y == GLINT_CLIP_Y_UP ? -2 : 2;
     if (e == GLINT_MOTION_PIXELS) scale[0] = FIX_W, scale[1] = FIX_H;
@@ -439,8 +439,8 @@ static void check_color(enum glint_color_encoding e, const struct storage *s, do
         for (size_t c = 0; c < 3; c++) {
             const double linear = brightest * (double)fixture.color[4 * i + c];
             const double v = stored_color(e, linear, frame.pre_exposure), step = half_step(s, v);
-            /* Single precision powf is good to about an ulp; its argument's rounding is stretched by 2.4. The two
-               sRGB segments meet within 4e-8 of each other. */
+            /* powf in single precision is accurate to about an ulp, and 2.4 amplifies the rounding of its argument. Both sRGB segments
+               meet within 4e-8. */
             const double bound = fmax(fabs(back_to_color(e, v + step, frame.pre_exposure) - linear),
                                       fabs(back_to_color(e, v - step, frame.pre_exposure) - linear)) *
                                      1.000001 +

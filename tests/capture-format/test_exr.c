@@ -1,5 +1,4 @@
-/* The EXR layer by itself: attributes and parts that glint does not know are kept and passed on, layers are read
-   singly, mistakes of the caller are told. */
+/* The EXR layer alone: unknown attributes and parts are preserved, layers are read separately, and usage errors are reported. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,7 +14,7 @@
 
 static struct fixture fixture;
 
-/* box2i, rational, v2f and a type that nobody knows, as bytes in the file's order. */
+/* box2i, rational, v2f and an unknown type, as bytes in the file's order. */
 static const int32_t box[4] = {1, -2, 3, 4};
 static const int32_t ratio[2] = {24000, 1001};
 static const float pair[2] = {0.5f, -0.25f};
@@ -56,7 +55,7 @@ static void check_same(const struct glint_exr_attribute *a, const struct glint_e
     if (a->numbers) assert_memory_equal(a->numbers, b->numbers, a->count * sizeof *a->numbers);
 }
 
-/* A capture, with a part and attributes of somebody else's, read and written twice. */
+/* A capture with foreign parts and attributes, read and written twice. */
 static void what_is_not_known_is_kept_and_passed_on(void **state) {
     (void)state;
     static struct rewrite r;
@@ -77,7 +76,7 @@ static void what_is_not_known_is_kept_and_passed_on(void **state) {
     struct rewrite_part *gbuffer = rewrite_find(&r, "gbuffer");
     gbuffer->attributes[gbuffer->part.attribute_count++] = odd[13];
     rewrite_save(&r, path);
-    extra->part.channel_count = 0; /* its pixels are the fixture's */
+    extra->part.channel_count = 0; /* its pixels belong to the fixture */
     rewrite_finish(&r);
     for (int round = 0; round < 2; round++) {
         struct glint_capture *capture = glint_capture_open(path, NULL, &err);
@@ -108,7 +107,7 @@ static void what_is_not_known_is_kept_and_passed_on(void **state) {
     unlink(path);
 }
 
-/* Attributes that the engine adds through the public writer. */
+/* Attributes that an engine adds through the public writer. */
 static void the_engines_own_attributes_come_back(void **state) {
     (void)state;
     char path[512];
@@ -144,12 +143,12 @@ static void the_engines_own_attributes_come_back(void **state) {
     unlink(path);
 }
 
-/* A damaged part does not keep the others from being read: only its own chunks are looked at. */
+/* A damaged part does not prevent reading the others: only the chunks of the requested part are read. */
 static void a_layer_is_read_without_the_others(void **state) {
     (void)state;
     char path[512];
     struct glint_error err = {0};
-    /* Flat enough that ZIP is worth its while: noise would be stored as it is. */
+    /* Constant enough for ZIP to be used; noise would be stored uncompressed. */
     for (size_t i = 0; i < FIX_W * FIX_H * 4; i++) fixture.color[i] = 0.5f;
     for (size_t i = 0; i < FIX_W * FIX_H * 17; i++) fixture.gbuffer[i] = i % 17 == 1 ? 1 : i % 17 < 4 ? 0 : 0.25f;
     assert_true(fixture_write(&fixture, fixture_path(path, "single.exr"), FIXTURE_PARTS, NULL, &err));
@@ -157,7 +156,7 @@ static void a_layer_is_read_without_the_others(void **state) {
     struct stat info;
     assert_int_equal(stat(path, &info), 0);
     FILE *file = fopen(path, "r+b");
-    /* Past the last chunk's leader (part, line, size): the zlib stream of the last part, `water`. */
+    /* After the header of the last chunk (part, line, size): the zlib stream of the last part, `water`. */
     fseek(file, -40, SEEK_END);
     for (int i = 0; i < 40; i++) fputc(0xff, file);
     fclose(file);
@@ -208,7 +207,7 @@ static void mistakes_of_the_caller_are_told(void **state) {
     const struct glint_part_info other = *part;
     assert_false(glint_capture_read(capture, &other, (const char *const[]){"depth.Z"}, 1, GLINT_F32, out, 0, &err));
     assert_int_equal(err.code, GLINT_ERROR_USAGE);
-    /* stencil.id goes up to 250 here: it fits eight bits, and does not when one more is added. */
+    /* stencil.id reaches 250 here, which fits 8 bits; one more does not. */
     static uint8_t ids[FIX_W * FIX_H];
     assert_true(glint_capture_read(capture, part, (const char *const[]){"stencil.id"}, 1, GLINT_U8, ids, 0, &err));
     for (size_t i = 0; i < FIX_W * FIX_H; i++) assert_int_equal(ids[i], fixture.stencil[i]);

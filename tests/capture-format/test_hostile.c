@@ -1,4 +1,4 @@
-/* Files from strangers: each is read or refused with a reason, within the stated memory. */
+/* Untrusted files are read or refused with a reason, within the documented limits of memory. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -17,7 +17,7 @@ static struct fixture fixture;
 static uint8_t *whole;
 static size_t size;
 
-static void load(int parts) {
+static void load_file(int parts) {
     char path[512];
     struct glint_error err = {0};
     free(whole);
@@ -34,23 +34,23 @@ static void load(int parts) {
     unlink(path);
 }
 
-/* Where `text` begins in the file, after `from`. */
-static size_t find(const char *text, size_t length, size_t from) {
+/* The position of `text` in the file after `from`. */
+static size_t find_bytes(const char *text, size_t length, size_t from) {
     for (size_t i = from; i + length <= size; i++)
         if (!memcmp(whole + i, text, length)) return i;
     fail_msg("not found");
     return 0;
 }
 
-/* ---- cut off ---- */
+/* ---- truncated ---- */
 
 static void cut_off_anywhere_is_refused(void **state) {
     (void)state;
-    load(FIXTURE_LIT + 1);
+    load_file(FIXTURE_LIT + 1);
     struct glint_error err = {0};
     assert_true(hostile_use_bytes(whole, size, &err));
-    /* Every byte of the headers and of the last chunk, every 97th between. */
-    const size_t headers = find("lineOrder", 9, find("lineOrder", 9, 0) + 1) + 512;
+    /* Every byte of the headers and of the last chunk, and every 97th in between. */
+    const size_t headers = find_bytes("lineOrder", 9, find_bytes("lineOrder", 9, 0) + 1) + 512;
     for (size_t cut = 0; cut < size; cut += cut < headers || cut + 512 > size ? 1 : 97) {
         err = (struct glint_error){0};
         if (hostile_use_bytes(whole, cut, &err)) fail_msg("%zu of %zu bytes were taken", cut, size);
@@ -62,7 +62,7 @@ static void cut_off_anywhere_is_refused(void **state) {
 
 static void damage_is_read_or_refused(void **state) {
     (void)state;
-    load(FIXTURE_CUBEMAP_1 + 1);
+    load_file(FIXTURE_CUBEMAP_1 + 1);
     uint8_t *copy = malloc(size);
     assert_non_null(copy);
     size_t refused = 0;
@@ -72,14 +72,14 @@ static void damage_is_read_or_refused(void **state) {
         refused += !hostile_use_bytes(copy, hostile_damage(copy, size, seed), &err);
     }
     free(copy);
-    /* The damage is real: most of it hits something that matters. */
+    /* Most of the damage must hit something relevant. */
     assert_true(refused > 1000);
 }
 
-/* ---- one lie at a time ---- */
+/* ---- a single wrong value ---- */
 
-/* Writes `count` bytes over a copy at `at`, and expects a refusal whose message holds `words`. */
-static void lie(size_t at, const void *bytes, size_t count, const char *words) {
+/* Overwrites `count` bytes of a copy at `at`, and expects an error that contains `words`. */
+static void assert_lie_refused(size_t at, const void *bytes, size_t count, const char *words) {
     struct glint_error err = {0};
     uint8_t *copy = malloc(size);
     assert_non_null(copy);
@@ -97,45 +97,45 @@ static void lie(size_t at, const void *bytes, size_t count, const char *words) {
 
 static void absurd_headers_take_no_memory(void **state) {
     (void)state;
-    load(FIXTURE_LIT + 1);
-    const size_t window = find("dataWindow\0box2i\0", 17, 0) + 17 + 4;
+    load_file(FIXTURE_LIT + 1);
+    const size_t window = find_bytes("dataWindow\0box2i\0", 17, 0) + 17 + 4;
     const int32_t huge[4] = {0, 0, 0x7ffffff0, 0x7ffffff0}, wide[4] = {0, 0, 2000, 23}, tall[4] = {0, 0, 39, 7000};
     const int32_t turned[4] = {39, 23, 0, 0}, extreme[4] = {INT32_MIN, INT32_MIN, INT32_MAX, INT32_MAX};
-    lie(window, huge, 16, "Invalid data window");
-    lie(window, wide, 16, "2001 x 24 pixels, the limit is 1024 x 6144");
-    lie(window, tall, 16, "40 x 7001 pixels, the limit is 1024 x 6144");
-    lie(window, turned, 16, "Invalid data window");
-    lie(window, extreme, 16, "Invalid data window");
-    const size_t channels = find("channels\0chlist\0", 16, 0) + 16;
-    lie(channels, &(int32_t){0x7fffffff}, 4, "/proc/self/fd/");
-    lie(channels, &(int32_t){-1}, 4, "/proc/self/fd/");
-    const size_t storage = find("glint.storage\0stringvector\0", 27, 0) + 27;
-    lie(storage, &(int32_t){0x7fffffff}, 4, "/proc/self/fd/");
-    lie(storage + 4, &(int32_t){0x7fffffff}, 4, "/proc/self/fd/");
-    const size_t chunks = find("chunkCount\0int\0", 15, 0) + 15 + 4;
-    lie(chunks, &(int32_t){0x7fffffff}, 4, "expected 2 chunks");
-    lie(chunks, &(int32_t){0}, 4, "/proc/self/fd/");
-    lie(0, &(uint32_t){0}, 4, "/proc/self/fd/"); /* not EXR at all */
+    assert_lie_refused(window, huge, 16, "Invalid data window");
+    assert_lie_refused(window, wide, 16, "2001 x 24 pixels, the limit is 1024 x 6144");
+    assert_lie_refused(window, tall, 16, "40 x 7001 pixels, the limit is 1024 x 6144");
+    assert_lie_refused(window, turned, 16, "Invalid data window");
+    assert_lie_refused(window, extreme, 16, "Invalid data window");
+    const size_t channels = find_bytes("channels\0chlist\0", 16, 0) + 16;
+    assert_lie_refused(channels, &(int32_t){0x7fffffff}, 4, "/proc/self/fd/");
+    assert_lie_refused(channels, &(int32_t){-1}, 4, "/proc/self/fd/");
+    const size_t storage = find_bytes("glint.storage\0stringvector\0", 27, 0) + 27;
+    assert_lie_refused(storage, &(int32_t){0x7fffffff}, 4, "/proc/self/fd/");
+    assert_lie_refused(storage + 4, &(int32_t){0x7fffffff}, 4, "/proc/self/fd/");
+    const size_t chunks = find_bytes("chunkCount\0int\0", 15, 0) + 15 + 4;
+    assert_lie_refused(chunks, &(int32_t){0x7fffffff}, 4, "expected 2 chunks");
+    assert_lie_refused(chunks, &(int32_t){0}, 4, "/proc/self/fd/");
+    assert_lie_refused(0, &(uint32_t){0}, 4, "/proc/self/fd/"); /* not an EXR file */
 }
 
 static void two_parts_of_one_name_are_refused(void **state) {
     (void)state;
-    load(FIXTURE_CUBEMAP_1 + 1);
-    lie(find("cubemap.017", 11, 0), "cubemap.000", 11, "cubemap.000");
+    load_file(FIXTURE_CUBEMAP_1 + 1);
+    assert_lie_refused(find_bytes("cubemap.017", 11, 0), "cubemap.000", 11, "cubemap.000");
 }
 
 static void subsampled_parts_are_refused(void **state) {
     (void)state;
-    load(FIXTURE_LIT + 1);
-    /* lit's first channel: its name, type, flags, then the step between samples on x. */
-    const size_t list = find("channels\0chlist\0", 16, find("channels\0chlist\0", 16, 0) + 1) + 16 + 4;
+    load_file(FIXTURE_LIT + 1);
+    /* The first channel of lit: name, type, flags, then the sampling in x. */
+    const size_t list = find_bytes("channels\0chlist\0", 16, find_bytes("channels\0chlist\0", 16, 0) + 1) + 16 + 4;
     assert_memory_equal(whole + list, "B", 2);
-    lie(list + 2 + 4 + 4, &(int32_t){2}, 4, "part lit: expected flat scanlines");
+    assert_lie_refused(list + 2 + 4 + 4, &(int32_t){2}, 4, "part lit: expected flat scanlines");
 }
 
 static void limits_hold(void **state) {
     (void)state;
-    load(FIXTURE_PARTS);
+    load_file(FIXTURE_PARTS);
     char path[512];
     struct glint_error err = {0};
     assert_true(fixture_write(&fixture, fixture_path(path, "limits.exr"), FIXTURE_PARTS, NULL, &err));
@@ -147,7 +147,7 @@ static void limits_hold(void **state) {
         assert_int_equal(err.code, GLINT_ERROR_LIMIT);
         if (!strstr(err.message, words[i])) fail_msg("%s", err.message);
     }
-    /* Chunks that do not fit are refused before they are taken. */
+    /* Chunks that do not fit are refused before memory is allocated for them. */
     assert_true(fixture_write(&fixture, path, FIXTURE_LIT + 1, NULL, &err));
     const struct glint_limits tight = {.memory_bytes = 900000};
     struct glint_capture *capture = glint_capture_open(path, &tight, &err);
@@ -160,7 +160,7 @@ static void limits_hold(void **state) {
     unlink(path);
 }
 
-/* The headers that take the most for their bytes: many channels, many small attributes, many strings. */
+/* The headers that need the most memory per byte: many channels, many small attributes, many strings. */
 static void crowded_headers_stay_within_memory(void **state) {
     (void)state;
     char path[512];
@@ -190,12 +190,12 @@ static void crowded_headers_stay_within_memory(void **state) {
                                            .attribute_count = 1000};
     for (size_t count = 1; count <= 8; count++) {
         if (!glint_exr_write(fixture_path(path, "crowded.exr"), parts, count, 1, &err)) fail_msg("%s", err.message);
-        /* From limits that the headers just pass, to limits that they do not. */
+        /* From limits that just suffice for the headers to limits that do not. */
         for (uint64_t memory = 4 << 20; memory <= 64 << 20; memory *= 2) {
             const struct glint_limits limits = {.memory_bytes = memory};
             const size_t before = heap_peak_reset();
             struct glint_capture *capture = glint_capture_open(path, &limits, &err);
-            assert_null(capture); /* gbuffer is missing, or a limit is passed */
+            assert_null(capture); /* gbuffer is missing, or a limit is exceeded */
             struct glint_exr *exr = glint_exr_open(path, &limits, &err);
             const size_t used = heap_peak() - before;
             if (used > memory)

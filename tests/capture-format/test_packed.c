@@ -1,5 +1,5 @@
-/* A G-buffer that packs motion with its depth into 16 bits each, and vertex normals into two bytes. Encoded here from
-   FORMAT.md's formulas in the other direction, in double; bounds are half a step of what is stored. */
+/* A G-buffer with packed motion and depth of 16 bits each, and vertex normals in two bytes. It is encoded by inverting the formulas of
+   FORMAT.md in double; bounds are half a step of the storage. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -12,9 +12,9 @@
 
 enum { COUNT = FIX_W * FIX_H };
 static struct fixture fixture;
-static double bits[3][COUNT]; /* room for any type */
+static double bits[3][COUNT]; /* large enough for any type */
 
-/* A capture whose part has these channels instead of its own; a vector without Z has none. */
+/* A capture whose part has these channels instead of its own. Vectors without Z have no Z channel. */
 static struct glint_capture *dump(const char *path, const char *part_name, const struct glint_encodings *encodings,
                                   const char *const *names, size_t count, enum glint_type type,
                                   const struct glint_frame *frame) {
@@ -79,7 +79,7 @@ static void packed_motion_with_depth(void **state) {
     unlink(path);
 }
 
-/* Two bytes a normal, beside normals in world axes. */
+/* Normals in two bytes, next to normals in world space. */
 static void check_view_xy(double sign, const char *part) {
     char path[512];
     static float out[3 * COUNT];
@@ -101,8 +101,8 @@ static void check_view_xy(double sign, const char *part) {
         dump(fixture_path(path, "view_xy.exr"), part, &encodings, names, 2, GLINT_UNORM8, &frame);
     assert_true(glint_part_has_channel(glint_capture_find(capture, part), names[2]));
     decoded(capture, part, names, 3, out);
-    /* Half a step of 8 bits, kept as half floats: x and y are off by δ each, so that z lies between what the circle's points up to √2 δ away have. Making normals
-       unit that 8 bits put outside of it moves x and y by √2 δ more. */
+    /* Half a step of 8 bits in half floats: x and y are off by up to δ, so z is between the values of points of the circle up to √2 δ
+       away. Normalising normals that 8 bits place outside of the circle moves x and y by another √2 δ. */
     const double delta = 2 * (0.5 / 255 + ldexp(1, -11)) + 4 * ldexp(1, -23);
     size_t away = 0;
     for (size_t i = 0; i < COUNT; i++) {
@@ -117,7 +117,7 @@ static void check_view_xy(double sign, const char *part) {
                      high = sqrt(1 - pow(fmax(across - sqrt(2) * delta, 0), 2));
         for (int a = 0; a < 2; a++) assert_true(fabs(got[a] - view[i][a]) <= (1 + sqrt(2)) * delta);
         assert_true(toward >= low - 1e-5 && toward <= high + 1e-5);
-        away += view[i][2] * sign > 0; /* the sign is lost */
+        away += view[i][2] * sign > 0; /* the sign cannot be stored */
     }
     assert_true(away > COUNT / 8 && away < COUNT - COUNT / 8);
     glint_capture_close(&capture);

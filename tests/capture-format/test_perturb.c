@@ -1,4 +1,4 @@
-/* Perturbed reads: how far values move, by each way to name a storage format, and what stays. */
+/* Perturbed reads: the distance by which values move for each storage format, and the values that do not move. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -16,7 +16,7 @@ enum { PIXELS = FIX_W * FIX_H };
 static struct fixture fixture;
 static char path[512];
 
-/* The smallest capture, with `values` and their storage in the channels of the G-buffer whose names begin so. */
+/* The smallest capture, with these values and storage in those channels of the G-buffer whose names begin with `channel`. */
 static struct glint_capture *capture_with(const char *channel, const float *values, const char *storage,
                                           struct glint_encodings encodings) {
     struct glint_error err = {0};
@@ -49,21 +49,21 @@ static void read_moved(struct glint_capture *capture, const char *channel, uint3
         fail_msg("%s", err.message);
 }
 
-static void finish(struct glint_capture *capture) {
+static void close_capture(struct glint_capture *capture) {
     glint_capture_close(&capture);
     unlink(path);
 }
 
-/* Half of the distance between floats with so many bits behind the leading one. */
+/* Half the distance between floats with this many binary digits after the leading one. */
 static double half_of(double v, int digits) {
     return ldexp(1, (int)floor(log2(v)) - digits - 1);
 }
 
-/* Catches: a format's name that is read for another's, steps of another size, coins that always fall alike. */
+/* Catches: a format's name mistaken for another's, steps of the wrong size, random signs that are always equal. */
 static void values_move_by_half_a_step(void **state) {
     static const struct {
         const char *storage;
-        int digits; /* of floating formats; 0: fixed with `steps` */
+        int digits; /* of floating-point formats; 0: fixed point with `steps` */
         double steps;
     } formats[] = {
         {"unorm8", 0, 255},
@@ -103,17 +103,17 @@ static void values_move_by_half_a_step(void **state) {
             up += by > 0;
             differ += moved[i] != other[i];
         }
-        /* Five standard deviations of coins. Of seven Walsh functions four differ between two seeds of eight. */
+        /* Five standard deviations of fair coins. Of seven Walsh functions, four differ between two of eight seeds. */
         assert_true(fabs((double)up - PIXELS / 2.0) < 2.5 * sqrt(PIXELS));
         assert_true(fabs((double)differ - 4 * PIXELS / 7.0) < 2.5 * sqrt(PIXELS));
         read_moved(capture, "material.metalness", 0, NULL, moved);
         assert_memory_equal(moved, values, sizeof moved);
-        finish(capture);
+        close_capture(capture);
     }
 }
 
-/* Over eight seeds. Catches: channels that move alike, or each by coins of its own, which agree in other than half of eight seeds
-   for 73 % of all pixels; a ninth seed that is the first again. */
+/* Over eight seeds. Catches: channels that move alike, channels with independent coins, which agree in other than half of eight seeds
+   for 73 % of the pixels, and a ninth seed that equals the first. */
 static void channels_of_a_pixel_have_nothing_in_common(void **state) {
     static const char *const channels[] = {"material.roughness", "material.metalness", "material.specular"};
     static float values[PIXELS], moved[3 * PIXELS], first[3 * PIXELS];
@@ -134,10 +134,10 @@ static void channels_of_a_pixel_have_nothing_in_common(void **state) {
     for (size_t i = 0; i < PIXELS; i++)
         for (size_t k = 0; k < 3; k++) assert_int_equal(agree[k][i], 4);
     assert_memory_not_equal(first, moved, sizeof first);
-    finish(capture);
+    close_capture(capture);
 }
 
-/* t² / |B| · h, whether the buffer was decoded before or is by the reader; sky stays. */
+/* t² / |B| · h, whether the buffer was decoded before capturing or by the reader; sky does not move. */
 static void depth_moves_as_its_buffer_does(void **state) {
     static float device[PIXELS], linear[PIXELS], moved[2][PIXELS], before[2][PIXELS];
     const double *m = fixture_frame().camera.view_to_clip, unit = fixture_frame().metres_per_unit;
@@ -159,10 +159,10 @@ static void depth_moves_as_its_buffer_does(void **state) {
         for (size_t i = 0; i < PIXELS; i++) {
             const double t = (double)before[k][i], by = fabs((double)moved[k][i] - t);
             if (i == 3) assert_true(isinf(moved[k][i]));
-            /* To first order; half a step of 16 bits is up to t/B · 8e-6 of it. */
+            /* to first order; half a step of 16 bits is up to t/B · 8e-6 of it */
             else assert_true(fabs(by / (t * t / scale / fabs(m[11]) * 0.5 / 65535) - 1) < 0.01);
         }
-        finish(capture);
+        close_capture(capture);
     }
 }
 
@@ -188,7 +188,7 @@ static void only_what_is_named_moves(void **state) {
     assert_false(glint_capture_perturb(capture, 3, (const char *const[]){"gbuffer:norm", NULL}, &err));
     assert_non_null(strstr(err.message, "found \"gbuffer:norm\""));
     assert_int_equal(glint_capture_perturbed(capture), 0);
-    finish(capture);
+    close_capture(capture);
 }
 
 int main(void) {

@@ -1,4 +1,4 @@
-/* Cube maps in a sibling file: found by name in the same folder, used only when their content hash is right. */
+/* Cube maps in a sibling file: found by name in the same folder, and only used if their content hash matches. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -13,7 +13,7 @@
 static struct fixture fixture;
 static char probes[512], capture_path[512];
 
-/* The cube maps alone; a channel less shifts nothing but the bytes. */
+/* A file with the cube maps alone. A missing channel only shifts bytes. */
 static void write_probes(size_t drop) {
     struct glint_error err = {0};
     struct glint_writer *writer = glint_writer_create(probes, NULL, &err);
@@ -39,7 +39,7 @@ static bool write_capture(const char *sibling, bool background, struct glint_err
         struct glint_part part = fixture_part(&fixture, (enum fixture_part)p, &channels);
         struct glint_cubemap moved = fixture.cubemap;
         if (part.cubemap) {
-            /* The capture's own attributes hold for its frame: fade and age change from frame to frame. */
+            /* The attributes in the capture apply to its frame: fade and age change from frame to frame. */
             moved.fade = 0.75;
             part.cubemap = &moved;
             part.channel_count = 0;
@@ -74,7 +74,7 @@ static void pixels_come_from_the_sibling(void **state) {
     }
 }
 
-static void refused(const char *words) {
+static void assert_refused(const char *words) {
     struct glint_error err = {0};
     struct glint_capture *capture = glint_capture_open(capture_path, NULL, &err);
     if (capture) fail_msg("taken, expected \"%s\"", words);
@@ -87,14 +87,14 @@ static void one_changed_byte_is_refused(void **state) {
     struct glint_error err = {0};
     write_probes(0);
     assert_true(write_capture("probes.exr", false, &err));
-    /* The last byte: pixels of the last chunk, no header. */
+    /* the last byte, which belongs to the pixels of the last chunk */
     FILE *file = fopen(probes, "r+b");
     fseek(file, -1, SEEK_END);
     const int last = fgetc(file);
     fseek(file, -1, SEEK_END);
     fputc(last ^ 1, file);
     fclose(file);
-    refused("expected the hash");
+    assert_refused("expected the hash");
 }
 
 static void another_file_of_that_name_is_refused(void **state) {
@@ -103,18 +103,18 @@ static void another_file_of_that_name_is_refused(void **state) {
     write_probes(0);
     assert_true(write_capture("probes.exr", false, &err));
     write_probes(1);
-    refused("expected the hash");
+    assert_refused("expected the hash");
     unlink(probes);
-    refused("No such file");
+    assert_refused("No such file");
 }
 
-/* The hash is right, but the file holds no such part: only a writer that lies can make one. */
+/* The hash is right, but the file has no such part, which only a faulty writer can produce. */
 static void a_sibling_without_the_part_is_refused(void **state) {
     (void)state;
     struct glint_error err = {0};
     assert_true(fixture_write(&fixture, probes, FIXTURE_LIT + 1, NULL, &err));
     assert_true(write_capture("probes.exr", false, &err));
-    refused("expected a part of this name");
+    assert_refused("expected a part of this name");
 }
 
 static void a_sibling_that_is_not_there_is_an_error_of_the_writer(void **state) {
@@ -143,7 +143,7 @@ static void count_violation(void *user, const char *rule, const char *message) {
     ++*(size_t *)user;
 }
 
-/* They are valid all the same. */
+/* A file with cube maps alone is valid. */
 static void cube_maps_alone_validate(void **state) {
     (void)state;
     struct glint_error err = {0};

@@ -1,4 +1,4 @@
-/* What depth's storage tells apart: against every value that the format holds, decoded by the formula of FORMAT.md. */
+/* The resolution of depth storage, compared with all values of the format, decoded by the formula of FORMAT.md. */
 #include <Imath/half.h>
 #include <math.h>
 #include <setjmp.h>
@@ -12,7 +12,7 @@
 
 static struct fixture fixture;
 
-/* A capture whose depth is declared so. The fixture's projection has near at 0.1 and far at 500 units; here a unit is a metre. */
+/* A capture whose depth is declared like this. The fixture's projection has near at 0.1 and far at 500 units; here a unit is a metre. */
 static struct glint_capture *capture_of(enum glint_depth_encoding encoding, const char *storage, char path[512]) {
     struct glint_error err = {0};
     struct glint_frame frame = fixture_frame();
@@ -42,7 +42,7 @@ static double device_to_metres(double v) {
     return v >= 1 ? (double)INFINITY : 0.1 * 500 / (500 - v * (500 - 0.1));
 }
 
-/* Of all values of a format the two around a distance. */
+/* The two values of a format around a distance. */
 struct around {
     double at, below, above;
 };

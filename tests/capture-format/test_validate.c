@@ -1,4 +1,4 @@
-/* Every rule of FORMAT.md, broken one at a time: validate names the rule, the reader refuses what it must. */
+/* Each rule of FORMAT.md is broken separately: validate names the rule, and the reader refuses what it must. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -54,7 +54,7 @@ static float *floats(struct rewrite *r, const char *part, const char *channel) {
     return rewrite_pixels(r, part, channel);
 }
 
-/* ---- one way to break each rule ---- */
+/* ---- a change that breaks each rule ---- */
 
 static void later_version(struct rewrite *r) {
     set_numbers(r, "lit", "glint.version", 0, 2);
@@ -159,7 +159,7 @@ static void climbing(struct rewrite *r) {
     nowhere(r);
     set_string(r, "cubemap.000", "glint.sibling", "../not-there.exr");
 }
-/* Leaves these channels of the previous G-buffer. */
+/* Keeps only these channels of the previous G-buffer. */
 static void keep_previous(struct rewrite *r, const char *const *kept) {
     const struct rewrite_part *p = rewrite_find(r, "previous.gbuffer");
     for (size_t i = p->part.channel_count; i-- > 0;) {
@@ -177,7 +177,7 @@ static void previous_half_a_normal(struct rewrite *r) {
 static void previous_half_a_colour(struct rewrite *r) {
     keep_previous(r, (const char *const[]){"depth.Z", "albedo.G", NULL});
 }
-/* Pixel 9 of the fixture is no sky. */
+/* Pixel 9 of the fixture is not sky. */
 static void nan_pixel(struct rewrite *r) {
     floats(r, "lit", "G")[9] = NAN, floats(r, "lit", "G")[45] = NAN;
 }
@@ -223,9 +223,9 @@ static void solid_sky(struct rewrite *r) {
 }
 
 static const struct {
-    const char *rule, *words[2]; /* in the message */
+    const char *rule, *words[2]; /* words: in the message */
     void (*change)(struct rewrite *r);
-    bool opens; /* the reader takes it */
+    bool opens; /* the reader accepts it */
 } cases[] = {
     {"version", {"part lit", "found 2"}, later_version, false},
     {"version", {"part sky", "none"}, no_version, false},
@@ -316,9 +316,9 @@ static void a_whole_capture_has_no_violation(void **state) {
     unlink(path);
 }
 
-/* A few draws of a small bright lamp: the mean's error is larger than the mean. A mirror ray that there is none of. What was
-   drawn where, without its colours. */
-static void what_an_engine_may_have_is_valid(void **state) {
+/* A few samples of a small bright lamp, whose standard error exceeds the mean. A missing mirror ray. The positions of samples without
+   their colours. */
+static void unusual_but_valid_captures_pass(void **state) {
     (void)state;
     static struct rewrite r;
     static struct found found;
@@ -364,8 +364,8 @@ static void all_violations_are_reported_together(void **state) {
     unlink(path);
 }
 
-/* An alpha between 0 and 1, as filtering leaves it, says nothing of what stands beside it. */
-static void half_sky_binds_nothing(void **state) {
+/* An alpha between 0 and 1, as filtering produces, implies nothing about other channels. */
+static void filtered_alpha_implies_nothing(void **state) {
     (void)state;
     static struct rewrite r;
     static struct found found;
@@ -383,8 +383,8 @@ static void half_sky_binds_nothing(void **state) {
     unlink(path);
 }
 
-/* Under sky a G-buffer may hold anything. */
-static void under_sky_only_depth_is_looked_at(void **state) {
+/* A G-buffer may contain anything where there is sky. */
+static void only_depth_is_checked_at_sky(void **state) {
     (void)state;
     static struct rewrite r;
     static struct found found;
@@ -402,7 +402,7 @@ static void under_sky_only_depth_is_looked_at(void **state) {
     unlink(path);
 }
 
-/* The example for engine programmers keeps every rule, and means what it says: a floor two metres below the eye. */
+/* The example for engine programmers is valid and correct: a floor two metres below the eye. */
 static const char *example;
 static void the_example_is_a_valid_capture(void **state) {
     (void)state;
@@ -423,7 +423,7 @@ static void the_example_is_a_valid_capture(void **state) {
         const float *pixel = out + 4 * 64 * y, down = 2 * ((float)y + 0.5f) / 36 - 1;
         if (down < 0) assert_true(isinf(pixel[0]));
         else assert_true(fabsf(pixel[0] * down - 2) < 1e-5f); /* a few roundings of floats */
-        /* One step of 16 bits from the exact middle. */
+        /* one step of 16 bits from the exact middle */
         assert_true(fabsf(pixel[1]) < 1e-4f && fabsf(pixel[2] - 1) < 1e-4f && fabsf(pixel[3]) < 1e-4f);
     }
     glint_capture_close(&capture);
@@ -440,8 +440,8 @@ int main(int argc, char **argv) {
     example = argc > 1 ? argv[1] : "";
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_whole_capture_has_no_violation),     cmocka_unit_test(every_rule_is_reported_by_name),
-        cmocka_unit_test(all_violations_are_reported_together), cmocka_unit_test(half_sky_binds_nothing),
-        cmocka_unit_test(what_an_engine_may_have_is_valid),     cmocka_unit_test(under_sky_only_depth_is_looked_at),
+        cmocka_unit_test(all_violations_are_reported_together), cmocka_unit_test(filtered_alpha_implies_nothing),
+        cmocka_unit_test(unusual_but_valid_captures_pass),      cmocka_unit_test(only_depth_is_checked_at_sky),
         cmocka_unit_test(the_example_is_a_valid_capture),
     };
     return cmocka_run_group_tests(tests, setup, NULL);

@@ -1,4 +1,4 @@
-/* The writer: siblings, the background mode, compressions, and what it refuses. */
+/* The writer: sibling files, background mode, compressions, and errors. */
 #include <dirent.h>
 #include <fcntl.h>
 #include <math.h>
@@ -20,8 +20,8 @@ static bool exists(const char *path) {
     return access(path, F_OK) == 0;
 }
 
-/* Whether the folder of `path` holds anything whose name begins with its own. */
-static bool leftovers(const char *path) {
+/* Whether the folder of `path` contains other files whose names begin with its own. */
+static bool has_leftovers(const char *path) {
     char folder[512];
     snprintf(folder, sizeof folder, "%s", path);
     char *slash = strrchr(folder, '/');
@@ -42,7 +42,7 @@ static struct glint_writer *begin(const char *path, bool background) {
     return writer;
 }
 
-static bool add(struct glint_writer *writer, enum fixture_part which, struct glint_error *err) {
+static bool add_part(struct glint_writer *writer, enum fixture_part which, struct glint_error *err) {
     struct fixture_channels channels;
     const struct glint_part part = fixture_part(&fixture, which, &channels);
     return glint_writer_add_part(writer, &part, err);
@@ -56,7 +56,7 @@ static void every_compression_reads_back(void **state) {
     static const char *const names[] = {"albedo.R", "motion.X", "vertexNormal.Y"};
     static const size_t at[] = {7, 10, 14};
     off_t sizes[GLINT_RLE + 1], plain = 0;
-    /* Noise alone would be stored as it is: half of the picture is flat, so that every method finds something. */
+    /* Noise alone would be stored uncompressed. Half of the image is constant, so that every method compresses it. */
     for (size_t i = 0; i < FIX_W * FIX_H / 2; i++)
         for (size_t c = 4; c < 17; c++) fixture.gbuffer[17 * i + c] = 0.375f;
     for (int c = GLINT_ZIP; c <= GLINT_RLE; c++) {
@@ -72,7 +72,7 @@ static void every_compression_reads_back(void **state) {
         for (size_t i = 0; i < FIX_W * FIX_H; i++)
             for (size_t n = 0; n < 3; n++) {
                 const float in = fixture.gbuffer[17 * i + at[n]];
-                /* PXR24 keeps 15 bits of a float's fraction, rounded. */
+                /* PXR24 keeps 15 bits of a float's mantissa, rounded. */
                 if (c == GLINT_PXR24) assert_true(fabsf(out[3 * i + n] - in) <= fabsf(in) * ldexpf(1, -16));
                 else assert_true(out[3 * i + n] == in);
             }
@@ -109,7 +109,7 @@ static void the_same_input_gives_the_same_bytes(void **state) {
 
 /* ---- background ---- */
 
-/* The worker cannot finish: its temporary file's name is taken by a named pipe that nobody reads yet. */
+/* The worker cannot finish, because the name of its temporary file is taken by a named pipe without a reader. */
 static void finish_returns_before_the_file_exists(void **state) {
     (void)state;
     char path[512], temporary[600];
@@ -117,18 +117,18 @@ static void finish_returns_before_the_file_exists(void **state) {
     fixture_path(path, "background.exr");
     snprintf(temporary, sizeof temporary, "%s.tmp-%ld", path, (long)getpid());
     struct glint_writer *writer = begin(path, true);
-    for (int p = 0; p <= FIXTURE_LIT; p++) assert_true(add(writer, (enum fixture_part)p, &err));
+    for (int p = 0; p <= FIXTURE_LIT; p++) assert_true(add_part(writer, (enum fixture_part)p, &err));
     assert_int_equal(mkfifo(temporary, 0600), 0);
     assert_true(glint_writer_finish(writer, &err));
     assert_false(exists(path));
-    /* A reader lets the worker's open return; a pipe cannot be written at an offset, so the worker fails, and says so. */
+    /* A reader lets the worker's open return. A pipe is not seekable, so the worker fails with an error. */
     const int pipe = open(temporary, O_RDONLY | O_NONBLOCK);
     assert_true(pipe >= 0);
     assert_false(glint_writer_wait(writer, &err));
     assert_int_equal(err.code, GLINT_ERROR_IO);
     close(pipe);
     glint_writer_destroy(&writer);
-    assert_false(leftovers(path));
+    assert_false(has_leftovers(path));
 }
 
 static void memory_is_the_callers_again_after_add_part(void **state) {
@@ -137,7 +137,7 @@ static void memory_is_the_callers_again_after_add_part(void **state) {
     struct glint_error err = {0};
     static float color[FIX_W * FIX_H * 3], out[FIX_W * FIX_H * 3];
     struct glint_writer *writer = begin(fixture_path(path, "copied.exr"), true);
-    assert_true(add(writer, FIXTURE_GBUFFER, &err));
+    assert_true(add_part(writer, FIXTURE_GBUFFER, &err));
     for (size_t i = 0; i < FIX_W * FIX_H * 3; i++) color[i] = (float)i;
     char names[3][2] = {"R", "G", "B"}, part_name[] = "lit";
     struct glint_channel channels[3];
@@ -168,10 +168,10 @@ static void nothing_is_left_without_finish(void **state) {
     struct glint_error err = {0};
     for (int background = 0; background < 2; background++) {
         struct glint_writer *writer = begin(fixture_path(path, "dropped.exr"), background);
-        for (int p = 0; p <= FIXTURE_LIT; p++) assert_true(add(writer, (enum fixture_part)p, &err));
+        for (int p = 0; p <= FIXTURE_LIT; p++) assert_true(add_part(writer, (enum fixture_part)p, &err));
         glint_writer_destroy(&writer);
         assert_null(writer);
-        assert_false(leftovers(path));
+        assert_false(has_leftovers(path));
     }
 }
 
@@ -184,7 +184,7 @@ static void a_failed_write_leaves_what_was_there(void **state) {
     fputs("old", old);
     fclose(old);
     struct glint_writer *writer = begin(path, false);
-    assert_true(add(writer, FIXTURE_GBUFFER, &err)); /* lit is missing */
+    assert_true(add_part(writer, FIXTURE_GBUFFER, &err)); /* lit is missing */
     assert_false(glint_writer_finish(writer, &err));
     assert_int_equal(err.code, GLINT_ERROR_FORMAT);
     assert_non_null(strstr(err.message, "lit"));
@@ -193,7 +193,7 @@ static void a_failed_write_leaves_what_was_there(void **state) {
     assert_int_equal(stat(path, &info), 0);
     assert_int_equal(info.st_size, 3);
     unlink(path);
-    assert_false(leftovers(path));
+    assert_false(has_leftovers(path));
 }
 
 static void a_folder_that_is_not_there_is_an_io_error(void **state) {
@@ -204,13 +204,13 @@ static void a_folder_that_is_not_there_is_an_io_error(void **state) {
     assert_non_null(strstr(err.message, "/nowhere/at/all.exr"));
 }
 
-/* ---- refusals: the writer stays usable ---- */
+/* ---- errors after which the writer stays usable ---- */
 
 struct refusal {
     enum fixture_part base;
     void (*change)(struct glint_part *part, struct fixture_channels *channels);
     enum glint_code code;
-    const char *words[2]; /* that the message holds */
+    const char *words[2]; /* parts of the message */
 };
 
 static void unknown_role(struct glint_part *p, struct fixture_channels *c) {
@@ -309,11 +309,11 @@ static void what_breaks_a_rule_is_refused_and_the_writer_stays_usable(void **sta
                 fail_msg("refusal %zu: code %d, \"%s\"", i, (int)err.code, err.message);
     }
     for (int p = 0; p < FIXTURE_PARTS; p++)
-        if (!add(writer, (enum fixture_part)p, &err)) fail_msg("%s", err.message);
-    assert_false(add(writer, FIXTURE_LIT, &err)); /* two of one name */
+        if (!add_part(writer, (enum fixture_part)p, &err)) fail_msg("%s", err.message);
+    assert_false(add_part(writer, FIXTURE_LIT, &err)); /* a duplicate name */
     assert_int_equal(err.code, GLINT_ERROR_USAGE);
     if (!glint_writer_finish(writer, &err)) fail_msg("%s", err.message);
-    assert_false(add(writer, FIXTURE_LIT, &err)); /* after finish */
+    assert_false(add_part(writer, FIXTURE_LIT, &err)); /* after finish */
     glint_writer_destroy(&writer);
     assert_true(exists(path));
     unlink(path);
@@ -349,7 +349,7 @@ static void zero_is_the_default(void **state) {
     frame.camera = fixture_frame().camera;
     struct glint_writer *writer = glint_writer_create(fixture_path(path, "zero.exr"), NULL, &err);
     assert_true(glint_writer_set_frame(writer, &frame, &err));
-    for (int p = 0; p <= FIXTURE_LIT; p++) assert_true(add(writer, (enum fixture_part)p, &err));
+    for (int p = 0; p <= FIXTURE_LIT; p++) assert_true(add_part(writer, (enum fixture_part)p, &err));
     if (!glint_writer_finish(writer, &err)) fail_msg("%s", err.message);
     glint_writer_destroy(&writer);
     struct glint_capture *capture = glint_capture_open(path, NULL, &err);

@@ -23,7 +23,7 @@ def run(*command):
 
 
 def statistics(path):
-    """{part: {channel: (min, max, mean)}} as oiiotool sees them."""
+    """{part: {channel: (min, max, mean)}} as reported by oiiotool."""
     names, result, part = [], {}, None
     for line in run("oiiotool", "--info", "-v", "-a", "--stats", path).split("\n"):
         if m := re.match(r"\s*channel list: (.*)", line):

@@ -13,7 +13,7 @@
 #include "glint/sort.h"
 #include "plain_capture.h"
 
-static void check(bool ok, const struct glint_error *err) {
+static void require(bool ok, const struct glint_error *err) {
     if (!ok) fail_msg("%s", err->message);
 }
 
@@ -21,7 +21,7 @@ void gpu_reset(struct gpu *gpu) {
     struct glint_error err = {0};
     glint_pipeline_destroy(&gpu->pipeline);
     gpu->pipeline = glint_pipeline_create(GLINT_TEST_PRESET, &err);
-    check(gpu->pipeline != NULL, &err);
+    require(gpu->pipeline != NULL, &err);
     gpu->float_precision = gpu->all = false;
 }
 
@@ -34,9 +34,9 @@ int gpu_set_up(void **state) {
     assert_non_null(mkdtemp(gpu->folder));
     gpu->device =
         glint_device_create(&(struct glint_device_options){.validation = !getenv("GLINT_TEST_UNCHECKED")}, &err);
-    check(gpu->device != NULL, &err);
+    require(gpu->device != NULL, &err);
     gpu->replay = glint_replay_create(gpu->device, &err);
-    check(gpu->replay != NULL, &err);
+    require(gpu->replay != NULL, &err);
     gpu_reset(gpu);
     *state = gpu;
     return 0;
@@ -70,12 +70,12 @@ int gpu_tear_down(void **state) {
 
 void gpu_set(struct gpu *gpu, const char *assignment) {
     struct glint_error err = {0};
-    check(glint_pipeline_set(gpu->pipeline, assignment, &err), &err);
+    require(glint_pipeline_set(gpu->pipeline, assignment, &err), &err);
 }
 
 void gpu_use(struct gpu *gpu, const char *assignment) {
     struct glint_error err = {0};
-    check(glint_pipeline_use(gpu->pipeline, assignment, &err), &err);
+    require(glint_pipeline_use(gpu->pipeline, assignment, &err), &err);
 }
 
 void gpu_without(struct gpu *gpu, const char *const *slots) {
@@ -101,12 +101,12 @@ void gpu_shader(struct gpu *gpu, const char *slot, const char *file) {
     struct glint_error err = {0};
     char assignment[1024];
     snprintf(assignment, sizeof assignment, "%s=%s/%s", slot, GLINT_TEST_SHADERS, file);
-    check(glint_pipeline_shader(gpu->pipeline, assignment, &err), &err);
+    require(glint_pipeline_shader(gpu->pipeline, assignment, &err), &err);
 }
 
 void plain_capture(const char *path, const struct plain *plain) {
     struct glint_error err = {0};
-    check(plain_write(path, plain, &err), &err);
+    require(plain_write(path, plain, &err), &err);
 }
 
 const char *gpu_path(const struct gpu *gpu, const char *name, char path[256]) {
@@ -117,18 +117,18 @@ const char *gpu_path(const struct gpu *gpu, const char *name, char path[256]) {
 void gpu_load(struct gpu *gpu, const char *name) {
     struct glint_error err = {0};
     char path[256];
-    check(glint_replay_load(gpu->replay, NULL, &err), &err);
+    require(glint_replay_load(gpu->replay, NULL, &err), &err);
     glint_capture_close(&gpu->capture);
     gpu->capture = glint_capture_open(gpu_path(gpu, name, path), NULL, &err);
-    check(gpu->capture != NULL, &err);
-    check(glint_replay_load(gpu->replay, gpu->capture, &err), &err);
+    require(gpu->capture != NULL, &err);
+    require(glint_replay_load(gpu->replay, gpu->capture, &err), &err);
 }
 
 void gpu_sample(struct gpu *gpu, const char *scene, const char *name, const struct glint_sample_options *options) {
     struct glint_error err = {0};
     char path[256];
     if (access(gpu_path(gpu, name, path), R_OK) != 0)
-        check(glint_sample_write(scene, path, options, NULL, NULL, &err), &err);
+        require(glint_sample_write(scene, path, options, NULL, NULL, &err), &err);
     gpu_load(gpu, name);
 }
 
@@ -136,10 +136,10 @@ void gpu_run(struct gpu *gpu) {
     struct glint_error err = {0};
     struct glint_replay_options options = {
         .diagnostics = true, .float_precision = gpu->float_precision, .all = gpu->all};
-    check(glint_replay_run(gpu->replay, gpu->pipeline, &options, NULL, NULL, &err), &err);
+    require(glint_replay_run(gpu->replay, gpu->pipeline, &options, NULL, NULL, &err), &err);
 }
 
-static void *get(struct gpu *gpu, const char *name, enum glint_type type, uint32_t *width, uint32_t *height) {
+static void *read_texels(struct gpu *gpu, const char *name, enum glint_type type, uint32_t *width, uint32_t *height) {
     struct glint_error err = {0};
     const struct glint_image *image = glint_replay_find_image(gpu->replay, name);
     if (!image) fail_msg("image %s: the run has none", name);
@@ -147,16 +147,16 @@ static void *get(struct gpu *gpu, const char *name, enum glint_type type, uint32
     if (height) *height = image->height;
     void *out = malloc((size_t)image->width * image->height * image->components * sizeof(float));
     assert_non_null(out);
-    check(glint_replay_read_image(gpu->replay, image, type, out, &err), &err);
+    require(glint_replay_read_image(gpu->replay, image, type, out, &err), &err);
     return out;
 }
 
 float *gpu_floats(struct gpu *gpu, const char *image, uint32_t *width, uint32_t *height) {
-    return get(gpu, image, GLINT_F32, width, height);
+    return read_texels(gpu, image, GLINT_F32, width, height);
 }
 
 uint32_t *gpu_uints(struct gpu *gpu, const char *image, uint32_t *width, uint32_t *height) {
-    return get(gpu, image, GLINT_U32, width, height);
+    return read_texels(gpu, image, GLINT_U32, width, height);
 }
 
 double quantile(double *values, size_t count, double part) {

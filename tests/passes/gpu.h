@@ -1,5 +1,5 @@
-/* What the device tests of passes/ share: a replay on the test device, captures in a folder of its own. Every failure is
-   a failed assertion. */
+/* Common to the device tests of passes/: a replay on the test device, and captures in a folder of their own. Every error is a failed
+   assertion. */
 #ifndef GLINT_TESTS_PASSES_GPU_H
 #define GLINT_TESTS_PASSES_GPU_H
 
@@ -16,34 +16,34 @@ struct gpu {
     char folder[64];
 };
 
-/* Group set-up and tear-down for cmocka: *state becomes a struct gpu with the pipeline of plain.json. The tear-down fails when the
-   validation layer said anything; GLINT_TEST_UNCHECKED in the environment leaves it out, for mutants. */
+/* Setup and teardown of a cmocka group: *state is a struct gpu with the pipeline of plain.json. The teardown fails if the validation
+   layer reported anything, unless GLINT_TEST_UNCHECKED is set, for mutants. */
 int gpu_set_up(void **state);
 int gpu_tear_down(void **state);
-/* A fresh pipeline of plain.json. */
+/* Creates the pipeline of plain.json again. */
 void gpu_reset(struct gpu *gpu);
 void gpu_set(struct gpu *gpu, const char *assignment);
 void gpu_use(struct gpu *gpu, const char *assignment);
-/* Leaves slots out; the list ends with NULL. */
+/* Sets slots to none; the list ends with NULL. */
 void gpu_without(struct gpu *gpu, const char *const *slots);
 void gpu_shader(struct gpu *gpu, const char *slot, const char *file);
 /* A path in the folder; valid until the next call with the same buffer. */
 const char *gpu_path(const struct gpu *gpu, const char *name, char path[256]);
 /* Writes a capture there. */
 void plain_capture(const char *path, const struct plain *plain);
-/* Writes the sample under `name` unless it is already there, and loads it. */
+/* Writes the sample as `name` unless it exists, and loads it. */
 void gpu_sample(struct gpu *gpu, const char *scene, const char *name, const struct glint_sample_options *options);
 void gpu_load(struct gpu *gpu, const char *name);
-/* With diagnostics. */
+/* Runs with diagnostics. */
 void gpu_run(struct gpu *gpu);
-/* Images of the last run; the caller frees. width and height may be NULL. */
+/* Reads an image of the last run; the caller frees it. width and height may be NULL. */
 float *gpu_floats(struct gpu *gpu, const char *image, uint32_t *width, uint32_t *height);
 uint32_t *gpu_uints(struct gpu *gpu, const char *image, uint32_t *width, uint32_t *height);
 
-/* Channels of a part of the capture, interleaved; the caller frees. */
+/* Reads channels of a part of the capture, interleaved; the caller frees them. */
 float *gpu_part(struct gpu *gpu, const char *name, const char *const *channels, size_t count);
 
-/* The value below which `part` of the values lie; sorts them. */
+/* The value below which this fraction of the values lies; sorts them. */
 double quantile(double *values, size_t count, double part);
 
 #endif

@@ -1,4 +1,4 @@
-/* blur/mips against its definition in double precision: boxes of boxes, between which a pixel's cone chooses. */
+/* blur/mips compared with its definition in double precision: box-filtered levels, between which a pixel's cone selects. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -14,7 +14,7 @@
 
 enum { SIZE = 128, HALF = SIZE / 2, LEVELS = 7 };
 
-/* Roughness in stripes, depths in steps of a third; a corner is sky. */
+/* Stripes of roughness, depths in steps of a third; a corner is sky. */
 static void stripes(const struct plain *plain, float *values) {
     const uint32_t pixels = plain->width * plain->height;
     for (uint32_t i = 0; i < pixels; ++i) {
@@ -30,7 +30,7 @@ static void far_away(uint32_t number, const double direction[3], float out[5]) {
     out[4] = direction[0] > 0 ? 40 : INFINITY;
 }
 
-/* R, weight, of each level. */
+/* R and the weight of each level. */
 struct chain {
     double texels[LEVELS][HALF * HALF][2];
 };
@@ -53,7 +53,7 @@ static void build(struct chain *chain, const float *color, const float *depth) {
     }
 }
 
-/* Bilinear around a place in pixels of level 0, held at the border. */
+/* Bilinear interpolation around a position in pixels of level 0, clamped to the border. */
 static void tap(const struct chain *chain, int level, double x, double y, double out[2]) {
     const int width = HALF >> level;
     const double u = x / (1 << level) - 0.5, v = y / (1 << level) - 0.5, left = floor(u), top = floor(v);
@@ -66,7 +66,7 @@ static void tap(const struct chain *chain, int level, double x, double y, double
     }
 }
 
-/* The cone at the reflection's image, which lies as far behind the surface as the ray went, in texels. */
+/* The radius in texels of the cone at the mirrored hit point, which lies behind the surface at the hit distance. */
 static double level_of(size_t i, double depth_m, double travelled_m, double cone, uint32_t pick, double widest) {
     const double half = tan(30 * 3.14159265358979323846 / 180);
     const double x = half * ((2 * (2 * (double)(i % HALF) + (pick & 1)) + 1) / SIZE - 1),
@@ -123,8 +123,8 @@ static void a_cone_chooses_between_boxes(void **state) {
         }
         print_message("# up to %g of the width: levels %.2f to %.2f, worst difference %.4f\n", widths[w], sharpest,
                       widest, worst);
-        /* Vulkan lets filters and levels have weights in steps of 1/256: two, of colours up to 2, over weights of which those
-           of a hundredth of the texels are missing. */
+        /* Vulkan allows weights of filters and levels in steps of 1/256: two of them, for colours up to 2, divided by weights of which
+           up to a hundredth of the texels are missing. */
         assert_true(worst < 3 * 2.0 / 256 && sharpest == 0 && widest > (w ? 0.6 : 2.9));
         free(color), free(depth), free(travelled), free(cone), free(found), free(pick);
     }

@@ -1,4 +1,4 @@
-/* Which neighbours' reflections are shared, and with what weight: blur/plus, and temporal/rough where it has no history. */
+/* The neighbours with which reflections are shared, and their weights: blur/plus, and temporal/rough without history. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -13,8 +13,8 @@
 
 enum { SIZE = 96, HALF = SIZE / 2 };
 
-/* A wall in relief: normals that lean, roughness in patches, steps of depth and some sky. Blocks of 2 x 2 are alike, so that it
-   does not matter which pixel is picked but for its place. */
+/* A wall in relief: tilted normals, patches of roughness, steps of depth and some sky. Pixels of a 2 x 2 block are equal, so that the
+   pick affects only the position. */
 static void relief(const struct plain *plain, float *values) {
     uint32_t pixels = plain->width * plain->height;
     for (uint32_t i = 0; i < pixels; ++i) {
@@ -41,13 +41,13 @@ static void position(const struct images *in, int x, int y, double out[3]) {
     out[0] = (2 * u - 1) / focal * d, out[1] = (1 - 2 * v) / focal * d, out[2] = -d;
 }
 
-/* A lobe's value by the cosine of its normals, 1 at their peak: cosⁿ, or GGX's density. */
+/* The value of a lobe by the cosine between normals, 1 at the peak: cosⁿ, or GGX's density. */
 static double lobe(bool ggx, double roughness, double cosine) {
     const double a2 = pow(roughness, 4);
     return ggx ? pow(a2 / (1 - cosine * cosine * (1 - a2)), 2) : pow(cosine, 2 / a2 - 2);
 }
 
-/* From the slides' rules and the parameters' meaning; defaults. */
+/* Derived from the slides' rules and the definitions of the parameters; default values. */
 static double weight(const struct images *in, bool ggx, int x, int y, int ox, int oy) {
     if (ox < 0 || oy < 0 || ox >= HALF || oy >= HALF) return 0;
     int i = y * HALF + x, o = oy * HALF + ox;
@@ -67,7 +67,7 @@ static double weight(const struct images *in, bool ggx, int x, int y, int ox, in
     return fade * lobe(ggx, rough, fmin(cosine / sqrt(lengths[0] * lengths[1]), 1));
 }
 
-static void load(struct gpu *gpu) {
+static void load_relief(struct gpu *gpu) {
     char path[256];
     plain_capture(
         gpu_path(gpu, "relief", path),
@@ -79,7 +79,7 @@ static void load(struct gpu *gpu) {
     gpu_set(gpu, "resolve.texel_scale=1");
 }
 
-/* The weighted mean over a cross of offsets, by which image. */
+/* The weighted mean over a cross of offsets. */
 static void expect_mean(struct gpu *gpu, bool ggx, const char *before, const char *after, const int offsets[4][2]) {
     struct images in = {gpu_floats(gpu, "depth_half", NULL, NULL), gpu_floats(gpu, "normal_half", NULL, NULL),
                         gpu_floats(gpu, before, NULL, NULL), gpu_uints(gpu, "pick", NULL, NULL)};
@@ -100,7 +100,7 @@ static void expect_mean(struct gpu *gpu, bool ggx, const char *before, const cha
         }
     print_message("# %s: %d weights above 0.5, %d are 0, worst error %.3g\n", after, shared, refused, worst);
     assert_true(shared > 500 && refused > 500);
-    /* The images are floats, and steep lobes have no weight: their neighbours differ by more than the rounding of 6e-8. */
+    /* images are floats; steep lobes have no weight, since their neighbours differ by more than the rounding of 6e-8 */
     assert_true(worst < 1e-5);
     free(in.depth), free(in.normal), free(in.color), free(in.pick), free(found);
 }
@@ -111,7 +111,7 @@ static const int centres[4][2] = {{1, 2}, {2, -1}, {-1, -2}, {-2, 1}};
 static void a_plus_is_weighted_by_the_lobe(void **state) {
     struct gpu *gpu = *state;
     for (int ggx = 0; ggx < 2; ++ggx) {
-        load(gpu);
+        load_relief(gpu);
         gpu_use(gpu, "blur=plus");
         gpu_set(gpu, ggx ? "blur.ndf=ggx" : "blur.ndf=blinn_phong");
         gpu_run(gpu);
@@ -121,14 +121,14 @@ static void a_plus_is_weighted_by_the_lobe(void **state) {
 
 static void without_history_the_centres_around_are_shared_too(void **state) {
     struct gpu *gpu = *state;
-    load(gpu);
+    load_relief(gpu);
     gpu_use(gpu, "blur=plus");
     gpu_use(gpu, "temporal=rough");
     gpu_run(gpu);
     expect_mean(gpu, true, "reflection_blurred", "reflection_temporal", centres);
 }
 
-/* Whatever it is, not a number too: as if the pass were not there. Roughness is 0.05 where sharing begins, and above. */
+/* Any value, including NaN, stays as if the pass did not run. Roughness is at least 0.05, where sharing begins. */
 static void what_shares_nothing_keeps_what_it_has(struct gpu *gpu) {
     float *before = gpu_floats(gpu, "reflection_half", NULL, NULL),
           *after = gpu_floats(gpu, "reflection_blurred", NULL, NULL),
@@ -150,7 +150,7 @@ static void what_shares_nothing_keeps_what_it_has(struct gpu *gpu) {
 static void bad_colours_are_left_out(void **state) {
     struct gpu *gpu = *state;
     for (int mips = 0; mips < 2; ++mips) {
-        load(gpu);
+        load_relief(gpu);
         gpu_set(gpu, "resolve.texel_scale=2");
         gpu_use(gpu, mips ? "blur=mips" : "blur=plus");
         if (!mips) gpu_use(gpu, "temporal=rough");
@@ -168,7 +168,7 @@ static void bad_colours_are_left_out(void **state) {
     }
 }
 
-/* Where each block's picked pixel comes from, two texels to the right; with `user`, the others say they are still. */
+/* Each block's picked pixel comes from two texels to the right; with `user`, the motion of other pixels is zero. */
 static void moves(const struct plain *plain, float *values) {
     const uint32_t pixels = plain->width * plain->height, *pick = plain->user;
     for (uint32_t i = 0; i < pixels; ++i) {
@@ -177,7 +177,7 @@ static void moves(const struct plain *plain, float *values) {
     }
 }
 
-/* The last of two frames: history and picks. */
+/* The second of two frames: history and picks. */
 static float *second_frame(struct gpu *gpu, const uint32_t *pick) {
     for (uint32_t frame = 1; frame <= 2; ++frame) {
         char path[256], name[16];
@@ -195,10 +195,10 @@ static float *second_frame(struct gpu *gpu, const uint32_t *pick) {
     return gpu_floats(gpu, "reflection_temporal", NULL, NULL);
 }
 
-/* A block's history lies where its picked pixel was, whatever its other pixels say. */
+/* The history of a block is at the previous position of its picked pixel, whatever the motion of its other pixels is. */
 static void the_picked_pixel_moves_its_block(void **state) {
     struct gpu *gpu = *state;
-    load(gpu);
+    load_relief(gpu);
     gpu_use(gpu, "temporal=rough");
     float *all = second_frame(gpu, NULL);
     uint32_t *pick = gpu_uints(gpu, "pick", NULL, NULL), others = 0;

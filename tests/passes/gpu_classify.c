@@ -1,4 +1,4 @@
-/* Lists of rays by class: their order against one made here, and the bits of what is traced over them. */
+/* Lists of rays by class: their order compared with an independent one, and the bits of tracers that process them. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -14,7 +14,7 @@
 
 enum { LIST_WIDTH = 256, CLASSES = 2, RANGES_AT = 128 };
 
-/* Tiles that end inside the picture: half of it is 83 × 47. */
+/* Tiles exceed the image, whose half resolution is 83 × 47. */
 static void load_street(struct gpu *gpu) {
     gpu_sample(gpu, "street", "street", &(struct glint_sample_options){.width = 166, .height = 94, .cube_size = 32});
     gpu_reset(gpu);
@@ -26,7 +26,7 @@ static void with_lists(struct gpu *gpu) {
     gpu_use(gpu, "classify_unfinished=tiles");
 }
 
-/* Class of a pixel by its definition; CLASSES: no ray. */
+/* The class of a pixel by definition; CLASSES: no ray. */
 static int class_of(const float *depth, const float *normal, const uint32_t *finished, uint32_t i) {
     const float *n = &normal[4 * i];
     double length2 = (double)(n[0] * n[0]) + (double)(n[1] * n[1]) + (double)(n[2] * n[2]);
@@ -35,15 +35,15 @@ static int class_of(const float *depth, const float *normal, const uint32_t *fin
     return n[3] <= 0.1f ? 0 : 1;
 }
 
-/* Item `place` of a list being walked must be this one. */
+/* The next item of a list must be this one. */
 static void expect_item(const uint32_t *list, uint32_t *place, uint32_t item) {
     if (list[LIST_WIDTH + *place] != item)
         fail_msg("item %u: expected %x, found %x", *place, item, list[LIST_WIDTH + *place]);
     ++*place;
 }
 
-/* Walks the texels of half the resolution, each a tile, rough ones first and those without a ray last: region by region of 32 x 32, in
-   it columns of strips of eight. Returns how many texels each class has. */
+/* Compares a list with all texels of half resolution as tiles, rough ones first and those without a ray last: by regions of 32 x 32, in
+   each by columns of strips of eight. Counts the texels of each class. */
 static void expect_list(struct gpu *gpu, const char *name, bool unfinished, uint32_t counts[CLASSES]) {
     static const int order[] = {1, 0, CLASSES};
     uint32_t width, height, list_width, list_height;
@@ -111,7 +111,7 @@ static void one_texel_makes_one_workgroup(void **state) {
     assert_true(counts[0] == 0 && counts[1] == 1);
 }
 
-/* Catches: counts of regions beyond the first one for each invocation. */
+/* Catches: wrong counts if an invocation processes several regions. */
 static void more_regions_than_invocations(void **state) {
     struct gpu *gpu = *state;
     char path[256];
@@ -126,7 +126,7 @@ static void more_regions_than_invocations(void **state) {
     assert_int_equal(counts[0], 2100 * 98);
 }
 
-/* A replay of as large a picture in which every pixel has a ray, so that what is not written of the next one's images is not 0. */
+/* Replays an image of the same size in which every pixel has a ray, so that images of the next run do not begin as zeros. */
 static void fill_memory(struct gpu *gpu) {
     char path[256];
     plain_capture(gpu_path(gpu, "wall", path), &(struct plain){.width = 166, .height = 94, .fov_y_degrees = 60});
@@ -135,8 +135,8 @@ static void fill_memory(struct gpu *gpu) {
     gpu_run(gpu);
 }
 
-/* Catches: rays that a list loses, pixels outside it that keep what was in memory, arithmetic that depends on which
-   rays share a workgroup. */
+/* Catches: rays that are missing in a list, stale values in pixels outside of it, and arithmetic that depends on the other rays of a
+   workgroup. */
 static void lists_change_no_bit(void **state) {
     struct gpu *gpu = *state;
     static const char *const images[] = {"screen_travelled", "screen_finished", "screen_end",    "screen_steps",

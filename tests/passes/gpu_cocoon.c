@@ -1,4 +1,4 @@
-/* The cocoon against maxima made here, level by level. */
+/* The cocoon compared with maxima that are computed here, level by level. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -20,8 +20,8 @@ static float *level_of(struct gpu *gpu, uint32_t level, uint32_t *width) {
     return gpu_floats(gpu, name, width, &height);
 }
 
-static void start(struct gpu *gpu, const char *name, uint32_t size, uint32_t count,
-                  void (*cube)(uint32_t, const double *, float *)) {
+static void load_cubemaps(struct gpu *gpu, const char *name, uint32_t size, uint32_t count,
+                          void (*cube)(uint32_t, const double *, float *)) {
     char path[256];
     struct plain plain = {
         .width = 40, .height = 24, .fov_y_degrees = 60, .cube_size = size, .cube_count = count, .cube = cube};
@@ -33,23 +33,23 @@ static void start(struct gpu *gpu, const char *name, uint32_t size, uint32_t cou
     gpu_use(gpu, "cocoon=max");
 }
 
-/* Cube map 0: a lumpy space with poles and a window to the sky; 1: all sky but for one direction; 2: all sky. */
-static void lumpy(uint32_t number, const double d[3], float out[5]) {
+/* Cube map 0: an uneven space with poles and a window to the sky; 1: sky except in one direction; 2: sky. */
+static void uneven_space(uint32_t number, const double d[3], float out[5]) {
     bool sky = number == 0 ? d[1] > 0.6 || (d[0] > 0.8 && fabs(d[1]) < 0.4) : number == 1 ? d[2] < 0.99 : true;
     bool pole = fabs(d[0] * 7 - floor(d[0] * 7) - 0.5) < 0.06;
     out[0] = out[1] = out[2] = out[3] = sky ? 0 : 1;
     out[4] = sky ? INFINITY : (float)(pole ? 1 : 3 + d[0] + 0.5 * sin(9 * d[1]));
 }
 
-/* What a bilinear lookup of a cube map may give: texels beyond a border are the neighbouring face's, which a direction
-   that is continued over the border meets. Where three faces meet, devices differ: low and high then bound it. */
+/* The range of results of a bilinear cube-map lookup: texels beyond a border are those of the neighbouring face in the direction that
+   is extended over the border. At corners, devices differ, and low and high are different. */
 struct bounds {
     double low, high;
 };
 static double nearest_texel(const float *cube, uint32_t size, const double d[3]) {
     double best = -2;
     uint32_t at = 0;
-    for (uint32_t i = 0; i < 6 * size * size; ++i) { /* brute force: the texel whose direction is nearest on its face */
+    for (uint32_t i = 0; i < 6 * size * size; ++i) { /* brute force: the texel with the nearest direction on its face */
         double t[3];
         plain_direction(i / (size * size), i % size, i / size % size, size, t);
         uint32_t face = i / (size * size), axis = face / 2;
@@ -79,12 +79,12 @@ static struct bounds lookup(const float *cube, uint32_t size, const double d[3])
     return corner ? (struct bounds){low, high} : (struct bounds){sum, sum};
 }
 
-/* Slides, Weighted MAX, over 29 taps of a disc of 3.5 texels of the coarser level, whose rim weighs a tenth; or over
-   their pairs on either side of the pivot, by the mean of |v| / distance. */
+/* Slides, Weighted MAX: 29 taps of a disc with a radius of 3.5 texels of the coarser level, whose rim has a weight of a tenth; or pairs
+   of taps on both sides of the pivot, by the mean of |v| / distance. */
 static struct bounds weighted_max(const float *coarser, uint32_t size, const double axis[3], bool pairs) {
     struct bounds pivot = lookup(coarser, size, axis), out = pivot;
     double rim = 3.5 / (size / 2.0), power = log(0.1) / log(cos(atan(rim)));
-    /* Any frame: taps lie on a lattice, so the device's own is needed (Duff et al. 2017). */
+    /* taps are on a lattice, so the device's tangent frame is used (Duff et al. 2017) */
     double side = axis[2] >= 0 ? 1 : -1, a = -1 / (side + axis[2]), b = axis[0] * axis[1] * a;
     const double t[3] = {1 + side * axis[0] * axis[0] * a, side * b, -side * axis[0]};
     const double s[3] = {b, side + axis[1] * axis[1] * a, -axis[1]};
@@ -112,9 +112,9 @@ static struct bounds weighted_max(const float *coarser, uint32_t size, const dou
     return out;
 }
 
-enum { SIZE = 32, COCOON = 2 /* the level that is 8 wide */, COARSEST = 5, WIDTH = COCOON_WIDTH };
+enum { SIZE = 32, COCOON = 2 /* COCOON: the level of width 8 */, COARSEST = 5, WIDTH = COCOON_WIDTH };
 
-/* Top-down by its definition: a texel is the farthest of all base texels under it that are not sky. */
+/* By definition: the farthest distance of all base texels below a texel that are not sky. */
 static double farthest(const float *base, uint32_t level, uint32_t face, uint32_t x, uint32_t y) {
     double most = -1;
     for (uint32_t i = 0; i < SIZE * SIZE; ++i) {
@@ -124,14 +124,14 @@ static double farthest(const float *base, uint32_t level, uint32_t face, uint32_
     return most < 0 ? INFINITY : most;
 }
 
-/* Direction of a sample of the cocoon, the outermost on the face's borders; its largest component is 1. */
+/* The direction of a sample of the cocoon, whose outermost samples are on the borders of the face; its largest component is 1. */
 static void cocoon_direction(uint32_t face, uint32_t x, uint32_t y, double out[3]) {
     plain_direction(face, x / (WIDTH - 1.0) - 0.5, y / (WIDTH - 1.0) - 0.5, 1, out);
     double major = fmax(fabs(out[0]), fmax(fabs(out[1]), fabs(out[2])));
     for (int k = 0; k < 3; ++k) out[k] /= major;
 }
 
-/* The image of the cocoon alone against the level that it is taken from. */
+/* Compares the image of the cocoon with the level that it is computed from. */
 static void check_cocoon(struct gpu *gpu, const float *level, uint32_t number) {
     uint32_t width, height;
     float *samples = gpu_floats(gpu, "cocoon", &width, &height);
@@ -177,7 +177,7 @@ static void check_map(struct gpu *gpu, const float *base, uint32_t number, bool 
                 expected = lookup(cubes[COCOON], SIZE >> COCOON, axis);
                 found = -found; /* a cap */
             }
-            /* The sampler's weights have 8 bits, of differences below 4 m. */
+            /* the sampler's weights have 8 bits; differences are below 4 m */
             if (!(found >= expected.low - 0.02 && found <= expected.high + 0.02))
                 fail_msg("map %u, level %u, face %u, %u,%u: %g, expected %g to %g", number, level, face, x, y, found,
                          expected.low, expected.high);
@@ -191,7 +191,7 @@ static void check_map(struct gpu *gpu, const float *base, uint32_t number, bool 
 
 static void each_level_is_the_slides_maximum(void **state) {
     struct gpu *gpu = *state;
-    start(gpu, "lumpy", SIZE, 2, lumpy);
+    load_cubemaps(gpu, "lumpy", SIZE, 2, uneven_space);
     gpu_set(gpu, "cocoon.size=8");
     size_t counts[4] = {0};
     for (uint32_t k = 0; k < 4; ++k) {
@@ -202,7 +202,7 @@ static void each_level_is_the_slides_maximum(void **state) {
         for (uint32_t i = 0; i < 6 * SIZE * SIZE; ++i) {
             double d[3];
             plain_direction(i / (SIZE * SIZE), i % SIZE, i / SIZE % SIZE, SIZE, d);
-            lumpy(number, d, out);
+            uneven_space(number, d, out);
             base[i] = out[4];
         }
         check_map(gpu, base, number, k < 2, counts);
@@ -216,7 +216,7 @@ static void all_sky_stays_sky_and_one_texel_works(void **state) {
     struct gpu *gpu = *state;
     const uint32_t sizes[] = {1, 8};
     for (int s = 0; s < 2; ++s) {
-        start(gpu, "sky", sizes[s], 3, lumpy);
+        load_cubemaps(gpu, "sky", sizes[s], 3, uneven_space);
         gpu_run(gpu);
         uint32_t width;
         float *found = level_of(gpu, 0, &width);
@@ -242,12 +242,12 @@ static void unlike(uint32_t number, const double d[3], float out[5]) {
     out[4] = (float)(2 + number + any - floor(any));
 }
 
-/* Faces of 13, 6, 3 and 1 texels: of all texels of the captured face that a texel's own square overlaps, level by level. */
+/* Faces of 13, 6, 3 and 1 texels: the maximum of all texels of the captured face that a texel's area overlaps. */
 static void odd_levels_take_the_farthest_of_all_that_they_cover(void **state) {
     struct gpu *gpu = *state;
     enum { ODD = 13 };
     float finer[6 * ODD * ODD], out[5];
-    start(gpu, "odd", ODD, 1, unlike);
+    load_cubemaps(gpu, "odd", ODD, 1, unlike);
     gpu_set(gpu, "cocoon.size=1");
     gpu_run(gpu);
     for (uint32_t i = 0; i < 6 * ODD * ODD; ++i) {

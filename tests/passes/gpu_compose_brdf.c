@@ -1,4 +1,4 @@
-/* compose: what does not reflect stays as it was, and what does takes the share that its material says. */
+/* compose: pixels without reflection do not change, and others get the fraction of reflection that their material defines. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -16,7 +16,7 @@ static void load_matte(struct gpu *gpu) {
     gpu_reset(gpu);
 }
 
-/* Every pass runs, and still not a bit changes. */
+/* Every pass runs, and not a bit changes. */
 static void matte_stays_lit(void **state) {
     struct gpu *gpu = *state;
     struct glint_error err = {0};
@@ -42,7 +42,7 @@ static void matte_stays_lit(void **state) {
     free(lit);
 }
 
-/* The reflections that it would have had were really there; the picture takes none of them. */
+/* Reflections are traced here, but the image does not contain them. */
 static void matte_was_traced(void **state) {
     struct gpu *gpu = *state;
     load_matte(gpu);
@@ -59,7 +59,7 @@ static void matte_was_traced(void **state) {
     free(reflection);
 }
 
-/* A mirror of specular 0.5 reflects 0.04 where nothing rises, at every angle; from there to all of it in proportion. */
+/* A mirror with specular 0.5 reflects 0.04 without Fresnel's rise, at every angle; with it, proportionally more up to 1. */
 static void materials_say_how_reflectance_rises(void **state) {
     struct gpu *gpu = *state;
     enum { W = 64, H = 48 };
@@ -102,7 +102,7 @@ static void materials_say_how_reflectance_rises(void **state) {
 
 enum { WIDE = 48, HIGH = 32 };
 
-/* Mirrors of all kinds: metals and dielectrics, coloured, leaning to all sides, some without specular. */
+/* Mirrors: metals and dielectrics, coloured, tilted in all directions, some without specular. */
 static void collect(const struct plain *plain, float *values) {
     const uint32_t pixels = plain->width * plain->height;
     for (uint32_t i = 0; i < pixels; ++i) {
@@ -121,8 +121,8 @@ static double at_pixel(const float *gbuffer, uint32_t i, int channel) {
     return (double)gbuffer[9 * i + (uint32_t)channel];
 }
 
-/* Schlick's Fresnel from reflectance at normal incidence, Burley's 0.08 specular or a metal's colour, to 1, or to what is less
-   than 2 % fifty times. Of the G-buffer as it was written: normal, albedo, metalness, specular, depth. */
+/* Schlick's Fresnel from the reflectance at normal incidence (0.08 specular by Burley, or a metal's colour) to 1, or to fifty times a
+   reflectance below 2 %. gbuffer: normal, albedo, metalness, specular, depth. */
 static void schlick(const float *gbuffer, uint32_t i, double weight[3]) {
     const double half = tan(30 * 3.14159265358979323846 / 180);
     const double view[3] = {half * WIDE / HIGH * ((2.0 * (i % WIDE) + 1) / WIDE - 1),
@@ -174,7 +174,7 @@ static void mirrors_compose_by_schlick(void **state) {
             }
         }
         print_message("# %s: worst difference %.2e, weights up to %.2f\n", variants[v], worst, strongest);
-        /* Sums of floats below 4. The environment's fit holds a mirror's terms exactly. */
+        /* sums of floats below 4; the fit of the environment BRDF is exact for mirrors */
         assert_true(worst < 4e-6 && strongest > 0.9);
         free(composed), free(color), free(lit), free(gbuffer);
     }

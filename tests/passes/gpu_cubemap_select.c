@@ -1,4 +1,4 @@
-/* cubemap_select/score against scores in double: spheres of known radius around known centres. */
+/* cubemap_select/score compared with scores in double precision: spheres of known radii around known centres. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -38,8 +38,8 @@ static double score(const struct weights *w, uint32_t map, const double at[3], c
            w->direction * (0.5 + 0.5 * along / length) + w->fade * fades[map];
 }
 
-/* Counts pixels by the cube map that they should take; places are in the order of the host's table. */
-static void check(struct gpu *gpu, const struct weights *w, const char *what) {
+/* Compares the selected cube map of each pixel; indices are in the order of the host's table. */
+static void check_selection(struct gpu *gpu, const struct weights *w, const char *what) {
     char setting[64];
     gpu_reset(gpu);
     gpu_use(gpu, "cubemap_select=score");
@@ -56,7 +56,7 @@ static void check(struct gpu *gpu, const struct weights *w, const char *what) {
     uint32_t *pick = gpu_uints(gpu, "pick", NULL, NULL), *index = gpu_uints(gpu, "active_index", NULL, NULL);
     size_t checked = 0, taken[MAPS] = {0};
     for (uint32_t i = 0; i < width * height; ++i) {
-        /* A wall at z = -5 m, seen from the origin, 60° high, 64 × 36 pixels; the mirror ray starts there. */
+        /* A wall at z = -5 m, seen from the origin with a field of view of 60° and 64 × 36 pixels; the mirror ray starts there. */
         double scale = 5 * tan(3.14159265358979323846 / 6) / 18;
         double at[3] = {scale * (2 * (i % width) + (pick[i] & 1) + 0.5 - 32),
                         -scale * (2 * (i / width) + (pick[i] >> 1) + 0.5 - 18), -5};
@@ -94,15 +94,15 @@ static void each_term_alone_and_together_decides(void **state) {
     }
     plain_capture(gpu_path(gpu, "spheres", path), &plain);
     gpu_load(gpu, "spheres");
-    check(gpu, &(struct weights){0, 1, 0, 0, 0}, "distance");
-    check(gpu, &(struct weights){0, 0, 1, 0, 0}, "direction");
-    check(gpu, &(struct weights){1, 0.2, 0, 0, 0}, "visibility, then distance");
-    check(gpu, &(struct weights){0, 0.5, 0, 1, 0}, "fade, then distance");
-    check(gpu, &(struct weights){1, 0.2, 0, 0, 1.5}, "visibility farther along the ray, then distance");
-    check(gpu, &(struct weights){0.3, 1, 0.5, 0.2, 0.5}, "all");
+    check_selection(gpu, &(struct weights){0, 1, 0, 0, 0}, "distance");
+    check_selection(gpu, &(struct weights){0, 0, 1, 0, 0}, "direction");
+    check_selection(gpu, &(struct weights){1, 0.2, 0, 0, 0}, "visibility, then distance");
+    check_selection(gpu, &(struct weights){0, 0.5, 0, 1, 0}, "fade, then distance");
+    check_selection(gpu, &(struct weights){1, 0.2, 0, 0, 1.5}, "visibility farther along the ray, then distance");
+    check_selection(gpu, &(struct weights){0.3, 1, 0.5, 0.2, 0.5}, "all");
 }
 
-/* Right in a cube map's centre no direction is more along the ray than another. */
+/* At the centre of a cube map no direction is preferred. */
 static void a_start_in_a_centre_has_a_score(void **state) {
     struct gpu *gpu = *state;
     enum { ODD = 33, MIDDLE = ODD / 2 * ODD + ODD / 2 };
@@ -110,7 +110,7 @@ static void a_start_in_a_centre_has_a_score(void **state) {
     struct plain plain = {
         .width = ODD, .height = ODD, .fov_y_degrees = 60, .cube_size = 8, .cube_count = 2, .cube = sphere};
     plain.cubes[0].center[0] = 2, plain.cubes[0].center[2] = -2;
-    plain.cubes[1].center[2] = -5; /* where the ray of the pixel in the middle starts */
+    plain.cubes[1].center[2] = -5; /* where the ray of the central pixel starts */
     plain_capture(gpu_path(gpu, "middle", path), &plain);
     gpu_load(gpu, "middle");
     gpu_reset(gpu);

@@ -1,4 +1,4 @@
-/* The order in which downsample draws its normals, and their density below a cut. */
+/* The stratification of downsample's normals, and their density in a cut lobe. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -24,7 +24,7 @@ static void tilt(const struct plain *plain, float *values) {
     }
 }
 
-/* A draw for each pixel, in the frame of the normal: x towards the side that the viewer is on. */
+/* Samples a half-vector for each pixel, in the frame of the normal with x towards the viewer. */
 static double (*draws(struct gpu *gpu, bool tilted, const char *ndf, const char *pattern, uint32_t size))[3] {
     char path[256], setting[64];
     const char *name = tilted ? "tilted" : "flat";
@@ -65,11 +65,11 @@ static void every_plus_holds_all_five_fifths(void **state) {
     for (int y = 1; y < SIZE - 1; ++y)
         for (int x = 1; x < SIZE - 1; ++x) {
             unsigned seen = 0;
-            /* The frame of the normal may be turned: half a turn from the device's, as draws() builds it. */
+            /* The frame of the normal may be rotated: by half a turn relative to draws(). */
             for (int k = 0; k < 5; ++k) seen |= 1u << (int)(5 * fmod(turn[y * SIZE + x + around[k]] + 1, 1));
             assert_int_equal(seen, 31);
         }
-    (void)quantile(turn, DRAWS, 0.5); /* sorts: together they are the whole circle, evenly */
+    (void)quantile(turn, DRAWS, 0.5); /* sorts; together they cover the circle evenly */
     for (int i = 0; i < DRAWS; ++i) most = fmax(most, fabs(turn[i] - (i + 0.5) / DRAWS));
     assert_true(most < 1.95 / SIZE); /* Kolmogorov and Smirnov, 1 in 1,000 for independent draws */
     free(turn), free(h);
@@ -81,15 +81,15 @@ static double cut_angle(bool ggx) {
     return share * asin(sqrt((1 / sqrt(threshold) - 1) / (1 / a2 - 1)));
 }
 
-/* How much of its cap GGX's cut leaves: as much as of the normals that are seen along the surface normal, whose tan² is below
-   t² with a probability of t²/(α² + t²). */
+/* The fraction of GGX's visible cap within the cut: that of the normals seen along the surface normal whose tan² is below t², t²/(α² +
+   t²). */
 static double kept_part(void) {
     double t2 = pow(tan(cut_angle(true)), 2);
     return t2 / (pow(roughness, 4) + t2);
 }
 
-/* How far a half-vector's mirror image of the viewer lies from the cap's middle, both stretched to a sphere: 1 - cos, as a
-   part of the most. Visible normals spread evenly over that cap (Dupuy and Benyoub). */
+/* The distance of the mirrored view direction from the centre of the cap, stretched to a sphere: 1 - cos, relative to the maximum.
+   Visible normals are uniform on the cap (Dupuy and Benyoub). */
 static double place_in_cap(double x, double y, double z) {
     const double alpha = roughness * roughness;
     double vx = alpha * sin(oblique), vz = cos(oblique), v = sqrt(vx * vx + vz * vz);
@@ -98,7 +98,7 @@ static double place_in_cap(double x, double y, double z) {
     return (1 - (2 * (vx * mx + vz * z) / m * z / m - vz)) / (1 + vz);
 }
 
-/* Not normalised. Blinn-Phong: per half-vector; GGX: visible from the oblique view. Rays below the surface are repeated. */
+/* Not normalised. Blinn-Phong: by half-vector; GGX: visible normals of the oblique view. Rays below the surface are repeated. */
 static double density(bool ggx, double x, double y, double z) {
     double v_h = sin(oblique) * x + cos(oblique) * z;
     bool cut = ggx ? place_in_cap(x, y, z) > kept_part() : acos(fmin(z, 1)) > cut_angle(false);
@@ -114,13 +114,13 @@ static int bin_of(double cut, double x, double y, double z) {
     return (ring < RINGS ? ring : RINGS - 1) * SLICES + (slice < SLICES ? slice : SLICES - 1);
 }
 
-/* Where a number lies among so many equal parts; -1: so near to a border that the rounding of a normal may have moved it. */
+/* The index of the interval that contains a number; -1 if the rounding of a normal may have moved it across a border. */
 static int part_of(double u, int parts) {
     const double place = u * parts;
     return fabs(place - round(place)) < 1e-3 ? -1 : (int)place;
 }
 
-/* Of the 25 pixels around one, in five pluses: each plus has each fifth of both numbers, and all of them each of 5 x 5 cells. */
+/* Of the 25 pixels around one, in five pluses: each plus covers each fifth of both numbers, and all together each of 5 x 5 cells. */
 static void strata_hold_every_cell(void **state) {
     static const int centres[5][2] = {{0, 0}, {1, 2}, {2, -1}, {-1, -2}, {-2, 1}},
                      plus[5][2] = {{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}};
@@ -154,7 +154,7 @@ static void draws_follow_the_cut_density(void **state) {
     for (int run = 0; run < 10; ++run) {
         bool ggx = run % 2;
         uint32_t size = run < 2 ? WIDE : SIZE;
-        /* GGX's cap is tilted: its rim stays below this angle. */
+        /* GGX's cap is tilted; its rim stays below this angle. */
         double cut = (ggx ? 2 : 1) * cut_angle(ggx), expected[RINGS * SLICES] = {0}, found[RINGS * SLICES] = {0},
                total = 0, chi2 = 0;
         enum { FINE = 800 };
@@ -179,7 +179,7 @@ static void draws_follow_the_cut_density(void **state) {
             chi2 += (found[i] - e) * (found[i] - e) / e;
             ++bins;
         }
-        /* Independent draws exceed it once in 1,000 (Wilson and Hilferty); patterns scatter less. */
+        /* Independent samples exceed this once in 1,000 (Wilson and Hilferty); stratified ones vary less. */
         double k = bins - 1, limit = k * pow(1 - 2 / (9 * k) + 3.09 * sqrt(2 / (9 * k)), 3);
         print_message("# %s %s: chi² %.1f over %d bins, limit %.1f\n", patterns[run / 2], ggx ? "ggx" : "blinn_phong",
                       chi2, bins, limit);
@@ -188,7 +188,7 @@ static void draws_follow_the_cut_density(void **state) {
     }
 }
 
-/* Variance of the mean over quads of pixels, over that of one pixel's fourth: 1 for independent numbers. */
+/* The variance of the mean over quads of pixels, divided by a fourth of a pixel's variance: 1 for independent numbers. */
 static double quad_variance(const double *u) {
     double quad = 0, one = 0;
     for (int y = 0; y < SIZE; y += 2)
@@ -220,7 +220,7 @@ static void blue_noise_evens_out_over_neighbours(void **state) {
     free(u), free(v);
 }
 
-/* Mean of 1 - cos 2θ over half-vectors below `cut`, by midpoints: density cosⁿ or D cos per solid angle. */
+/* The mean of 1 - cos 2θ over half-vectors below `cut`, by midpoints: density cosⁿ or D cos per solid angle. */
 static double spread(bool ggx, double r, double cut) {
     enum { FINE = 4000 };
     double sum = 0, total = 0, n = 2 / pow(r, 4) - 2, a2 = pow(r, 4);
@@ -239,14 +239,14 @@ static double lobe_angle(bool ggx, double r) {
     return sine2 < 1 ? asin(sqrt(sine2)) : pi / 2;
 }
 
-/* Where the lobe ends that rays and cone stand for: at the horizon, when the view is along the normal, and of GGX at nine
-   tenths of its normals, tan² = α² 0.9/0.1. */
+/* The limit of the lobe that rays and cones cover: the horizon for a view along the normal, and for GGX nine tenths of the normals,
+   tan² = α² 0.9/0.1. */
 static double held_angle(bool ggx, double r) {
     return ggx ? fmin(pi / 4, atan(3 * r * r)) : pi / 4;
 }
 
-/* Convolving with a filter multiplies the mean direction by the filter's mean cosine, (m + 1)/(m + 2) of cosᵐ; a cone of angle
-   a is filtered with cosᵐ a = threshold. */
+/* Convolution with a filter multiplies the mean direction by the filter's mean cosine, (m + 1)/(m + 2) for cosᵐ; a cone of angle a is
+   filtered with cosᵐ a = threshold. */
 static void the_cone_gives_back_what_the_cut_took(void **state) {
     static const double shares[] = {0.25, 0.5, 0.75}, roughnesses[] = {0.05, 0.2, 0.4, 0.5, 0.6};
     struct gpu *gpu = *state;
@@ -269,7 +269,7 @@ static void the_cone_gives_back_what_the_cut_took(void **state) {
         double power = log(threshold) / log(cos((double)cone[0]));
         double rays = 1 - spread(ggx, r, fmin(part * lobe_angle(ggx, r), end)), lobe = 1 - spread(ggx, r, end);
         double mean = cone[0] > 0 ? rays * (power + 1) / (power + 2) : rays;
-        /* As a part of what is to be given back at most: a cone of 0 is right where the cut is outside the lobe. */
+        /* relative to the largest difference; a cone of 0 is right if the cut is outside of the lobe */
         worst = fmax(worst, fabs(mean - lobe) / (1 - lobe));
         free(cone);
     }

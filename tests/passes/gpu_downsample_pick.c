@@ -1,4 +1,4 @@
-/* downsample/pick: distributions of its normals, and which pixel it takes. */
+/* downsample/pick: the distribution of its normals, and the pixel that it chooses. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -12,12 +12,12 @@
 #include "plain_capture.h"
 
 enum { SIZE = 256, DRAWS = SIZE * SIZE / 4 };
-/* Kolmogorov and Smirnov: one sample in 1,000 lies farther from its distribution. */
+/* Kolmogorov and Smirnov: one sample in 1,000 is farther from its distribution. */
 static const double farthest = 1.95 / 128; /* √DRAWS */
 
-/* Half a degree of view onto a plane: all view directions are the normal, and with a power of 30 a draw in 50,000 is
+/* Half a degree of view onto a plane: all view directions are close to the normal, and with a power of 30 one of 50,000 samples is
    below the horizon. */
-static void load(struct gpu *gpu, float roughness) {
+static void load_plane(struct gpu *gpu, float roughness) {
     char path[256], name[32];
     snprintf(name, sizeof name, "plane%.0f", (double)roughness * 100);
     plain_capture(gpu_path(gpu, name, path),
@@ -41,18 +41,18 @@ static double *cosines(struct gpu *gpu) {
         for (int k = 0; k < 2; ++k) sum[k] += (double)n[k];
         assert_true(fabs((double)(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) - 1) < 1e-5);
     }
-    /* No side is preferred: four standard deviations of a mean of values below 1. */
+    /* no direction is preferred: four standard deviations of a mean of values below 1 */
     for (int k = 0; k < 2; ++k) assert_true(fabs(sum[k]) / DRAWS < 4.0 / 128);
     free(normal);
     return cosine;
 }
 
-/* Part of the lobe whose cosine is below c. */
+/* The fraction of the lobe whose cosine is below c. */
 typedef double distribution(double c);
 static double phong(double c) {
     return pow(c, 31);
 }
-/* Cut at half the angle where c^30 is 0.1, and what is left made whole. */
+/* Cut at half the angle where c^30 is 0.1, and normalised. */
 static double phong_cut(double c) {
     double lowest = pow(cos(0.5 * acos(pow(0.1, 1 / 30.0))), 31);
     return c <= 0 ? 0 : fmax(0, (pow(c, 31) - lowest) / (1 - lowest));
@@ -62,7 +62,7 @@ static double ggx(double c) {
     double t2 = 1 / (c * c) - 1, a2 = 0.25 * 0.25;
     return 1 - t2 / (a2 + t2);
 }
-/* The same without the part whose mirrored ray would go below the horizon, beyond 45 degrees. */
+/* The same without half-vectors beyond 45 degrees, whose rays go below the horizon. */
 static double ggx_above(double c) {
     return fmax(0, (ggx(c) - ggx(sqrt(0.5))) / (1 - ggx(sqrt(0.5))));
 }
@@ -78,14 +78,14 @@ static void expect_distribution(double *cosine, distribution *below, const char 
 
 static void blinn_phong_is_the_slides(void **state) {
     struct gpu *gpu = *state;
-    load(gpu, 0.5f);
+    load_plane(gpu, 0.5f);
     gpu_set(gpu, "downsample.ndf=blinn_phong");
     expect_distribution(cosines(gpu), phong, "Blinn-Phong, power 30");
 }
 
 static void a_share_cuts_the_angle_and_keeps_proportions(void **state) {
     struct gpu *gpu = *state;
-    load(gpu, 0.5f);
+    load_plane(gpu, 0.5f);
     gpu_set(gpu, "downsample.ndf=blinn_phong");
     gpu_set(gpu, "downsample.share=0.5");
     double *cosine = cosines(gpu);
@@ -95,14 +95,14 @@ static void a_share_cuts_the_angle_and_keeps_proportions(void **state) {
 
 static void ggx_is_the_default(void **state) {
     struct gpu *gpu = *state;
-    load(gpu, 0.5f);
+    load_plane(gpu, 0.5f);
     expect_distribution(cosines(gpu), ggx_above, "GGX, alpha 0.25");
 }
 
 static void roughness_zero_and_no_jitter_are_the_normal(void **state) {
     struct gpu *gpu = *state;
     for (int i = 0; i < 2; ++i) {
-        load(gpu, i == 0 ? 0.0f : 0.5f);
+        load_plane(gpu, i == 0 ? 0.0f : 0.5f);
         if (i == 1) gpu_set(gpu, "downsample.jitter=0");
         double *cosine = cosines(gpu);
         for (int k = 0; k < DRAWS; ++k) assert_true(cosine[k] == 1);
@@ -110,7 +110,7 @@ static void roughness_zero_and_no_jitter_are_the_normal(void **state) {
     }
 }
 
-/* Turned away from the viewer by 30 degrees beyond edge-on. */
+/* Faces away from the viewer by 30 degrees. */
 static void turned_away(const struct plain *plain, float *values) {
     const uint32_t pixels = plain->width * plain->height;
     for (uint32_t i = 0; i < pixels; ++i) {
@@ -119,7 +119,7 @@ static void turned_away(const struct plain *plain, float *values) {
     }
 }
 
-/* Mean of 1 - cos 2θ over the normals of GGX seen along the normal, tan²θ = α² u/(1 - u), for u below `kept`. */
+/* The mean of 1 - cos 2θ over normals of GGX seen along the normal, tan²θ = α² u/(1 - u), for u below `kept`. */
 static double spread(double a2, double kept) {
     enum { STEPS = 4096 };
     double sum = 0;
@@ -130,9 +130,9 @@ static double spread(double a2, double kept) {
     return sum / STEPS;
 }
 
-/* A surface that faces away is taken for one that is seen edge-on: no viewer's cosine is below 0. The filter cosᵐ has the mean
-   cosine (m + 1)/(m + 2), which is what the mean direction of nine tenths of the lobe lacks of the cut one's; edge-on the power is
-   twice that; and the cone's rim is where it has fallen to a tenth. */
+/* A surface that faces away is treated like one seen edge-on, since the viewer's cosine is at least 0. The mean cosine of the filter
+   cosᵐ, (m + 1)/(m + 2), is the ratio of the mean directions of nine tenths of the lobe and the cut lobe; edge-on the power is doubled.
+   The rim of the cone is where the filter falls to a tenth. */
 static void a_normal_that_faces_away_has_the_cone_of_an_edge(void **state) {
     struct gpu *gpu = *state;
     char path[256];
@@ -143,14 +143,14 @@ static void a_normal_that_faces_away_has_the_cone_of_an_edge(void **state) {
     gpu_reset(gpu);
     gpu->float_precision = gpu->all = true;
     gpu_set(gpu, "downsample.share=0.5");
-    gpu_set(gpu, "downsample.horizon=false"); /* of which nothing is above */
+    gpu_set(gpu, "downsample.horizon=false"); /* none of the lobe is above it */
     gpu_run(gpu);
     const double a2 = 1.0 / 16, angle = 0.5 * asin(sqrt((1 / sqrt(0.1) - 1) / (1 / a2 - 1))), t2 = pow(tan(angle), 2);
     const double whole = spread(a2, 0.9), cut = spread(a2, t2 / (a2 + t2)), lacking = (whole - cut) / (1 - cut);
     const double expected = acos(pow(0.1, 1 / (2 * (1 / lacking - 2))));
     uint32_t width, height;
     float *cone = gpu_floats(gpu, "cone_half", &width, &height);
-    /* Logarithms and exponentials of numbers near 1 in single precision, 1e-6 each, of which a tenth is left. */
+    /* logarithms and exponentials near 1 in single precision, off by 1e-6 each, of which a tenth remains */
     print_message("# %.6f, expected %.6f\n", (double)cone[0], expected);
     for (uint32_t i = 0; i < width * height; ++i) assert_true(fabs((double)cone[i] - expected) < 1e-4);
     free(cone);
@@ -158,17 +158,17 @@ static void a_normal_that_faces_away_has_the_cone_of_an_edge(void **state) {
 
 static void the_pick_alternates_or_is_the_first(void **state) {
     struct gpu *gpu = *state;
-    load(gpu, 0.5f);
+    load_plane(gpu, 0.5f);
     for (int alternate = 1; alternate >= 0; --alternate) {
         gpu_set(gpu, alternate ? "downsample.alternate=1" : "downsample.alternate=0");
         gpu_run(gpu);
         uint32_t *pick = gpu_uints(gpu, "pick", NULL, NULL);
-        for (int i = 0; i < DRAWS; ++i) assert_int_equal(pick[i], alternate ? 3 : 0); /* frame 1: the diagonal */
+        for (int i = 0; i < DRAWS; ++i) assert_int_equal(pick[i], alternate ? 3 : 0); /* frame 1: the diagonal pixel */
         free(pick);
     }
 }
 
-/* Block number b has a nearer surface in the pixels that b's bits name, x + 2y. */
+/* In block b, the pixels x + 2y whose bits are set in b belong to a nearer surface. */
 static void near_by_bits(const struct plain *plain, float *values) {
     for (uint32_t i = 0; i < plain->width * plain->height; ++i) {
         uint32_t x = i % plain->width, y = i / plain->width;
@@ -191,17 +191,17 @@ static void the_minority_of_an_edge_is_discarded(void **state) {
         float *depth = gpu_floats(gpu, "depth_half", NULL, NULL);
         for (uint32_t i = 0; i < width * height; ++i) {
             uint32_t bits = i % width % 16, near_pixels = (bits & 1) + (bits >> 1 & 1) + (bits >> 2 & 1) + (bits >> 3);
-            /* Of two pairs the nearer, of two diagonals either in turn over the blocks; else the pixel whose turn it is. */
+            /* the nearer of two pairs, alternating blocks for two diagonals, else the pixel that is preferred in this frame */
             bool diagonal = bits == 6 || bits == 9, other = (i % width ^ i / width) & 1;
             bool near = edges ? near_pixels >= 2 && !(diagonal && other) : bits >> 3 & 1;
             assert_true(depth[i] == (near ? 2.0f : 5.0f));
-            assert_int_equal(bits >> pick[i] & 1, near); /* one of the block's own pixels */
+            assert_int_equal(bits >> pick[i] & 1, near); /* a pixel of the block */
         }
         free(pick), free(depth);
     }
 }
 
-/* 7 x 3 pixels make 4 x 2 texels, of which the last ones have fewer than four. */
+/* 7 x 3 pixels make 4 x 2 texels, the last of which contain fewer than four pixels. */
 static void odd_sizes_pick_inside(void **state) {
     struct gpu *gpu = *state;
     char path[256];
@@ -217,7 +217,7 @@ static void odd_sizes_pick_inside(void **state) {
     free(pick);
 }
 
-/* A mirror along the right border and the lower one, and elsewhere what reflects nothing to speak of. */
+/* Mirrors along the right and lower borders; all other surfaces have a negligible reflection. */
 static bool is_mirror(uint32_t x, uint32_t y) {
     return x == 6 || y == 4;
 }
@@ -230,8 +230,8 @@ static void mirror_at_the_border(const struct plain *plain, float *values) {
     }
 }
 
-/* Of mixed blocks the pixel that begins in the middle says what a reflection is worth; of an odd picture's last blocks, of which that
-   is none, the border's. */
+/* The weight of a mixed block's reflection is that of the pixel at its centre; of an odd image's last blocks, which have no such pixel,
+   that of the border. */
 static void odd_borders_are_worth_what_their_pixels_are(void **state) {
     struct gpu *gpu = *state;
     char path[256];

@@ -1,5 +1,5 @@
-/* A G-buffer as the GTA V article has it, reversed logarithmic depth and glossiness, is marched as the canonical one is: depth reaches the
-   passes linear, in metres, and down-sampled, and what they step in is its inverse. */
+/* A G-buffer as in the GTA V article, with reversed logarithmic depth and glossiness, is traced like the canonical one: passes read
+   linear depth in metres, downsampled, and march in inverse depth. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -50,7 +50,7 @@ static void reversed_logarithmic_depth_is_marched_as_linear_depth_is(void **stat
     print_message("# depth apart by %.2g at most; %zu rays, %zu flips, %zu hits, %zu of them apart by 5 %%\n", deepest,
                   rays, flips, hits, apart);
     assert_true(rays > 3000 && hits > 500);
-    /* ln(4000 / 0.1) = 10.6 times half a step of D24, 3e-8, and as much for the float that it is stored as */
+    /* ln(4000 / 0.1) = 10.6 times half a step of D24, 3e-8, and as much for the float that stores it */
     assert_true(deepest <= 1.3e-6);
     assert_true(flips * 200 <= rays && apart * 200 <= hits);
     for (int i = 0; i < 2; ++i) free(depth[i]), free(normal[i]), free(travelled[i]), free(finished[i]);

@@ -1,4 +1,4 @@
-/* Rays that fall back on the cocoon, against a walk through it by small steps, a sphere and a box. */
+/* Rays that fall back to the cocoon, compared with a march through it by small steps, a sphere and a box. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -22,7 +22,7 @@ static void sphere(uint32_t number, const double d[3], float out[5]) {
     out[4] = (float)radius;
 }
 
-/* A room with a pillar's worth of poles, and a window to the sky. The centre is not in its middle. */
+/* A room with thin poles and a window to the sky. The cube map is not at its centre. */
 static const double low_corner[3] = {-4, -1.5, -3.2}, high_corner[3] = {3, 2, 5};
 static void box(uint32_t number, const double d[3], float out[5]) {
     double distance = INFINITY;
@@ -34,13 +34,12 @@ static void box(uint32_t number, const double d[3], float out[5]) {
 }
 
 struct ends {
-    size_t inside, enters, missed, known, right; /* known: to the closed form; right: within 15 % of it */
-    size_t near;                                 /* near: within 1 % of the walk, of where its end is from the centre */
-    double low, high;                            /* least and greatest of found / closed form - 1 */
+    size_t inside, enters, missed, known, right; /* known: a closed form exists; right: within 15 % of it */
+    size_t near;      /* within 1 % of the march, relative to the end's distance from the centre */
+    double low, high; /* minimum and maximum of found / closed form - 1 */
 };
 
-/* Mirror rays off the wall z = -5 m, from the camera at the origin. No crossing counts as a hit, so that every ray that
-   ends falls back. */
+/* Mirror rays from the wall z = -5 m, with the camera at the origin. No crossing counts as a hit, so that every ray falls back. */
 static void start_to_fall_back(struct gpu *gpu, const char *name, void (*cube)(uint32_t, const double *, float *),
                                double center_z, float roughness) {
     char path[256];
@@ -64,7 +63,7 @@ static void start_to_fall_back(struct gpu *gpu, const char *name, void (*cube)(u
     for (size_t k = 0; k < sizeof settings / sizeof settings[0]; ++k) gpu_set(gpu, settings[k]);
 }
 
-/* The point on the wall of texel i, from the cube map's centre, and its ray. */
+/* The point on the wall of texel i relative to the cube map's centre, and its ray. */
 static void ray_of(uint32_t i, uint32_t width, uint32_t pick, double center_z, double start[3], double d[3]) {
     double scale = 5 * tan(3.14159265358979323846 / 6) / 27;
     double px = scale * (2 * (i % width) + (pick & 1) + 0.5 - 48),
@@ -75,7 +74,7 @@ static void ray_of(uint32_t i, uint32_t width, uint32_t pick, double center_z, d
     memcpy(d, along, sizeof along);
 }
 
-/* Rays are also followed through the same cocoon by small steps. */
+/* Compares rays with a march through the same cocoon by small steps. */
 static void fall_back(struct gpu *gpu, const char *name, void (*cube)(uint32_t, const double *, float *),
                       double center_z, double (*closed_form)(const double *, const double *), struct ends *ends) {
     start_to_fall_back(gpu, name, cube, center_z, 0.2F);
@@ -90,7 +89,7 @@ static void fall_back(struct gpu *gpu, const char *name, void (*cube)(uint32_t, 
         int stays;
         double expected = cocoon_walk(cocoon, start, d, &stays);
         if (isinf(travelled[i])) {
-            /* What is inside for less than a step of an eighth of the angle may be missed. */
+            /* an interval inside that is shorter than a step of an eighth of the angle may be missed */
             if (stays >= COCOON_WALK / 8)
                 fail_msg("%s, pixel %u: inside for %d of %d steps, but not found", name, i, stays, COCOON_WALK);
             ++ends->missed;
@@ -138,19 +137,19 @@ static void the_fallback_ends_where_the_ray_leaves_the_cocoon(void **state) {
     fall_back(*state, "sphere", sphere, -2, out_of_sphere, &in_sphere);
     assert_true(in_sphere.inside > 50 && in_sphere.enters > 200 && in_sphere.missed > 200);
     assert_true((double)in_sphere.near >= 0.95 * (double)(in_sphere.inside + in_sphere.enters));
-    /* Bilinear samples, 2/31 apart, stand up to (2/31)²/4 = 0.1 % inside a sphere, and a ray that grazes it ends ten
-       times as far off. */
+    /* Bilinear interpolation between samples at distances of 2/31 is up to (2/31)²/4 = 0.1 % inside a sphere; for grazing rays ten
+       times as much. */
     assert_true(in_sphere.low > -0.015 && in_sphere.high < 0.001);
     fall_back(*state, "box", box, -2, out_of_box, &in_box);
     assert_true(in_box.inside > 500);
     assert_true((double)in_box.near >= 0.95 * (double)(in_box.inside + in_box.enters));
-    /* A texel of the level below holds the farthest of what it covers, 2/16 of a face's half; between two of them the
-       corner of two walls is cut by half of that, 3 % where a ray meets a wall as steeply as these. */
+    /* A texel of the coarser level stores the farthest distance of what it covers, 2/16 of half a face; between two texels a corner of
+       walls is cut by half of that, 3 % for rays as steep as these. */
     assert_true(in_box.low > -0.03);
     assert_true(2 * in_box.right > in_box.known); /* the same texel moves walls away by up to 12 % */
 }
 
-/* A box of twice the size with screens before its walls, every other one near the centre. */
+/* A box of twice the size with screens in front of its walls, every other one near the centre. */
 static void screens(uint32_t number, const double d[3], float out[5]) {
     int sector = (int)floor(10 * (d[0] + 1));
     box(number, d, out);
@@ -166,7 +165,7 @@ struct bounds {
     double low, high;
 };
 
-/* What the cube map's texels around a direction have: the least and the greatest. */
+/* The minimum and maximum of the cube map's texels around a direction. */
 static struct bounds around(const double v[3]) {
     struct bounds seen = {INFINITY, 0};
     const double width = 2 / 64.0 * sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
@@ -182,8 +181,8 @@ static struct bounds around(const double v[3]) {
     return seen;
 }
 
-/* Whether a place lies outside of the cocoon, or behind what is seen by less than a part of the way from there to the
-   cocoon: 1 yes, 0 no, -1 too close to say. */
+/* Whether a point is outside of the cocoon, or behind the visible surface by less than a fraction of its distance from the cocoon: 1
+   yes, 0 no, -1 too close to decide. */
 static int in_something(const double v[3], double inverse_hull, double solid) {
     const double distance = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]), hull = distance / inverse_hull;
     struct bounds seen = around(v);
@@ -201,7 +200,7 @@ static void a_ray_that_stopped_inside_of_something_ends_there(void **state) {
     start_to_fall_back(gpu, "screens", screens, -2, 0.2F);
     gpu_set(gpu, "cubemap_trace.fallback=lookup");
     gpu_set(gpu, "cubemap_trace.lookup=stopped");
-    gpu_set(gpu, "cubemap_trace.length_lq_m=24"); /* short steps, so that rays stop inside of the box too */
+    gpu_set(gpu, "cubemap_trace.length_lq_m=24"); /* short steps, so that rays also end inside of the box */
     gpu_run(gpu);
     uint32_t width, height, *pick = gpu_uints(gpu, "pick", &width, &height),
                             *end = gpu_uints(gpu, "cubemap_end", NULL, NULL);
@@ -238,7 +237,7 @@ static void a_ray_that_stopped_inside_of_something_ends_there(void **state) {
                       "of a walk; %zu not asked\n",
                       solids[n], outside, inside, on, near, unsure);
         assert_true(outside > 100 && (n == 0 ? inside == 0 : inside > 30) && (n == 2 ? on == 0 : on > 30));
-        assert_true((double)near >= 0.95 * (double)on); /* bulges of the cocoon may lie between two samples */
+        assert_true((double)near >= 0.95 * (double)on); /* bulges of the cocoon may be between two samples */
         free(travelled);
     }
     free(cocoon);
@@ -247,13 +246,13 @@ static void a_ray_that_stopped_inside_of_something_ends_there(void **state) {
     free(pick);
 }
 
-/* The box where all that is higher than it is far is open. */
+/* The box, open where it is higher than it is far. */
 static void open_box(uint32_t number, const double d[3], float out[5]) {
     box(number, d, out);
     if (d[1] > 0.25) out[0] = out[1] = out[2] = out[3] = 0, out[4] = INFINITY;
 }
 
-/* How many of 27 directions, a texel and less apart, see the sky. */
+/* The number of directions that see the sky among 27 that are a texel or less apart. */
 static int sky_around(const double v[3]) {
     const double width = 2 / 64.0 * sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
     int count = 0;
@@ -268,7 +267,7 @@ static int sky_around(const double v[3]) {
     return count;
 }
 
-/* Of smooth surfaces: where the cocoon caps the sky the ray goes on for ever; elsewhere it ends on the cocoon. */
+/* Smooth surfaces: where the cocoon caps the sky the ray ends in the sky; elsewhere it ends on the cocoon. */
 static void a_mirrors_ray_ends_in_the_sky_where_a_cap_is(void **state) {
     struct gpu *gpu = *state;
     start_to_fall_back(gpu, "mirror", open_box, -2, 0);
@@ -284,13 +283,13 @@ static void a_mirrors_ray_ends_in_the_sky_where_a_cap_is(void **state) {
         if (expected < 0 || stays < COCOON_WALK / 8) continue;
         for (int k = 0; k < 3; ++k) v[k] = start[k] + expected * d[k];
         const int sky = sky_around(v);
-        if (sky > 0 && sky < 27) continue; /* at the cap's rim */
+        if (sky > 0 && sky < 27) continue; /* at the rim of the cap */
         sky ? ++up : ++onto;
         wrong += (sky > 0) != isinf(travelled[i]);
     }
     print_message("# %u rays into the sky, %u onto walls, %u otherwise\n", up, onto, wrong);
     assert_true(up > 50 && onto > 50);
-    assert_true(20 * wrong <= up + onto); /* bulges of the cocoon may lie between two samples */
+    assert_true(20 * wrong <= up + onto); /* bulges of the cocoon may be between two samples */
     free(travelled), free(cocoon), free(pick);
 }
 

@@ -1,5 +1,4 @@
-/* What functions of passes/shared/ make of many numbers together: distributions, nets. Single values, glint
-   selftest compares. */
+/* Statistics of the functions in passes/shared/: distributions, nets. glint selftest compares single values. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -16,7 +15,7 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* The device's table: a row of COLUMNS texels of four floats for each function; after it, random numbers. */
+/* The device's table: a row of COLUMNS texels of four floats for each function, followed by random numbers. */
 static float *table, *uniform;
 
 static int evaluate(void **state) {
@@ -63,8 +62,8 @@ static void without_specular_nothing_reflects(void **state) {
     for (int i = 1; i < COLUMNS; ++i) assert_true(texel(ROW_GRAZING, i)[2] > texel(ROW_GRAZING, i - 1)[2]);
 }
 
-/* Sobol's first two dimensions make a (0, 2)-sequence, and scrambling keeps it one: of the first 2^m points each box of the
-   area 2^-m, however long, holds exactly one. */
+/* Sobol's first two dimensions are a (0, 2)-sequence, also after scrambling: of the first 2^m points, each elementary box of area 2^-m
+   contains exactly one. */
 static void points_of_a_pixels_rays_are_a_net(void **state) {
     (void)state;
     for (int first = 0; first < 4; first += 2)
@@ -79,13 +78,13 @@ static void points_of_a_pixels_rays_are_a_net(void **state) {
                     taken[box] = true;
                 }
             }
-    /* Both stretches are scrambled by themselves: of independent numbers as many pairs fall together. */
+    /* Both stretches are scrambled separately: as many pairs coincide as of independent numbers. */
     int same = 0;
     for (int i = 0; i < 256; ++i) same += (int)(texel(ROW_POINTS, i)[0] * 16) == (int)(texel(ROW_POINTS, i)[2] * 16);
-    assert_true(same < 64); /* 16 ± 4, and 256 where they are one sequence */
+    assert_true(same < 64); /* 16 ± 4 expected; 256 if they are one sequence */
 }
 
-/* Density of visible GGX normals: G1(v) max(v·h, 0) D(h) / cos v. */
+/* The density of visible GGX normals: G1(v) max(v·h, 0) D(h) / cos v. */
 static double visible_density(double x, double y, double z) {
     double a2 = VISIBLE_ALPHA * VISIBLE_ALPHA, vx = sin(VISIBLE_ANGLE), vz = cos(VISIBLE_ANGLE);
     double d = z * z * (a2 - 1) + 1, ggx = a2 / (pi * d * d), vh = vx * x + vz * z;
@@ -118,7 +117,7 @@ static void visible_normals_follow_their_density(void **state) {
         const float *h = texel(ROW_VISIBLE + k / COLUMNS, k % COLUMNS);
         found[bin_of((double)h[0], (double)h[1], (double)h[2])] += 1.0 / DRAWS;
     }
-    /* Four standard deviations of independent draws; these are stratified and scatter less. */
+    /* four standard deviations of independent samples; stratified ones vary less */
     for (int i = 0; i < RINGS * SLICES; ++i)
         if (!(fabs(found[i] - expected[i]) <= 4 * sqrt(expected[i] / DRAWS) + 1.0 / DRAWS))
             fail_msg("bin %d: %g, expected %g", i, found[i], expected[i]);

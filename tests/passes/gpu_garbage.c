@@ -1,4 +1,4 @@
-/* Bad pixels in the G-buffer: every pass ends, and nothing spreads from them. */
+/* Invalid pixels in the G-buffer: every pass terminates, and only nearby pixels are affected. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -23,7 +23,7 @@ static const struct {
 };
 enum { BAD = sizeof bad / sizeof bad[0] };
 
-/* Two rows on the floor, which fills the lower third; each bad value in another place of its 2x2 block. */
+/* Two rows on the floor, which covers the lower third; each bad value at a different position in its 2x2 block. */
 static void place(size_t i, uint32_t *x, uint32_t *y) {
     *x = (uint32_t)(APART + APART * (i % 7) + i % 2);
     *y = (uint32_t)(HEIGHT - 28 + APART * (i / 7) + i / 2 % 2);
@@ -77,15 +77,15 @@ static void bad_pixels_stay_alone(void **state) {
             changed += !same && !near_a_bad_one(i % WIDTH, i / WIDTH);
         }
         assert_true(reflecting > 1000);
-        /* Farther away only rays that meet a bad pixel may change: on a floor that does not see itself, none. */
+        /* Farther away only rays that hit a bad pixel may change; on a floor that does not reflect itself there are none. */
         if (rough == 0) assert_int_equal(changed, 0);
         free(clean);
         free(spoiled);
     }
 }
 
-/* Where the floor's rays end is a closed form: from depth d below the camera by 1 m, the wall at 5 m is met after the
-   part (5 - d)/d of the primary ray's length, 1 m over the floor times that. */
+/* The ends of the floor's rays have a closed form: from depth d at 1 m below the camera, the wall at 5 m is hit after (5 - d)/d times
+   the length of the primary ray, 1 m above the floor times that ratio. */
 static void a_floor_sees_the_wall(void **state) {
     struct gpu *gpu = *state;
     free(composed(gpu, false, 0));
@@ -100,7 +100,7 @@ static void a_floor_sees_the_wall(void **state) {
         if (!(y * 5 > 1) || end[i] != 1) continue;
         double d = 1 / y, expected = (5 - d) * sqrt(1 + x * x + y * y);
         ++hits;
-        /* Floor and wall are planes, on which the trace is exact; what is left is the rounding of 1/z, 2^-24 · 5 m over its
+        /* The trace is exact on planes such as floor and wall; the remaining error is the rounding of 1/z, 2^-24 · 5 m, divided by its
            change along the ray. */
         if (!(fabs((double)travelled[i] - expected) <= 1e-4 * expected + 1e-4))
             fail_msg("%u,%u depth %g: %g, expected %g", i % width, i / width, (double)depth[i], (double)travelled[i],

@@ -1,4 +1,4 @@
-/* resolve/blurred and compose/contribution on a mirror floor before a wall, where every reflection has a closed form. */
+/* resolve/blurred and compose/contribution on a mirror floor in front of a wall, where every reflection has a closed form. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -47,12 +47,12 @@ static void capture(struct gpu *gpu, const char *name, const float *scene, bool 
     gpu_load(gpu, name);
 }
 
-/* Where the floor's mirror ray meets the wall. */
+/* The end of the floor's mirror ray on the wall. */
 struct end {
     double x, y;     /* pixels */
     double distance; /* m */
-    double toward;   /* cosine between the ray and the view vector, which points to the viewer */
-    double facing;   /* cosine between the wall's normal and the ray turned back */
+    double toward;   /* cosine between the ray and the direction to the viewer */
+    double facing;   /* cosine between the wall's normal and the reversed ray */
 };
 static bool floor_ray(uint32_t i, struct end *end) {
     const double half =
@@ -115,7 +115,7 @@ static void each_attenuation_and_their_product(void **state) {
         ++count;
     }
     print_message("# %zu rays, %zu of them on the foreground; worst difference %.2e\n", count, zero, worst);
-    /* Distances of the trace are good to 1e-4 of themselves, and no ramp is steeper than 12 a picture or unit. */
+    /* Distances of the trace are accurate to 1e-4, and no fade is steeper than 12 per image width or unit. */
     assert_true(count > 1000 && zero > count / 4 && zero < 3 * count / 4 && worst < 2e-3);
     images_free(&images);
 }
@@ -135,7 +135,7 @@ static void switched_off_all_contributes(void **state) {
     images_free(&images);
 }
 
-/* The wall's light is 0.5 + 0.4 sin(0.1 x), so that the box filter's mean has a closed form too; no blur for a mirror. */
+/* The wall's light is 0.5 + 0.4 sin(0.1 x), so that the mean of the box filter has a closed form, too. Mirrors are not blurred. */
 static void colour_is_looked_up_where_the_ray_ends(void **state) {
     struct gpu *gpu = *state;
     static const float finished[3] = {0.125f, 2, 4};
@@ -151,7 +151,7 @@ static void colour_is_looked_up_where_the_ray_ends(void **state) {
             worst = fmax(worst, fabs((double)images.reflection[4 * i] - expected));
         }
         print_message("# %s: worst difference %.2e\n", with_scene ? "the finished picture" : "the diffuse one", worst);
-        /* Linear between pixels: 0.4 · 0.01/8; a place off by 1e-4 of 96 pixels: 4e-4; lit is stored as half: 5e-4. */
+        /* linear interpolation between pixels: 0.4 · 0.01/8; a position off by 1e-4 of 96 pixels: 4e-4; lit is stored as half: 5e-4 */
         assert_true(worst < 1.4e-3);
         images_free(&images);
     }
@@ -162,7 +162,7 @@ static void rough_everywhere(const struct plain *plain, float *values) {
     for (size_t i = 0; i < pixels; ++i) values[PLAIN_ROUGHNESS * pixels + i] = 0.25f;
 }
 
-/* The mean over a square as wide as the cone is where it ends: of the wall's light, at the middles of three parts. */
+/* The mean of the wall's light over a square as wide as the cone at its end, by the centres of three parts. */
 static void a_cones_colour_is_the_mean_over_its_square(void **state) {
     struct gpu *gpu = *state;
     char path[256];
@@ -173,7 +173,7 @@ static void a_cones_colour_is_the_mean_over_its_square(void **state) {
             .width = WIDE, .height = HIGH, .fov_y_degrees = degrees, .floor = true, .spoil = rough_everywhere});
     gpu_load(gpu, "cones");
     gpu_set(gpu, "downsample.jitter=true");
-    gpu_set(gpu, "downsample.share=0"); /* all of the lobe is the cone's */
+    gpu_set(gpu, "downsample.share=0"); /* the cone covers the whole lobe */
     struct images images = images_of(gpu);
     float *cone = gpu_floats(gpu, "cone_half", NULL, NULL);
     size_t count = 0;
@@ -192,7 +192,7 @@ static void a_cones_colour_is_the_mean_over_its_square(void **state) {
     }
     print_message("# %zu cones, radius up to %.1f pixels: worst difference %.2e\n", count, widest, worst);
     assert_true(count > 100 && widest > 8);
-    assert_true(worst < 1.4e-3); /* as above; a radius is off by no more than a place */
+    assert_true(worst < 1.4e-3); /* as above; the radius is no less accurate than the position */
     free(cone);
     images_free(&images);
 }
@@ -227,7 +227,7 @@ static void alpha_stays_within_one_and_the_picture_a_mixture(void **state) {
     light = 1;
 }
 
-/* Nothing contributes where rays run towards the viewer, so that leaving out their tiles changes no bit. */
+/* There is no contribution where rays run towards the viewer, so that skipping their tiles does not change a bit. */
 static void rejected_tiles_contribute_nothing(void **state) {
     struct gpu *gpu = *state;
     struct images images[2];
@@ -257,7 +257,8 @@ static void metals(const struct plain *plain, float *values) {
     }
 }
 
-/* Of an odd picture the last texel's middle lies on the border: its material is that of the last pixel. A tile holds it alone. */
+/* In an image of odd size the centre of the last texel is on the border: its material is that of the last pixel. A tile contains it
+   alone. */
 static void the_last_texel_is_worth_its_own_material(void **state) {
     struct gpu *gpu = *state;
     enum { ODD = 65, ROWS = 32, TEXELS = (ODD + 1) / 2 };

@@ -1,5 +1,5 @@
-/* Ground under a light that is a step, bright above an elevation and dark below it: what rays and their cones find of it, beside
-   the mean over the whole lobe by quadrature. Dark above and bright below is the same difference turned. */
+/* Ground under a light that is a step function, bright above an elevation and dark below: what rays and their cones gather, compared
+   with the mean over the whole lobe by quadrature. Dark above and bright below is the same difference with the opposite sign. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -29,8 +29,8 @@ static void grid(const struct plain *plain, float *values) {
     }
 }
 
-/* The share of the lobe's rays above each elevation, of those above the horizon. Half-vectors by u, of which the density of
-   projected normals D cos (GGX) or cosⁿ (Blinn-Phong) is uniform; visible normals weigh as v·h/cos. */
+/* The fraction of the lobe's rays above each elevation, among those above the horizon. Half-vectors by u, in which the density of
+   projected normals, D cos (GGX) or cosⁿ (Blinn-Phong), is uniform; visible normals have the weight v·h/cos. */
 static void whole_lobe(bool ggx, double roughness, double cosine, double above[STEPS]) {
     const double a2 = pow(roughness, 4), view[2] = {sqrt(1 - cosine * cosine), cosine};
     double sums[STEPS] = {0}, total = 0;
@@ -50,7 +50,7 @@ static void whole_lobe(bool ggx, double roughness, double cosine, double above[S
     for (int e = 0; e < STEPS; ++e) above[e] = sums[e] / total;
 }
 
-/* The share of a cone's filter above a plane through its apex that leaves `sine` of height: cosᵐ, the threshold at the rim. */
+/* The fraction of a cone's filter above a plane through its apex at height `sine`: cosᵐ, the threshold at the rim. */
 static double cone_above(double up, double cone, double sine) {
     if (!(cone > 1e-4)) return up > sine;
     const double power = log(threshold) / log(cos(cone)), flat = sqrt(fmax(1 - up * up, 0));
@@ -62,8 +62,8 @@ static double cone_above(double up, double cone, double sine) {
     return sum / NODES;
 }
 
-/* The greatest difference over all kinds of surfaces and steps, as a part of the step's height; *where: the kind. */
-static double worst_of(struct gpu *gpu, bool ggx, const char *split, double share, int *where) {
+/* The largest difference over all surfaces and steps relative to the height of the step; *where: the surface. */
+static double max_difference(struct gpu *gpu, bool ggx, const char *split, double share, int *where) {
     char setting[64];
     gpu_reset(gpu);
     gpu->float_precision = true;
@@ -102,8 +102,8 @@ static void load_grid(struct gpu *gpu) {
     gpu_load(gpu, "grid");
 }
 
-/* Catches: rays of a part of the lobe, a density that is not that of the draws, cones too wide for the lobe or that see below the
-   horizon. Without cones what is left is the noise of 4,096 draws, 0.8 % of deviation if they were independent. */
+/* Catches: rays of part of the lobe, a density other than that of the samples, cones too wide for the lobe or that see below the
+   horizon. Without cones the noise of 4,096 samples remains, with a deviation of 0.8 % if they were independent. */
 static void rays_and_cones_have_the_light_of_the_lobe(void **state) {
     struct gpu *gpu = *state;
     load_grid(gpu);
@@ -111,15 +111,15 @@ static void rays_and_cones_have_the_light_of_the_lobe(void **state) {
         for (int s = 0; s < 3; ++s) {
             const double share = (const double[]){0.25, 0.5, 1}[s];
             int kind = 0, cut_kind = 0;
-            const double worst = worst_of(gpu, ggx, "solid_angle", share, &kind);
-            const double cut = worst_of(gpu, ggx, "cut", share, &cut_kind);
+            const double worst = max_difference(gpu, ggx, "solid_angle", share, &kind);
+            const double cut = max_difference(gpu, ggx, "cut", share, &cut_kind);
             print_message("# %s, share %.2f: within %.1f %% of the step (roughness %.2f, N·V %.2f); the slides' cut: "
                           "%.1f %% (%.2f, %.2f)\n",
                           ggx ? "GGX" : "Blinn-Phong", share, 100 * worst, (double)roughnesses[kind % KINDS],
                           cosines[kind / KINDS], 100 * cut, (double)roughnesses[cut_kind % KINDS],
                           cosines[cut_kind / KINDS]);
             assert_true(worst < (share == 1 ? 0.02 : 0.05));
-            /* The light that the cut lobe misses is what the other is there for. */
+            /* the cones contribute the light that the cut lobe misses */
             if (share < 1) assert_true(cut > 2 * worst);
         }
 }

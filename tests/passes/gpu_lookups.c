@@ -1,4 +1,4 @@
-/* Lookups without a march, in mirror_box: against the proxies by closed form, and against what the cube maps show there. */
+/* Lookups without a march in mirror_box, compared with the proxies in closed form and with the contents of the cube maps. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -19,7 +19,7 @@ static double out_of_box(const struct glint_cubemap *map, const double start[3],
     return leave_box(start, direction, &axis);
 }
 
-/* Around the centre, as wide as the six walls are away from it on average: whatever the centre, a sixth of the box's edges. */
+/* A sphere around the centre whose radius is the mean distance of the six walls: a sixth of the sum of the box's edges for any centre. */
 static double out_of_sphere(const struct glint_cubemap *map, const double start[3], const double direction[3]) {
     double from[3], radius = (mirror_box[0] + mirror_box[1] + mirror_box[2]) / 6;
     for (int k = 0; k < 3; ++k) from[k] = start[k] - map->center[k];
@@ -70,13 +70,13 @@ static void lookups_end_on_their_proxies(void **state) {
             double t = lookups[i].leaves(map, e->start, direction);
             if (t > 0) far[ended++] = fabs((double)r.travelled[k] - t) / fmax(t, 0.1);
             else wrong += !(r.travelled[k] > 3e38f), looked_up++;
-            /* What the cube map shows there: the wall behind that place, seen from its centre. */
+            /* The cube map shows the wall behind that point, as seen from its centre. */
             for (int c = 0; c < 3; ++c)
                 from[c] = t > 0 ? e->start[c] + t * direction[c] - map->center[c] : direction[c];
             int axis = 0;
             double to_wall = leave_box(map->center, from, &axis);
             for (int c = 0; c < 3; ++c) seen[c] = map->center[c] + to_wall * from[c];
-            if (axis == 1 && from[1] < 0) continue; /* the floor, which shows nothing */
+            if (axis == 1 && from[1] < 0) continue; /* the floor, which is black */
             for (uint32_t c = 0; c < 3; ++c) {
                 double wall = wall_light(seen, (int)c);
                 light[lit++] = fabs((double)color[4 * k + c] - wall) / wall;
@@ -90,7 +90,7 @@ static void lookups_end_on_their_proxies(void **state) {
                       lookups[i].variant, ended, worst, looked_up, 100 * median, 100 * p99);
         assert_true(count > 3000 && wrong == 0);
         assert_true(i == 2 ? looked_up == count : ended * 2 > count);
-        assert_true(worst <= 1e-4); /* floats: 1e-6 m of a place some metres from the camera, over at least 0.1 m */
+        assert_true(worst <= 1e-4); /* floats: 1e-6 m for positions some metres from the camera, over at least 0.1 m */
         assert_true(median <= 0.001 && p99 <= lookups[i].p99);
         free(best), free(active), free(color), free(far), free(light);
         rays_free(&r);

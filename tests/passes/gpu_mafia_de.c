@@ -1,5 +1,5 @@
-/* What Mafia: Definitive Edition's variants do: rays around the mirror direction, levels with edges, sharing at three
-   resolutions, colour of the previous frame. */
+/* The variants of Mafia: Definitive Edition: rays around the mirror direction, levels with edges, sharing at three resolutions, and
+   colour of the previous frame. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,7 +15,7 @@
 
 enum { SIZE = 128, SPLIT = 37 };
 static const double oblique = 0.6;
-static double split_depth[2] = {2, 5}; /* left and right of SPLIT */
+static double split_depth[2] = {2, 5}; /* on the left and right of SPLIT */
 
 static void tilt(const struct plain *plain, float *values) {
     uint32_t pixels = plain->width * plain->height;
@@ -30,13 +30,13 @@ static void two_walls(const struct plain *plain, float *values) {
         values[i] = (float)split_depth[i % plain->width >= SPLIT];
 }
 
-/* Everything is 100 m away. */
+/* Everything is at a distance of 100 m. */
 static void far_away(uint32_t number, const double direction[3], float out[5]) {
     (void)number, (void)direction;
     for (int k = 0; k < 5; ++k) out[k] = k == 4 ? 100 : 1;
 }
 
-static void load(struct gpu *gpu, const struct plain *plain) {
+static void load_capture(struct gpu *gpu, const struct plain *plain) {
     char path[256];
     struct plain with = *plain;
     with.cube_size = 8;
@@ -57,8 +57,9 @@ static void rays_lie_evenly_around_the_mirror_direction(void **state) {
     double off[2];
     for (int reflection = 0; reflection < 2; ++reflection) {
         /* The viewer is at +z to within 0.005 rad. */
-        load(gpu, &(struct plain){
-                      .width = 2 * SIZE, .height = 2 * SIZE, .roughness = 0.3f, .fov_y_degrees = 0.5, .spoil = tilt});
+        load_capture(
+            gpu, &(struct plain){
+                     .width = 2 * SIZE, .height = 2 * SIZE, .roughness = 0.3f, .fov_y_degrees = 0.5, .spoil = tilt});
         gpu_set(gpu, reflection ? "downsample.lobe=reflection" : "downsample.lobe=half_vector");
         gpu_run(gpu);
         float *normal = gpu_floats(gpu, "normal_jittered", NULL, NULL);
@@ -75,20 +76,20 @@ static void rays_lie_evenly_around_the_mirror_direction(void **state) {
         off[reflection] = acos(across / sqrt(length));
         print_message("# %s: mean ray %.4f rad from the mirror direction, %.3f of the rays within 2 atan alpha\n",
                       reflection ? "reflection" : "half_vector", off[reflection], (double)near / SIZE / SIZE);
-        /* GGX has tan² below t with the probability t/(α² + t): half of the normals within atan α. Draws below the horizon,
-           1 % at most, are repeated; three deviations of a half of 16384 draws are 0.012. Seen obliquely, the surface's
-           own lobe is narrower across. */
+        /* tan² of GGX is below t with the probability t/(α² + t): half of the normals are within atan α. Samples below the horizon, at
+           most 1 %, are repeated; three deviations of a half for 16384 samples are 0.012. From an oblique direction the lobe of the
+           surface is narrower across. */
         const double apart = fabs((double)near / SIZE / SIZE - 0.5);
         assert_true(reflection ? apart < 0.02 : apart > 0.03);
         free(normal);
     }
-    /* A mean of 16384 rays that deviate by 0.3 rad is good to 0.0024 rad; the viewer's place adds 0.005. */
+    /* The mean of 16384 rays that deviate by 0.3 rad is accurate to 0.0024 rad; the viewer's position adds 0.005. */
     assert_true(off[1] < 0.012);
 }
 
 static void a_mirror_has_its_own_ray(void **state) {
     struct gpu *gpu = *state;
-    load(gpu, &(struct plain){.width = SIZE, .height = SIZE, .fov_y_degrees = 60, .spoil = tilt});
+    load_capture(gpu, &(struct plain){.width = SIZE, .height = SIZE, .fov_y_degrees = 60, .spoil = tilt});
     gpu_set(gpu, "downsample.lobe=reflection");
     gpu_run(gpu);
     float *normal = gpu_floats(gpu, "normal_jittered", NULL, NULL), *own = gpu_floats(gpu, "normal_half", NULL, NULL);
@@ -106,7 +107,7 @@ static void levels_hold_pixels_of_the_picture_and_their_edges(void **state) {
     struct gpu *gpu = *state;
     static const char *const levels[] = {"", ".level1", ".level2"};
     const double half = tan(30 * 3.14159265358979323846 / 180);
-    load(gpu, &(struct plain){.width = SIZE + 6, .height = SIZE + 2, .fov_y_degrees = 60, .floor = true});
+    load_capture(gpu, &(struct plain){.width = SIZE + 6, .height = SIZE + 2, .fov_y_degrees = 60, .floor = true});
     gpu_run(gpu);
     for (uint32_t l = 0; l < 3; ++l) {
         char name[64];
@@ -130,7 +131,7 @@ static void levels_hold_pixels_of_the_picture_and_their_edges(void **state) {
                 assert_true(fabs((double)depth[i] - expected) < 1e-5 * expected);
                 const bool floor = normal[4 * i + 1] == 1;
                 assert_true(floor == (expected < 5));
-                if (x + 1 < width) { /* of one surface, and seen so from both sides */
+                if (x + 1 < width) { /* neighbours of one surface, from both sides */
                     assert_int_equal(open_side(edges[i], 1), 3);
                     assert_int_equal(open_side(edges[i + 1], 0), 3);
                 } else assert_int_equal(open_side(edges[i], 1), 0);
@@ -152,11 +153,12 @@ static void stripes_of_roughness(const struct plain *plain, float *values) {
         values[PLAIN_ROUGHNESS * pixels + i] = i % plain->width / 8 % 2 ? 0.46f : 0.3f;
 }
 
-/* What is half way between one surface and another is open in part: 0.16 of the 0.2 at which roughness parts them leave 0.4 of
-   1, and what is alike besides, plane and normal, makes it no more. */
+/* A pair of texels halfway between being one surface and two has a partially open edge: a difference of 0.16 with a limit of 0.2 for
+   roughness leaves 0.4, and equal planes and normals do not increase it. */
 static void edges_are_open_in_part(void **state) {
     struct gpu *gpu = *state;
-    load(gpu, &(struct plain){.width = SIZE, .height = SIZE, .fov_y_degrees = 60, .spoil = stripes_of_roughness});
+    load_capture(gpu,
+                 &(struct plain){.width = SIZE, .height = SIZE, .fov_y_degrees = 60, .spoil = stripes_of_roughness});
     gpu_run(gpu);
     uint32_t width, height, *edges = gpu_uints(gpu, "edge_levels", &width, &height);
     for (uint32_t i = 0; i < width * height; ++i) {
@@ -181,8 +183,9 @@ static void noise_of_rough_surfaces_falls_and_mirrors_keep_theirs(void **state) 
     struct gpu *gpu = *state;
     for (int rough = 0; rough < 2; ++rough) {
         double mean[2], variance[2];
-        load(gpu, &(struct plain){
-                      .width = 2 * SIZE, .height = 2 * SIZE, .roughness = rough ? 0.7f : 0.15f, .fov_y_degrees = 60});
+        load_capture(
+            gpu, &(struct plain){
+                     .width = 2 * SIZE, .height = 2 * SIZE, .roughness = rough ? 0.7f : 0.15f, .fov_y_degrees = 60});
         gpu_use(gpu, "blur=upscale_blur");
         gpu_set(gpu, rough ? "blur.width=1" : "blur.width=0");
         gpu_shader(gpu, "resolve", "stand_in.comp");
@@ -192,15 +195,15 @@ static void noise_of_rough_surfaces_falls_and_mirrors_keep_theirs(void **state) 
         statistics(gpu, "reflection_blurred", &mean[1], &variance[1]);
         print_message("# %s: mean %.4f to %.4f, variance %.4f to %.5f\n", rough ? "rough" : "no width", mean[0],
                       mean[1], variance[0], variance[1]);
-        /* A texel of the coarsest level is the mean of 16; a Gaussian of σ 1.5 makes that of 4π 1.5² as many. What is taken
-           between texels is smoother still. Pixels at the border weigh more: the mean moves by its own deviation. */
+        /* A texel of the coarsest level is the mean of 16; a Gaussian of σ 1.5 averages 4π 1.5² of these. Interpolation smooths
+           further. Pixels at the border have more weight, which moves the mean by its own deviation. */
         if (rough) assert_true(variance[1] < variance[0] / (16 * 4 * 3.1415 * 1.5 * 1.5) * 1.5 && variance[1] > 0);
         else assert_true(variance[1] == variance[0]);
         assert_true(fabs(mean[1] - mean[0]) < 4 * sqrt(variance[0]) / SIZE);
     }
 }
 
-/* The colours are the depths: what leaks is seen. The border between the walls runs through blocks of every level. */
+/* The colours are the depths, so that leaks are visible. The border between the walls crosses blocks of every level. */
 static int leaks(struct gpu *gpu, const char *image, uint32_t shift) {
     uint32_t width, height;
     float *color = gpu_floats(gpu, image, &width, &height), *depth = gpu_floats(gpu, "depth_half", NULL, NULL);
@@ -216,8 +219,9 @@ static int leaks(struct gpu *gpu, const char *image, uint32_t shift) {
 static void nothing_leaks_over_edges(void **state) {
     struct gpu *gpu = *state;
     for (int off = 0; off < 2; ++off) {
-        load(gpu, &(struct plain){
-                      .width = SIZE, .height = SIZE, .roughness = 0.7f, .fov_y_degrees = 60, .spoil = two_walls});
+        load_capture(
+            gpu,
+            &(struct plain){.width = SIZE, .height = SIZE, .roughness = 0.7f, .fov_y_degrees = 60, .spoil = two_walls});
         gpu_use(gpu, "blur=upscale_blur");
         gpu_use(gpu, "upscale=edges");
         gpu_set(gpu, "blur.width=1");
@@ -239,14 +243,16 @@ static void nothing_leaks_over_edges(void **state) {
 }
 
 static void sharing(struct gpu *gpu, const struct plain *plain, const char *colors) {
-    load(gpu, plain);
+    load_capture(gpu, plain);
     gpu_use(gpu, "blur=upscale_blur");
-    gpu_set(gpu, "blur.width=8"); /* lobes are wider than any level's texels: all is taken from the coarser ones */
+    gpu_set(
+        gpu,
+        "blur.width=8"); /* lobes are wider than the texels of any level, so that all colours are from coarser ones */
     gpu_shader(gpu, "resolve", "stand_in.comp");
     gpu_set(gpu, colors);
 }
 
-/* Blind to edges, every texel is what the next level has there, bilinearly: three quarters of the nearest, along either axis. */
+/* Without edges, every texel is the bilinear interpolation of the next level: three quarters of the nearest texel along each axis. */
 static void blind_levels_are_upscaled_bilinearly(void **state) {
     struct gpu *gpu = *state;
     enum { N = SIZE / 2, COARSE = N / 2 };
@@ -284,8 +290,8 @@ static void slanted_bars(const struct plain *plain, float *values) {
         values[PLAIN_ROUGHNESS * pixels + i] = (i % plain->width / 2 + i / plain->width / 2) % 5 ? 0.6f : 0.9f;
 }
 
-/* The colours are the roughness. Along bars of one texel there are texels whose block the coarser level picked from beside the
-   bar, and blocks around that it picked from the bar: what is taken of these has its colour. */
+/* The colours are the roughness. Along bars of one texel there are texels whose parent texel was picked beside the bar, and surrounding
+   parent texels that were picked from the bar: these give the colour. */
 static void bars_keep_their_colours(void **state) {
     struct gpu *gpu = *state;
     enum { N = SIZE / 2 };
@@ -300,8 +306,8 @@ static void bars_keep_their_colours(void **state) {
     free(color);
 }
 
-/* The colours are the normals: floor and wall meet in a corner, where each is near the other's plane, so that normals alone
-   tell them apart. A pixel takes its own surface's colour wherever one of the four texels around it has it. */
+/* The colours are the normals. Where floor and wall meet, each is close to the other's plane, so that only normals distinguish them. A
+   pixel gets the colour of its own surface if one of the four surrounding texels has it. */
 static void corners_keep_their_colours(void **state) {
     struct gpu *gpu = *state;
     enum {
@@ -309,10 +315,10 @@ static void corners_keep_their_colours(void **state) {
         BLIND_TO_LOBES,
         BILINEAR,
         HEIGHT = SIZE - 4
-    }; /* the corner runs through blocks, near a pixel of the floor */
+    }; /* the corner crosses blocks, near a pixel of the floor */
     int wrong[3] = {0}, checked = 0;
     for (int kind = 0; kind < 3; ++kind) {
-        load(gpu, &(struct plain){.width = SIZE, .height = HEIGHT, .fov_y_degrees = 60, .floor = true});
+        load_capture(gpu, &(struct plain){.width = SIZE, .height = HEIGHT, .fov_y_degrees = 60, .floor = true});
         gpu_use(gpu, kind == BILINEAR ? "upscale=bilinear" : "upscale=edges");
         if (kind == BLIND_TO_LOBES) gpu_set(gpu, "upscale.lobes=false");
         gpu_shader(gpu, "resolve", "stand_in.comp");
@@ -348,7 +354,7 @@ static double luminance(const float *c) {
 static void bright_samples_are_held_at_what_is_around(void **state) {
     struct gpu *gpu = *state;
     enum { N = SIZE / 2 };
-    load(gpu, &(struct plain){.width = SIZE, .height = SIZE, .roughness = 0.5f, .fov_y_degrees = 60});
+    load_capture(gpu, &(struct plain){.width = SIZE, .height = SIZE, .roughness = 0.5f, .fov_y_degrees = 60});
     gpu_use(gpu, "temporal=outliers");
     gpu_set(gpu, "temporal.outlier=1.25");
     gpu_shader(gpu, "resolve", "stand_in.comp");
@@ -374,7 +380,7 @@ static void bright_samples_are_held_at_what_is_around(void **state) {
 
 /* ---- the previous frame ---- */
 
-/* Diffuse light does not change from frame to frame where nothing moves, so that a hit's colour then is its colour now. */
+/* Diffuse light is constant where nothing moves, so that the previous colour of a hit is its current colour. */
 static void hits_find_their_colour_in_the_previous_frame(void **state) {
     struct gpu *gpu = *state;
     double found[2][3] = {{0}};
@@ -404,7 +410,7 @@ static void hits_find_their_colour_in_the_previous_frame(void **state) {
         double sum[4] = {0}, count[4] = {0};
         for (int i = 0; i < 120 * 68; ++i) {
             if (reject) rejected[i] = source[i];
-            assert_int_equal(source[i] != 0, finished[i] != 0); /* of rays that ended on screen alone */
+            assert_int_equal(source[i] != 0, finished[i] != 0); /* only for rays that end on screen */
             if (!source[i]) continue;
             double apart = fabs(luminance(now + 4 * i) - luminance(before + 4 * i)) /
                            (luminance(now + 4 * i) + luminance(before + 4 * i) + 0.05);
@@ -419,11 +425,11 @@ static void hits_find_their_colour_in_the_previous_frame(void **state) {
         assert_true(count[1] > 1000 && count[3] > 20);
         free(now), free(before), free(source), free(finished);
     }
-    /* A moved picture is resampled, and textures have one sample a pixel; what was hidden shows something else. */
+    /* A moved image is resampled, textures have one sample per pixel, and occluded points show something else. */
     assert_true(found[0][2] > 2 * found[0][0] && found[1][0] == found[0][0]);
 }
 
-/* Where a hidden hit lies is known, and the cube map nearest to it mostly sees it. */
+/* The position of an occluded hit is known, and the nearest cube map mostly sees it. */
 static void hidden_hits_are_found_in_cube_maps(void **state) {
     struct gpu *gpu = *state;
     double apart[2] = {0};
@@ -451,7 +457,7 @@ static void hidden_hits_are_found_in_cube_maps(void **state) {
     }
     print_message("# %d hits hidden or outside: black off by %.3f, in cube maps by %.3f; %d stay black\n", count,
                   apart[0] / count, apart[1] / count, black);
-    /* The cube maps have 16 texels a side. */
+    /* the faces of the cube maps are 16 texels wide */
     assert_true(count > 50 && black == 0 && apart[1] < 0.6 * apart[0]);
     free(now);
 }

@@ -1,4 +1,4 @@
-/* What settings of the march through cube maps must not change, and what its rays say they cost. */
+/* Settings of the march through cube maps that must not change certain values, and the counts of steps and fetches. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -12,10 +12,10 @@
 #include "room.h"
 
 enum { HALF = ROOM_SIZE / 2, COUNT = HALF * HALF };
-enum { NOT_TRACED, HIT }; /* of end_reasons.h */
+enum { NOT_TRACED, HIT }; /* values of end_reasons.h */
 
 struct rays {
-    float *travelled, *normal; /* normal: w is the roughness */
+    float *travelled, *normal; /* w of normal is the roughness */
     uint32_t *end, *steps, *fetches;
 };
 
@@ -34,7 +34,7 @@ static void rays_free(struct rays *rays) {
 
 #define CUBES "screen_trace.length_m=0"
 
-/* A step is one sample, of one texel, or of four between which the distance is interpolated in a level of a chain. */
+/* A step is one sample: of one texel, or of four texels between which a level of the chain is interpolated. */
 static void steps_cost_their_fetches(void **state) {
     static const struct {
         const char *words[9];
@@ -64,8 +64,8 @@ static void steps_cost_their_fetches(void **state) {
     }
 }
 
-/* To look again costs one sample more, of rays that were closed in on. */
-static void looking_again_costs_a_fetch(void **state) {
+/* Verification costs one more sample for each refined hit. */
+static void verification_costs_a_fetch(void **state) {
     struct rays off = rays_of(*state,
                               (const char *const[]){CUBES, "cubemap_trace.chain=1", "cubemap_trace.fallback=black",
                                                     "cubemap_trace.verify=false", NULL}),
@@ -73,7 +73,8 @@ static void looking_again_costs_a_fetch(void **state) {
                                                            "cubemap_trace.fallback=black", NULL});
     size_t hits = 0;
     for (size_t i = 0; i < COUNT; ++i) {
-        if (on.end[i] != HIT || off.end[i] != HIT || on.steps[i] == 24 || on.steps[i] == 16) continue; /* all steps */
+        if (on.end[i] != HIT || off.end[i] != HIT || on.steps[i] == 24 || on.steps[i] == 16)
+            continue; /* all steps were taken */
         assert_int_equal(off.fetches[i], off.steps[i]);
         assert_int_equal(on.fetches[i], on.steps[i] + 1);
         ++hits;
@@ -82,8 +83,8 @@ static void looking_again_costs_a_fetch(void **state) {
     rays_free(&off), rays_free(&on);
 }
 
-/* A proxy costs its head, its planes or its sphere, and the look whether there is sky at its end: the room's cube maps have a box
-   and a sphere. */
+/* A proxy costs fetches for its head, its planes or its sphere, and for testing whether there is sky at its end. The room's cube maps
+   have a box and a sphere. */
 static void proxies_cost_their_planes(void **state) {
     struct rays rays = rays_of(*state, (const char *const[]){CUBES, "cubemap_trace=box", NULL});
     size_t kinds[2] = {0, 0};
@@ -105,7 +106,7 @@ static void lookups_take_no_steps(void **state) {
     rays_free(&rays);
 }
 
-/* Every other bit of the rays of one class stays as the values of the other class change, and theirs change. */
+/* Rays of one class do not change by a bit if the parameters of the other class change, and those of the other class do. */
 static void classes_have_values_of_their_own(void **state) {
     static const char *const smooth[] = {"cubemap_trace.refinements=7", "cubemap_trace.steps_hq=33",
                                          "cubemap_trace.length_m=140", "cubemap_trace.scale_min=1.05"},
@@ -130,7 +131,7 @@ static void classes_have_values_of_their_own(void **state) {
     rays_free(&plain);
 }
 
-/* The sum of the steps is the length, also when the first one alone would be longer. */
+/* The sum of the steps is the length, even if the first step alone were longer. */
 static void no_hit_lies_beyond_the_length(void **state) {
     struct rays rays =
         rays_of(*state, (const char *const[]){CUBES, "cubemap_trace.first_step_m=4", "cubemap_trace.length_m=1.5",
@@ -139,15 +140,15 @@ static void no_hit_lies_beyond_the_length(void **state) {
     for (size_t i = 0; i < COUNT; ++i) {
         if (rays.end[i] != HIT) continue;
         ++hits;
-        assert_true(rays.travelled[i] <= 1.5f * 1.0001f); /* of a sum of floats */
+        assert_true(rays.travelled[i] <= 1.5f * 1.0001f); /* rounding of a sum of floats */
     }
     print_message("# %zu hits within 1.5 m\n", hits);
     assert_true(hits > 50);
     rays_free(&rays);
 }
 
-/* A first step that is given is taken, however short, and no choice is void. */
-static void each_choice_moves_rays(void **state) {
+/* An explicit first step is used, however short, and every choice has an effect. */
+static void each_choice_changes_rays(void **state) {
     static const char *const choices[] = {
         "first_step_m=0.25", "secant=false", "verify=false",     "bilinear=false",  "step_back=false",
         "mass=radial",       "mass_step=0",  "mass_m=3",         "fallback=lookup", "cocoon_start=surface",
@@ -171,8 +172,8 @@ static void each_choice_moves_rays(void **state) {
     assert_true(all);
 }
 
-/* A cocoon that caps nothing and that no ray falls back to is as none. */
-static void captured_depth_knows_no_cocoon(void **state) {
+/* A cocoon that neither caps the sky nor ends rays has no effect. */
+static void captured_depth_ignores_the_cocoon(void **state) {
     static const char *const words[3][6] = {
         {CUBES, "cubemap_trace.fallback=black", "cubemap_trace.depth=captured", NULL},
         {CUBES, "cubemap_trace.fallback=black", "cubemap_trace.depth=captured", "cocoon=max", NULL},
@@ -192,10 +193,10 @@ static void captured_depth_knows_no_cocoon(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(steps_cost_their_fetches),         cmocka_unit_test(looking_again_costs_a_fetch),
-        cmocka_unit_test(proxies_cost_their_planes),        cmocka_unit_test(lookups_take_no_steps),
-        cmocka_unit_test(classes_have_values_of_their_own), cmocka_unit_test(no_hit_lies_beyond_the_length),
-        cmocka_unit_test(captured_depth_knows_no_cocoon),   cmocka_unit_test(each_choice_moves_rays),
+        cmocka_unit_test(steps_cost_their_fetches),          cmocka_unit_test(verification_costs_a_fetch),
+        cmocka_unit_test(proxies_cost_their_planes),         cmocka_unit_test(lookups_take_no_steps),
+        cmocka_unit_test(classes_have_values_of_their_own),  cmocka_unit_test(no_hit_lies_beyond_the_length),
+        cmocka_unit_test(captured_depth_ignores_the_cocoon), cmocka_unit_test(each_choice_changes_rays),
     };
     return cmocka_run_group_tests_name("gpu_march_settings", tests, gpu_set_up, gpu_tear_down);
 }

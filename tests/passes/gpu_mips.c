@@ -1,4 +1,4 @@
-/* MIP chains of cube maps, sky and picture, against filters made here in double. */
+/* MIP chains of cube maps, sky and screen, compared with filters in double precision. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -30,12 +30,12 @@ static uint32_t level_count(uint32_t size) {
     return count;
 }
 
-static void start(struct gpu *gpu, const char *name, const struct plain *plain) {
+static void load_capture(struct gpu *gpu, const char *name, const struct plain *plain) {
     char path[256];
     plain_capture(gpu_path(gpu, name, path), plain);
     gpu_load(gpu, name);
     gpu_reset(gpu);
-    gpu->float_precision = gpu->all = true; /* mirrors call for no level */
+    gpu->float_precision = gpu->all = true; /* mirrors read no coarser level */
     gpu_use(gpu, "cubemap_mips=prefilter");
     gpu_use(gpu, "sky_mips=prefilter");
     gpu_use(gpu, "lit_mips=cone");
@@ -63,11 +63,11 @@ static void gray_sky(const double direction[3], float out[3]) {
 static void a_constant_environment_stays_constant(void **state) {
     struct gpu *gpu = *state;
     static const char *const images[] = {"cubemap_color_mips", "sky_mips", "lit_mips", "cubemap_distance_mips"};
-    const uint32_t sizes[] = {16, 12, 1}; /* 12: an odd level, 3 */
+    const uint32_t sizes[] = {16, 12, 1}; /* 12: has a level of odd size, 3 */
     for (int s = 0; s < 3; ++s) {
         struct plain plain = plain_with(sizes[s], gray);
         plain.sky = gray_sky;
-        start(gpu, "constant", &plain);
+        load_capture(gpu, "constant", &plain);
         gpu_run(gpu);
         for (int k = 0; k < 4; ++k)
             for (uint32_t level = 0; level < (k == 2 ? 5 : level_count(sizes[s])); ++level) {
@@ -88,18 +88,18 @@ static void a_constant_environment_stays_constant(void **state) {
     }
 }
 
-/* Slides, MIP pre-filtering, with the angle that FACTS derives: a level stands for a cone of 3.5 of its texels. */
+/* Slides, MIP pre-filtering, with the angle that FACTS derives: a level corresponds to a cone of 3.5 of its texels. */
 static double cone_tangent(uint32_t level, uint32_t size) {
     return ldexp(texel_scale, (int)level) / (size / 2.0);
 }
 
-/* Solid angle of a texel: of its centre's direction and area, fine enough for small texels. */
+/* The solid angle of a texel from its centre's direction and its area, accurate for small texels. */
 static double solid_angle(double x, double y, uint32_t size) {
     double u = 2 * (x + 0.5) / size - 1, v = 2 * (y + 0.5) / size - 1;
     return 4.0 / size / size / pow(1 + u * u + v * v, 1.5);
 }
 
-/* The lobe cosⁿ over all texels of the base inside the cone. */
+/* Integrates the lobe cosⁿ over all base texels inside the cone. */
 static void integrate(const float *base, uint32_t size, const double axis[3], double tangent, double out[4]) {
     double rim = 1 / sqrt(1 + tangent * tangent), power = log(threshold) / log(rim), total = 0;
     for (int c = 0; c < 4; ++c) out[c] = 0;
@@ -126,7 +126,7 @@ static void varied(uint32_t number, const double d[3], float out[5]) {
     out[4] = a > 0 ? (float)(2 + d[0]) : INFINITY;
 }
 
-/* Root of the mean squared error over each level, all channels together. */
+/* The root of the mean squared error of each level over all channels. */
 static void errors_of_levels(struct gpu *gpu, uint32_t size, double *errors) {
     uint32_t width, height;
     float *base = level_of(gpu, "cubemap_color_box", 0, &width, &height);
@@ -151,7 +151,7 @@ static void levels_stand_for_the_lobe_of_their_cone(void **state) {
     static const char *const variants[] = {"cubemap_mips.reach=0", "cubemap_mips.reach=3", "cubemap_mips.reach=18"};
     double errors[3][8];
     struct plain plain = plain_with(SIZE, varied);
-    start(gpu, "varied", &plain);
+    load_capture(gpu, "varied", &plain);
     for (int v = 0; v < 3; ++v) {
         gpu_set(gpu, variants[v]);
         gpu_run(gpu);
@@ -160,18 +160,18 @@ static void levels_stand_for_the_lobe_of_their_cone(void **state) {
     for (uint32_t level = 1; level < level_count(SIZE); ++level) {
         print_message("# level %u against the lobe over all texels, RMSE: box %.4f, 29 taps %.4f, 1009 taps %.4f\n",
                       level, errors[0][level], errors[1][level], errors[2][level]);
-        /* The coarsest level is one texel a face, whose box is wide already. */
+        /* the coarsest level has one texel per face, whose box is already wide */
         bool coarsest = level + 1 == level_count(SIZE);
         assert_true(errors[1][level] < (coarsest ? 1 : 0.2) * errors[0][level]);
         assert_true(errors[2][level] < (coarsest ? 1 : 0.2) * errors[1][level]);
-        assert_true(errors[1][level] < 0.03 && errors[2][level] < 0.015); /* of a picture between 0 and 4 */
+        assert_true(errors[1][level] < 0.03 && errors[2][level] < 0.015); /* for an image between 0 and 4 */
     }
 }
 
 static void colour_is_weighted_by_what_is_not_sky(void **state) {
     struct gpu *gpu = *state;
     struct plain plain = plain_with(32, varied);
-    start(gpu, "varied", &plain);
+    load_capture(gpu, "varied", &plain);
     gpu_run(gpu);
     for (uint32_t level = 0; level < 6; ++level) {
         uint32_t width, height;
@@ -181,24 +181,24 @@ static void colour_is_weighted_by_what_is_not_sky(void **state) {
             const float *t = &found[4 * i];
             double weight = solid_angle(i % width, i / width % width, width);
             assert_true(t[3] >= 0 && (double)t[3] <= 1 + 1e-6);
-            /* Green is 0.2 or 1 where there is no sky, whatever the share of sky. */
+            /* Green is 0.2 or 1 without the sky, whatever the fraction of sky is. */
             assert_true((double)t[1] >= 0.2 * (double)t[3] - 1e-6 && (double)t[1] <= (double)t[3] + 1e-6);
             mean += weight * (double)t[3];
             total += weight;
         }
-        /* 60 % of the sphere lie below y = 0.2; coarse texels' solid angles are no better than a few per cent. */
+        /* 60 % of the sphere are below y = 0.2; the solid angles of coarse texels are accurate to a few per cent. */
         assert_true(fabs(mean / total - 0.6) < 0.05);
         free(found);
     }
 }
 
-/* Straight from the finer level: all texels that a texel covers, by their shares. 12, 6, 3, 1. */
+/* Computed directly from the finer level: all texels that a texel covers, with their shares. 12, 6, 3, 1. */
 static void distances_join_what_is_not_sky(void **state) {
     struct gpu *gpu = *state;
     static const char *const joins[] = {"mean", "nearest", "farthest"};
     for (int join = 0; join < 3; ++join) {
         struct plain plain = plain_with(12, varied);
-        start(gpu, "twelve", &plain);
+        load_capture(gpu, "twelve", &plain);
         char setting[64];
         snprintf(setting, sizeof setting, "cubemap_mips.join=%s", joins[join]);
         gpu_use(gpu, join == 1 ? "cubemap_mips=plain" : "cubemap_mips=prefilter");
@@ -241,7 +241,7 @@ static void ramp(const struct plain *plain, float *values) {
         values[PLAIN_LIT_G * pixels + i] = (float)(i * 2654435761u % 1000) / 1000 + (i % plain->width > 20 ? 5 : 0);
 }
 
-/* A channel of a picture between its texels, held at the border. */
+/* A channel interpolated between texels, clamped to the border. */
 static double bilinear(const float *image, uint32_t width, uint32_t height, double u, double v) {
     double x = u * width - 0.5, y = v * height - 0.5, sum = 0;
     for (int k = 0; k < 4; ++k) {
@@ -255,7 +255,7 @@ static double bilinear(const float *image, uint32_t width, uint32_t height, doub
 static void the_picture_is_filtered_with_29_taps(void **state) {
     struct gpu *gpu = *state;
     struct plain plain = {.width = 37, .height = 21, .fov_y_degrees = 60, .spoil = ramp};
-    start(gpu, "ramp", &plain);
+    load_capture(gpu, "ramp", &plain);
     gpu_run(gpu);
     for (uint32_t level = 1; level < 6; ++level) {
         uint32_t finer_width, finer_height, width, height, taps = 0;
@@ -268,7 +268,7 @@ static void the_picture_is_filtered_with_29_taps(void **state) {
             for (int y = -9; y <= 9; ++y)
                 for (int x = -9; x <= 9; ++x) {
                     if (x * x + y * y > 9) continue;
-                    double sharper = level == 1 ? 1 : 1.75; /* what the finer level holds already */
+                    double sharper = level == 1 ? 1 : 1.75; /* the variance that the finer level already has */
                     double weight = pow(threshold, sharper * (x * x + y * y) / (texel_scale * texel_scale));
                     double u = (i % width + 0.5 + x) / width, v = (i / width + 0.5 + y) / height;
                     sum += weight * bilinear(finer, finer_width, finer_height, u, v);
@@ -279,7 +279,7 @@ static void the_picture_is_filtered_with_29_taps(void **state) {
         }
         print_message("# picture, level %u: worst relative error %.2g\n", level, worst);
         assert_int_equal(taps, 29);
-        /* The sampler weighs with 1/256 at least: 29 lookups err at random by 1/512 of a contrast of 6. */
+        /* the sampler's weights are multiples of 1/256: 29 lookups have random errors of 1/512 of a contrast of 6 */
         assert_true(worst < 5e-3);
         free(finer);
         free(found);
@@ -292,12 +292,12 @@ static void dot_of_light(const struct plain *plain, float *values) {
         for (uint32_t c = 0; c < 3; ++c) values[(PLAIN_LIT_R + c) * pixels + i] = i == middle ? 1000.0f : 0.0f;
 }
 
-/* Levels are made of finer ones; together they must spread light as the lobe threshold^((r/3.5)²), cut at 3.5 texels, does. */
+/* Each level is computed from a finer one; together they must spread light like the lobe threshold^((r/3.5)²), cut at 3.5 texels. */
 static void every_level_of_the_picture_is_as_wide_as_its_cone(void **state) {
     struct gpu *gpu = *state;
     enum { SIZE = 128 };
     struct plain plain = {.width = SIZE, .height = SIZE, .fov_y_degrees = 60, .spoil = dot_of_light};
-    start(gpu, "dot", &plain);
+    load_capture(gpu, "dot", &plain);
     gpu_run(gpu);
     double sum = 0, total = 0, step = 0.01;
     for (double r = step / 2; r < texel_scale; r += step) {
@@ -316,7 +316,7 @@ static void every_level_of_the_picture_is_as_wide_as_its_cone(void **state) {
         mean /= light;
         double ratio = sqrt((spread / light - mean * mean) / (sum / total));
         print_message("# picture, level %u: %.3f of the cone's width\n", level, ratio);
-        assert_true(ratio > 0.9 && ratio < 1.02); /* the last taps reach 3 of the cone's 3.5 texels: 1.67 of 1.98 */
+        assert_true(ratio > 0.9 && ratio < 1.02); /* the last taps are at 3 of the cone's 3.5 texels: 1.67 of 1.98 */
         free(found);
     }
 }
@@ -330,7 +330,7 @@ static void spoiled(const struct plain *plain, float *values) {
 static void bad_pixels_do_not_spread(void **state) {
     struct gpu *gpu = *state;
     struct plain plain = {.width = 24, .height = 16, .fov_y_degrees = 60, .spoil = spoiled};
-    start(gpu, "spoiled", &plain);
+    load_capture(gpu, "spoiled", &plain);
     gpu_run(gpu);
     for (uint32_t level = 1; level < 5; ++level) {
         uint32_t width, height;

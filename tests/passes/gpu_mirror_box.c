@@ -1,5 +1,5 @@
-/* Traced distances in mirror_box against closed forms. The camera's rays, the mirror floor and the box are computed here
-   from the capture's attributes in double; nothing of the shaders is used. */
+/* Traced distances in mirror_box compared with closed forms. The camera's rays, the mirror floor and the box are computed here in
+   double from the attributes of the capture, independently of the shaders. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -11,7 +11,7 @@
 
 #include "mirror_box.h"
 
-/* Prints and returns quantiles of the relative error over the marked rays with distances in a range. */
+/* Prints and returns quantiles of the relative error of the marked rays with distances in a range. */
 struct errors {
     double median, p99;
     size_t count;
@@ -42,13 +42,15 @@ static struct errors near_and_far(const struct rays *r, const bool *marked, cons
     return errors_of(r, marked, 0, INFINITY, what);
 }
 
-static void load(struct gpu *gpu) {
+static void load_box(struct gpu *gpu) {
     gpu_sample(
         gpu, "mirror_box", "box",
         &(struct glint_sample_options){
             .width = 240, .height = 160, .cube_size = 256, .probes_given = true, .probes = GLINT_PROBES_PERFECT});
     gpu_reset(gpu);
-    gpu_set(gpu, "cubemap_trace.skip_volume=false"); /* the inner volume is the box itself: nothing would be marched */
+    gpu_set(
+        gpu,
+        "cubemap_trace.skip_volume=false"); /* the inner volume is the box itself, so that nothing would be marched */
 }
 
 static void fine_steps(struct gpu *gpu) {
@@ -58,7 +60,7 @@ static void fine_steps(struct gpu *gpu) {
     gpu_set(gpu, "cubemap_trace.length_m=30");
 }
 
-/* Floor rays that the cube-map trace ended with a hit; the others are counted. */
+/* Marks rays from the floor that the cube-map trace ended with a hit, and counts the others. */
 static bool *cubemap_hits(const struct rays *r, size_t *floor, size_t *missed) {
     bool *marked = calloc((size_t)r->width * r->height, 1);
     assert_non_null(marked);
@@ -74,7 +76,7 @@ static bool *cubemap_hits(const struct rays *r, size_t *floor, size_t *missed) {
 
 static void cube_maps_alone_meet_the_closed_form(void **state) {
     struct gpu *gpu = *state;
-    load(gpu);
+    load_box(gpu);
     gpu_set(gpu, "screen_trace.length_m=0");
     fine_steps(gpu);
     gpu_run(gpu);
@@ -91,7 +93,7 @@ static void cube_maps_alone_meet_the_closed_form(void **state) {
 
 static void cube_maps_alone_with_the_slides_steps(void **state) {
     struct gpu *gpu = *state;
-    load(gpu);
+    load_box(gpu);
     gpu_set(gpu, "screen_trace.length_m=0");
     gpu_run(gpu);
     struct rays r = rays_of(gpu);
@@ -99,7 +101,7 @@ static void cube_maps_alone_with_the_slides_steps(void **state) {
     bool *marked = cubemap_hits(&r, &floor, &missed);
     struct errors e = near_and_far(&r, marked, "cube maps alone, the slides' 24 steps");
     print_message("# of %zu rays %zu found nothing\n", floor, missed);
-    /* The last bracket is a step of 0.2 of the distance halved three times, 2.5 %, and the secant lies inside. */
+    /* The last interval is a step of 0.2 of the distance, halved three times, 2.5 %, and the secant is inside. */
     assert_true(e.median <= 0.025 && missed * 50 < floor);
     free(marked);
     rays_free(&r);
@@ -107,7 +109,7 @@ static void cube_maps_alone_with_the_slides_steps(void **state) {
 
 static void the_exact_tracer_is_exact(void **state) {
     struct gpu *gpu = *state;
-    load(gpu);
+    load_box(gpu);
     gpu_use(gpu, "cubemap_trace=exact");
     gpu_set(gpu, "screen_trace.length_m=0");
     gpu_run(gpu);
@@ -117,19 +119,19 @@ static void the_exact_tracer_is_exact(void **state) {
     struct errors e = near_and_far(&r, marked, "exact");
     print_message("# of %zu rays %zu found nothing\n", floor, missed);
     assert_true(floor > 3000 && missed * 1000 < floor);
-    assert_true(e.median <= 0.001); /* what is asked of the reference */
-    assert_true(e.p99 <= 0.01); /* rays into corners, where a texel holds two walls: half a texel is 0.4 % at 45° */
+    assert_true(e.median <= 0.001); /* the requirement for the reference */
+    assert_true(e.p99 <= 0.01); /* rays into corners, where a texel covers two walls: half a texel is 0.4 % at 45° */
     free(marked);
     rays_free(&r);
 }
 
-/* Steps over coarse texels leave nothing out: rays end where they did, in far fewer steps. */
+/* Skipping cells of coarser levels does not change the ends of rays, with far fewer steps. */
 static void the_exact_tracer_may_skip_what_is_far(void **state) {
     struct gpu *gpu = *state;
     struct rays r[2];
     double steps[2] = {0, 0};
     for (int i = 0; i < 2; ++i) {
-        load(gpu);
+        load_box(gpu);
         gpu_use(gpu, "cubemap_trace=exact");
         gpu_use(gpu, "cubemap_mips=plain");
         gpu_set(gpu, "cubemap_mips.join=nearest");
@@ -144,7 +146,7 @@ static void the_exact_tracer_may_skip_what_is_far(void **state) {
     size_t floor, missed, other = 0;
     bool *marked = cubemap_hits(&r[1], &floor, &missed);
     struct errors e = near_and_far(&r[1], marked, "exact, with skips");
-    /* Where it went behind is known to a texel's 2^-25; within a corner the one or the other wall. */
+    /* the position is accurate to 2^-25 of a texel; in a corner either wall is right */
     for (uint32_t k = 0; k < r[0].width * r[0].height; ++k)
         other += marked[k] && !(fabsf(r[1].travelled[k] / r[0].travelled[k] - 1) < 1e-5F);
     print_message("# %.0f steps instead of %.0f, %zu of %zu rays end elsewhere\n", steps[1], steps[0], other, floor);
@@ -156,12 +158,12 @@ static void the_exact_tracer_may_skip_what_is_far(void **state) {
     rays_free(&r[1]);
 }
 
-/* Inside an inner volume nothing is marched, and the walls of this one are the box itself. */
+/* There is no march inside of an inner volume, and the walls of this one are the box. */
 static void an_inner_volume_is_skipped(void **state) {
     struct gpu *gpu = *state;
     size_t steps[2] = {0, 0};
     for (int i = 0; i < 2; ++i) {
-        load(gpu);
+        load_box(gpu);
         gpu_set(gpu, "screen_trace.length_m=0");
         fine_steps(gpu);
         if (i == 1) gpu_set(gpu, "cubemap_trace.skip_volume=true");
@@ -181,7 +183,7 @@ static void an_inner_volume_is_skipped(void **state) {
     assert_true(2 * steps[1] < steps[0]);
 }
 
-/* Floor rays whose end is seen: the box is convex, so that nothing is hidden inside the picture. */
+/* Marks rays from the floor whose end is visible: the box is convex, so that nothing on screen is occluded. */
 static bool *screen_hits(const struct rays *r, size_t *visible, size_t *found, size_t *invented) {
     bool *marked = calloc((size_t)r->width * r->height, 1);
     assert_non_null(marked);
@@ -202,7 +204,7 @@ static void the_screen_alone_meets_the_closed_form(void **state) {
     struct gpu *gpu = *state;
     const char *const steps[] = {"screen_trace.steps=256", NULL};
     for (int i = 0; i < 2; ++i) {
-        load(gpu);
+        load_box(gpu);
         gpu_set(gpu, "cubemap_trace.fallback=black");
         if (steps[i]) gpu_set(gpu, steps[i]);
         gpu_run(gpu);
@@ -216,7 +218,7 @@ static void the_screen_alone_meets_the_closed_form(void **state) {
         if (steps[i]) {
             assert_true(visible > 1000);
             assert_true(e.median <= 0.005 && e.p99 <= 0.03);
-            /* Ends within a half-resolution texel of the border, or of the surface they start from, may be lost. */
+            /* ends within a half-resolution texel of the border, or of the surface where they start, may be missed */
             assert_true(found * 100 >= visible * 97 && invented * 100 <= visible);
         }
         free(marked);
@@ -224,7 +226,7 @@ static void the_screen_alone_meets_the_closed_form(void **state) {
     }
 }
 
-/* A narrow view of the floor: most rays leave it, and go on from there. */
+/* A narrow view of the floor: most rays leave the screen and continue in cube maps. */
 static void load_narrow(struct gpu *gpu) {
     gpu_sample(gpu, "mirror_box", "narrow",
                &(struct glint_sample_options){.width = 240,
@@ -257,7 +259,7 @@ static void rays_that_leave_the_screen_go_on_from_there(void **state) {
     }
     assert_true(far > 500);
     struct errors e = near_and_far(&r, left, "left the screen, then cube maps");
-    assert_true(e.median <= 0.005 && e.p99 <= 0.03); /* from the surface, not from where they left */
+    assert_true(e.median <= 0.005 && e.p99 <= 0.03); /* from the surface, not from where they left the screen */
     free(left);
     rays_free(&r);
 }
@@ -281,16 +283,16 @@ static void the_cube_map_trace_spends_its_length_after_the_screens(void **state)
     print_message("# a length of 1 m reached %zu walls that a ray from the surface would not, and %zu not; %zu wrong\n",
                   reached, short_of, wrong);
     assert_true(reached > 50 && short_of > 50);
-    assert_true(wrong * 100 <= reached + short_of); /* a kink between walls may be cut short */
+    assert_true(wrong * 100 <= reached + short_of); /* a corner between walls may be cut */
     rays_free(&r);
 }
 
-/* Colour from the screen and from the cube maps, each alone and one after the other. */
+/* Colour from the screen, from the cube maps, and from both in sequence. */
 static void the_floor_shows_the_walls_light(void **state) {
     struct gpu *gpu = *state;
     const char *const settings[] = {"screen_trace.length_m=0", "screen_trace.steps=128"};
     for (int i = 0; i < 2; ++i) {
-        load(gpu);
+        load_box(gpu);
         fine_steps(gpu);
         gpu_set(gpu, settings[i]);
         gpu_run(gpu);
@@ -308,8 +310,8 @@ static void the_floor_shows_the_walls_light(void **state) {
         double median = quantile(errors, count, 0.5), p99 = quantile(errors, count, 0.99);
         print_message("# %s: radiance of %zu rays, median %.3f %%, 99th percentile %.2f %%\n", settings[i], count / 3,
                       100 * median, 100 * p99);
-        /* Half floats hold 0.05 %. Interpolation errs by an eighth of a texel squared times the light's curvature, less
-           than that; at the foot of the walls it mixes in the floor, which is black, over one texel. */
+        /* Half floats have an error of 0.05 %. That of interpolation, an eighth of a texel squared times the curvature of the light, is
+           smaller; at the foot of the walls the black floor is mixed in over one texel. */
         assert_true(count > 9000 && median <= 0.001 && p99 <= 0.02);
         free(color), free(errors);
         rays_free(&r);
@@ -318,7 +320,7 @@ static void the_floor_shows_the_walls_light(void **state) {
 
 static void a_thousand_kilometres_change_nothing(void **state) {
     struct gpu *gpu = *state;
-    load(gpu);
+    load_box(gpu);
     gpu_run(gpu);
     uint32_t width, height;
     float *here = gpu_floats(gpu, "reflection", &width, &height);

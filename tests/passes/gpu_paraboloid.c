@@ -1,5 +1,5 @@
-/* Dual paraboloids of a cube map whose colour is the direction it is seen in. Where the mirror shows a direction is derived
-   here from optics: the paraboloid's normal halves the angle between the direction and the axis. */
+/* Dual paraboloids of a cube map whose colour is the direction. The position of a direction is derived from optics: the paraboloid's
+   normal bisects the angle between the direction and the axis. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -13,7 +13,7 @@
 #include "plain_capture.h"
 
 enum { SIZE = 64 };
-/* The disc's radius in halves of the map's side: the rim lies in the middle of the outermost texels. */
+/* The disc's radius relative to half the width of the map: the rim is at the centres of the outermost texels. */
 static const double disc = 1 - 1.0 / SIZE;
 
 static void colored_by_direction(uint32_t number, const double direction[3], float out[5]) {
@@ -23,13 +23,13 @@ static void colored_by_direction(uint32_t number, const double direction[3], flo
     out[4] = 5;
 }
 
-/* What rays must not see through maps that are closed. */
+/* A colour that must not leak through closed maps. */
 static void dark(const double direction[3], float out[3]) {
     (void)direction;
     out[0] = out[1] = out[2] = 0;
 }
 
-static void load(struct gpu *gpu) {
+static void load_directions(struct gpu *gpu) {
     char path[256];
     const struct plain plain = {.width = 16,
                                 .height = 8,
@@ -48,10 +48,10 @@ static void load(struct gpu *gpu) {
     gpu_set(gpu, "screen_trace.length_m=0");
 }
 
-/* Up is +Y; the map's x is +X, its y -Z. */
+/* Up is +Y; the map's x is +X, its y is -Z. */
 static double place_of(const double d[3], double place[2]) {
-    const double local[3] = {d[0], -d[2], fabs(d[1])}; /* the lower hemisphere is the upper one's mirror image */
-    place[0] = disc * local[0] / (local[2] + 1);       /* the normal, (x, y, 1), is along d + axis */
+    const double local[3] = {d[0], -d[2], fabs(d[1])}; /* the lower hemisphere is the mirror image of the upper one */
+    place[0] = disc * local[0] / (local[2] + 1);       /* the normal (x, y, 1) is along d + axis */
     place[1] = disc * local[1] / (local[2] + 1);
     return sqrt(place[0] * place[0] + place[1] * place[1]);
 }
@@ -75,7 +75,7 @@ static double angle_between(const double a[3], const double b[3]) {
     return atan2(sqrt(c[0] * c[0] + c[1] * c[1] + c[2] * c[2]), a[0] * b[0] + a[1] * b[1] + a[2] * b[2]);
 }
 
-/* Directions spread evenly over the sphere. */
+/* Directions evenly distributed over the sphere. */
 static void direction_of(int i, int count, double d[3]) {
     double y = 1 - 2 * (i + 0.5) / count, r = sqrt(1 - y * y), turn = 2.399963229728653 * i;
     d[0] = r * cos(turn), d[1] = y, d[2] = r * sin(turn);
@@ -83,7 +83,7 @@ static void direction_of(int i, int count, double d[3]) {
 
 static void directions_come_back(void **state) {
     struct gpu *gpu = *state;
-    load(gpu);
+    load_directions(gpu);
     gpu_run(gpu);
     uint32_t width, height;
     float *map = gpu_floats(gpu, "paraboloids", &width, &height);
@@ -106,14 +106,14 @@ static void directions_come_back(void **state) {
         print_message("# %s: %zu directions, off by %.5f rad in the median, at most %.5f; a face's texel spans %.5f\n",
                       zone ? "rim" : "pole", counts[zone], median, worst, 2.0 / SIZE);
         assert_true(counts[zone] > 2000);
-        /* Colours are half floats between 0 and 1, rounded in the capture and in the map: 2^-12 each time, twice that as a
-           component of the direction, in two components. */
+        /* Colours are half floats between 0 and 1, rounded in the capture and in the map: 2^-12 each time, twice that as a component of
+           the direction, in two components. */
         assert_true(median <= 1e-3 && worst <= 2e-3);
     }
     free(map);
 }
 
-/* Texels whose middle lies between two angles from the axis, for each steradian there. */
+/* The number of texels whose centre is between two angles from the axis, per steradian. */
 static double density(double from, double to) {
     size_t count = 0;
     for (int i = 0; i < SIZE * SIZE; ++i) {
@@ -124,25 +124,25 @@ static double density(double from, double to) {
     return (double)count / (2 * acos(-1) * (cos(from) - cos(to)));
 }
 
-/* The article: the projection preserves the details at the top and the bottom, at the expense of the sides. */
+/* The article claims that the projection preserves details at the top and the bottom, at the expense of the sides. */
 static void the_rim_has_more_texels_than_the_pole(void **state) {
     (void)state;
     const double degree = acos(-1) / 180;
     double pole = density(0, 20 * degree), rim = density(70 * degree, 90 * degree);
-    double face = SIZE * SIZE / 4.0; /* in the middle of a cube map's face */
+    double face = SIZE * SIZE / 4.0; /* at the centre of a cube map's face */
     print_message("# texels a steradian: %.0f around the pole, %.0f at the rim, %.0f in the middle of a face\n", pole,
                   rim, face);
-    /* (N - 1)²/16 · 1/cos²(10°) and (N - 1)²/4 · (1 - tan²(35°))/(2 cos 70°), within what counting whole texels may err */
+    /* (N - 1)²/16 · 1/cos²(10°) and (N - 1)²/4 · (1 - tan²(35°))/(2 cos 70°), with the error of counting whole texels */
     assert_true(fabs(pole / (disc * disc * face / 4) - 1.031) < 0.05);
     assert_true(fabs(rim / (disc * disc * face) - 0.745) < 0.05);
 }
 
-/* At the equator both hemispheres hold the same directions; a level without what lies beyond the rim mixes in black. */
+/* At the equator both hemispheres show the same directions; a level without texels beyond the rim mixes in black. */
 static void filled_levels_meet_at_the_rim(void **state) {
     struct gpu *gpu = *state;
     double apart[2] = {0, 0}, dark[2] = {0, 0};
     for (int fill = 0; fill < 2; ++fill) {
-        load(gpu);
+        load_directions(gpu);
         gpu_set(gpu, fill ? "cubemap_convert.fill=true" : "cubemap_convert.fill=false");
         gpu_run(gpu);
         for (int level = 0, size = SIZE; level < 5; ++level, size /= 2) {
@@ -166,19 +166,19 @@ static void filled_levels_meet_at_the_rim(void **state) {
     print_message(
         "# at the rim, five levels: hemispheres %.4f apart, at most %.3f too dark; without fill %.4f and %.3f\n",
         apart[1], dark[1], apart[0], dark[0]);
-    /* By symmetry about the equator nothing but half floats stands between them. */
+    /* By symmetry about the equator they differ only by half floats. */
     assert_true(apart[1] <= 2e-3);
-    /* A texel of the fifth level spans an eighth of the disc's radius on either side of the rim, where a bilinear lookup
-       sees as far as one such texel: sin of its angle, less than 1 - cos(0.5 rad). */
+    /* A texel of the fifth level covers an eighth of the disc's radius on either side of the rim, and a bilinear lookup there reaches
+       one such texel: sin of its angle, less than 1 - cos(0.5 rad). */
     assert_true(dark[1] <= 0.13 && dark[0] > 2 * dark[1]);
 }
 
-/* A texel of a coarser level is the mean of four, by the solid angle that each stands for: of a place at r from the middle, in
-   radii of the disc, 4/(1 + r²)² times its area. */
+/* A texel of a coarser level is the mean of four, weighted by solid angle: 4/(1 + r²)² times the area, at a distance r from the centre
+   in radii of the disc. */
 static void levels_are_means_by_solid_angle(void **state) {
     struct gpu *gpu = *state;
     for (int by_angle = 0; by_angle < 2; ++by_angle) {
-        load(gpu);
+        load_directions(gpu);
         gpu->float_precision = true;
         gpu_set(gpu, by_angle ? "cubemap_convert.solid_angle=true" : "cubemap_convert.solid_angle=false");
         gpu_run(gpu);
@@ -210,7 +210,7 @@ static void levels_are_means_by_solid_angle(void **state) {
 
 static void rays_see_the_direction_they_go_in(void **state) {
     struct gpu *gpu = *state;
-    load(gpu);
+    load_directions(gpu);
     gpu_run(gpu);
     uint32_t width, height;
     float *color = gpu_floats(gpu, "reflection_half", &width, &height),

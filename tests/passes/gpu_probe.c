@@ -1,4 +1,4 @@
-/* Probed pixels of the street: the recorded values are those that the run computed, and recording changes no image. */
+/* Probed pixels of the street: the recorded values equal those that the run computed, and recording does not change an image. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -29,25 +29,26 @@ static const char *const ways[][PROBED_WORDS] = {
 };
 enum { WAYS = sizeof ways / sizeof ways[0] };
 
-/* ---- What a story must agree with ---- */
+/* ---- Consistency of a trace with the images ---- */
 
 static void check_depth(const struct glint_probe_record *record, const struct images *images) {
-    const uint32_t x = number(record, "texel_x"), y = number(record, "texel_y");
-    if (glint_probe_is(record, "screen_texel")) same(record, "depth_m", find(images, "depth_half"), x, y, 0);
+    const uint32_t x = record_number(record, "texel_x"), y = record_number(record, "texel_y");
+    if (glint_probe_is(record, "screen_texel"))
+        assert_kept_value(record, "depth_m", find_kept(images, "depth_half"), x, y, 0);
     if (glint_probe_is(record, "screen_cell")) {
-        const struct kept *hiz = level_of(images, "hiz", number(record, "level"));
-        same(record, "nearest", hiz, x, y, 0);
-        same(record, "farthest", hiz, x, y, 1);
+        const struct kept *hiz = level_of(images, "hiz", record_number(record, "level"));
+        assert_kept_value(record, "nearest", hiz, x, y, 0);
+        assert_kept_value(record, "farthest", hiz, x, y, 1);
     }
     if (!glint_probe_is(record, "cubemap_texel")) return;
     const struct glint_probe_label of = glint_probe_label("image", glint_probe_value(record, "image"));
     assert_non_null(of.name);
-    const struct kept *image = level_of(images, of.name, number(record, "level"));
-    const uint32_t faces = 6 * number(record, "place") + number(record, "face");
-    same(record, "texel_m", image, x, y + faces * image->width, 0);
+    const struct kept *image = level_of(images, of.name, record_number(record, "level"));
+    const uint32_t faces = 6 * record_number(record, "place") + record_number(record, "face");
+    assert_kept_value(record, "texel_m", image, x, y + faces * image->width, 0);
 }
 
-/* The last step of a tracer, its end, and the images agree. */
+/* The last step of a tracer, its end, and the images must agree. */
 struct last {
     const struct glint_probe_record *step;
     uint32_t steps;
@@ -65,18 +66,20 @@ static bool counts_steps(const struct glint_probe_record *end) {
 static void check_end(const struct glint_probe_record *end, const struct last *last, const struct images *images,
                       uint32_t x, uint32_t y) {
     const bool screen = glint_probe_is(end, "screen_end");
-    const struct kept *far = find(images, screen ? "screen_travelled" : "travelled");
-    same(end, "travelled_m", far, x, y, 0);
-    if (!screen) assert_int_equal(number(end, "place"), bits_at(find(images, "cubemap_index"), x, y, 0));
-    assert_int_equal(number(end, "end"), bits_at(find(images, screen ? "screen_end" : "cubemap_end"), x, y, 0));
-    assert_int_equal(number(end, "steps"), bits_at(find(images, screen ? "screen_steps" : "cubemap_steps"), x, y, 0));
-    if (counts_steps(end)) assert_int_equal(number(end, "steps"), last->steps);
+    const struct kept *far = find_kept(images, screen ? "screen_travelled" : "travelled");
+    assert_kept_value(end, "travelled_m", far, x, y, 0);
+    if (!screen) assert_int_equal(record_number(end, "place"), bits_at(find_kept(images, "cubemap_index"), x, y, 0));
+    assert_int_equal(record_number(end, "end"),
+                     bits_at(find_kept(images, screen ? "screen_end" : "cubemap_end"), x, y, 0));
+    assert_int_equal(record_number(end, "steps"),
+                     bits_at(find_kept(images, screen ? "screen_steps" : "cubemap_steps"), x, y, 0));
+    if (counts_steps(end)) assert_int_equal(record_number(end, "steps"), last->steps);
     if (!is_hit(end, "end reason", "end") || !last->step) return;
     assert_true(is_hit(last->step, "decision", "decision"));
-    same(last->step, "travelled_m", far, x, y, 0);
+    assert_kept_value(last->step, "travelled_m", far, x, y, 0);
 }
 
-/* Where a ray starts, and what that is along the ray: turned into the world, the same. */
+/* The start of a ray, and its direction: equal after transformation to world space. */
 struct start {
     double from[3], along_m, far_m;
 };
@@ -96,22 +99,22 @@ static struct start start_of(const struct glint_probe_record *record) {
 
 static void check_ray(const struct glint_probe_record *screen, const struct glint_probe_record *cube) {
     const struct start view = start_of(screen), world = start_of(cube);
-    near(world.far_m, view.far_m, view.far_m);
-    near(world.along_m, view.along_m, view.far_m);
+    assert_near_sum(world.far_m, view.far_m, view.far_m);
+    assert_near_sum(world.along_m, view.along_m, view.far_m);
 }
 
 struct tally {
-    size_t stories, rays, depths, screen_hits, cube_hits;
+    size_t traces, rays, depths, screen_hits, cube_hits;
 };
 
-static void check_story(const struct glint_probe_trace *story, const struct images *images, const uint32_t pixel[2],
+static void check_trace(const struct glint_probe_trace *trace, const struct images *images, const uint32_t pixel[2],
                         struct tally *tally) {
     struct last last = {0};
     const struct glint_probe_record *ray = NULL;
-    assert_int_equal(story->dropped, 0);
-    tally->stories += story->count > 0;
-    for (size_t i = 0; i < story->count; i++) {
-        const struct glint_probe_record *record = &story->records[i];
+    assert_int_equal(trace->dropped, 0);
+    tally->traces += trace->count > 0;
+    for (size_t i = 0; i < trace->count; i++) {
+        const struct glint_probe_record *record = &trace->records[i];
         const bool texel = glint_probe_is(record, "screen_texel") || glint_probe_is(record, "cubemap_texel");
         check_depth(record, images);
         if (glint_probe_is(record, "screen_ray")) ray = record;
@@ -141,19 +144,19 @@ static void test_stories(void **state) {
     for (size_t w = 0; w < WAYS; w++) {
         struct tally tally = {0};
         struct glint_error err = {0};
-        arrange(gpu, ways[w]);
+        arrange_pipeline(gpu, ways[w]);
         probed_run(gpu, NULL, false, &plain);
         probed_run(gpu, pixels, false, &probed);
         same_images(&plain, &probed);
         for (size_t i = 0; i < PIXELS; i++) {
-            struct glint_probe_trace story;
-            check(glint_replay_probe(gpu->replay, i, &story, &err), &err);
-            check_story(&story, &plain, pixels[i], &tally);
-            free(story.records);
+            struct glint_probe_trace trace;
+            require(glint_replay_probe(gpu->replay, i, &trace, &err), &err);
+            check_trace(&trace, &plain, pixels[i], &tally);
+            free(trace.records);
         }
-        print_message("# %s: %zu stories, %zu depths, hits %zu on screen, %zu in cube maps\n", ways[w][0],
-                      tally.stories, tally.depths, tally.screen_hits, tally.cube_hits);
-        assert_true(tally.stories == PIXELS && tally.cube_hits + tally.screen_hits > 0);
+        print_message("# %s: %zu stories, %zu depths, hits %zu on screen, %zu in cube maps\n", ways[w][0], tally.traces,
+                      tally.depths, tally.screen_hits, tally.cube_hits);
+        assert_true(tally.traces == PIXELS && tally.cube_hits + tally.screen_hits > 0);
         rays += tally.rays;
         free_images(&plain);
         free_images(&probed);
@@ -161,15 +164,15 @@ static void test_stories(void **state) {
     assert_true(rays > 0);
 }
 
-/* ---- What later passes tell adds up to what they made ---- */
+/* ---- Records of later passes sum up to the pass's result ---- */
 
-/* The weighted mean of what was mixed in is the image, where anything was. */
-static size_t check_mixture(const struct glint_probe_trace *story, const char *slot, const struct kept *image,
+/* The weighted mean of the records equals the image, if there are any. */
+static size_t check_mixture(const struct glint_probe_trace *trace, const char *slot, const struct kept *image,
                             const uint32_t at[2]) {
     static const char *const channels[] = {"r", "g", "b"};
     double sum[3] = {0}, total = 0, largest = 0;
     size_t count = 0, i = 0;
-    for (const struct glint_probe_record *record; (record = of_slot(story, slot, "neighbour", &i)); count++) {
+    for (const struct glint_probe_record *record; (record = next_record(trace, slot, "neighbour", &i)); count++) {
         const double weight = (double)glint_probe_value(record, "weight");
         total += weight;
         for (int c = 0; c < 3; c++) {
@@ -179,28 +182,28 @@ static size_t check_mixture(const struct glint_probe_trace *story, const char *s
         }
     }
     for (uint32_t c = 0; c < 3 && total > 0; c++)
-        near(sum[c] / total, held(image, at, c), largest * (double)count / total);
+        assert_near_sum(sum[c] / total, held(image, at, c), largest * (double)count / total);
     return count;
 }
 
-/* A single colour is what the ray found; where a cube map shows some sky, both are recorded. */
-static size_t check_color(const struct glint_probe_trace *story, const struct kept *image, const uint32_t at[2]) {
+/* A single colour is the result of the ray. Where a cube map shows some sky, both colours are recorded. */
+static size_t check_color(const struct glint_probe_trace *trace, const struct kept *image, const uint32_t at[2]) {
     static const char *const channels[] = {"r", "g", "b"};
     size_t i = 0;
-    const struct glint_probe_record *first = of_slot(story, "resolve", "color", &i);
-    if (!first || of_slot(story, "resolve", "color", &i)) return 0;
-    for (uint32_t c = 0; c < 3; c++) same(first, channels[c], image, at[0], at[1], c);
+    const struct glint_probe_record *first = next_record(trace, "resolve", "color", &i);
+    if (!first || next_record(trace, "resolve", "color", &i)) return 0;
+    for (uint32_t c = 0; c < 3; c++) assert_kept_value(first, channels[c], image, at[0], at[1], c);
     return 1;
 }
 
-static size_t check_composed(const struct glint_probe_trace *story, const struct images *images, const uint32_t at[2]) {
+static size_t check_composed(const struct glint_probe_trace *trace, const struct images *images, const uint32_t at[2]) {
     static const char *const channels[] = {"r", "g", "b"};
     size_t i = 0;
-    const struct glint_probe_record *weight = of_slot(story, "compose", "reflectance", &i);
+    const struct glint_probe_record *weight = next_record(trace, "compose", "reflectance", &i);
     for (uint32_t c = 0; c < 3 && weight; c++) {
-        const double lit = held(find(images, "lit"), at, c), w = (double)glint_probe_value(weight, channels[c]);
-        const double sum = lit + w * held(find(images, "reflection"), at, c);
-        near(sum, held(find(images, "composed"), at, c), sum);
+        const double lit = held(find_kept(images, "lit"), at, c), w = (double)glint_probe_value(weight, channels[c]);
+        const double sum = lit + w * held(find_kept(images, "reflection"), at, c);
+        assert_near_sum(sum, held(find_kept(images, "composed"), at, c), sum);
     }
     return weight != NULL;
 }
@@ -215,18 +218,18 @@ static void test_sums(void **state) {
     draw_pixels(pixels);
     static const char *const words[PROBED_WORDS] = {"screen_trace=dda", "blur=plus", "temporal=rough",
                                                     "upscale=best_match", "resolve.fog=false"};
-    arrange(gpu, words);
+    arrange_pipeline(gpu, words);
     probed_run(gpu, pixels, true, &images);
     for (size_t i = 0; i < PIXELS; i++) {
-        struct glint_probe_trace story;
+        struct glint_probe_trace trace;
         const uint32_t texel[2] = {pixels[i][0] / 2, pixels[i][1] / 2};
-        check(glint_replay_probe(gpu->replay, i, &story, &err), &err);
-        blurred += check_mixture(&story, "blur", find(&images, "reflection_blurred"), texel) > 1;
-        joined += check_mixture(&story, "temporal", find(&images, "reflection_temporal"), texel) > 1;
-        upscaled += check_mixture(&story, "upscale", find(&images, "reflection"), pixels[i]) == 1;
-        colored += check_color(&story, find(&images, "reflection_half"), texel);
-        composed += check_composed(&story, &images, pixels[i]);
-        free(story.records);
+        require(glint_replay_probe(gpu->replay, i, &trace, &err), &err);
+        blurred += check_mixture(&trace, "blur", find_kept(&images, "reflection_blurred"), texel) > 1;
+        joined += check_mixture(&trace, "temporal", find_kept(&images, "reflection_temporal"), texel) > 1;
+        upscaled += check_mixture(&trace, "upscale", find_kept(&images, "reflection"), pixels[i]) == 1;
+        colored += check_color(&trace, find_kept(&images, "reflection_half"), texel);
+        composed += check_composed(&trace, &images, pixels[i]);
+        free(trace.records);
     }
     free_images(&images);
     print_message("# %zu blurred, %zu joined, %zu upscaled, %zu colours, %zu composed\n", blurred, joined, upscaled,
@@ -237,7 +240,7 @@ static void test_sums(void **state) {
 static void test_errors(void **state) {
     struct gpu *gpu = *state;
     struct glint_error err = {0};
-    struct glint_probe_trace story;
+    struct glint_probe_trace trace;
     static const uint32_t outside[][2] = {{3, 3}, {WIDTH, 3}}, one[][2] = {{3, 3}};
     probed_scene(gpu, "street");
     gpu_reset(gpu);
@@ -248,9 +251,9 @@ static void test_errors(void **state) {
     assert_false(glint_replay_run(gpu->replay, gpu->pipeline, &options, NULL, NULL, &err));
     options.repeat = 0;
     assert_true(glint_replay_run(gpu->replay, gpu->pipeline, &options, NULL, NULL, &err));
-    assert_false(glint_replay_probe(gpu->replay, 1, &story, &err));
+    assert_false(glint_replay_probe(gpu->replay, 1, &trace, &err));
     assert_true(glint_replay_run(gpu->replay, gpu->pipeline, NULL, NULL, NULL, &err));
-    assert_false(glint_replay_probe(gpu->replay, 0, &story, &err));
+    assert_false(glint_replay_probe(gpu->replay, 0, &trace, &err));
 }
 
 int main(void) {

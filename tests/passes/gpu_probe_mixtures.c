@@ -1,5 +1,5 @@
-/* Probed pixels of the passes that mix: the recorded parts, weighted as recorded, add up to the pass's result; each recorded
-   colour is what its image holds; recording changes no image. */
+/* Probed pixels of passes that average or blend: the weighted records sum up to the pass's result, each recorded colour equals its
+   image, and recording does not change an image. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -44,11 +44,12 @@ static void mean_add(struct mean *mean, const struct glint_probe_record *record,
 static void mean_is(const struct mean *mean, const struct glint_probe_record *record) {
     assert_true(mean->total > 0);
     for (int c = 0; c < 3; c++)
-        near(mean->sum[c] / mean->total, recorded(record, rgb[c]), mean->largest * (double)mean->count / mean->total);
+        assert_near_sum(mean->sum[c] / mean->total, recorded(record, rgb[c]),
+                        mean->largest * (double)mean->count / mean->total);
 }
 
-/* The colour between texels. Devices may interpolate with weights of eight bits, so that each axis may be off by one in 256 of
-   what the texels are apart. */
+/* The colour between texels. Devices may interpolate with weights of eight bits, so that each axis may be off by 1/256 of the
+   difference of the texels. */
 static void check_between(const struct glint_probe_record *record, const struct images *images, double x, double y) {
     const struct kept *image = image_of(record, images);
     const double corner[2] = {floor(x - 0.5), floor(y - 0.5)}, part[2] = {x - 0.5 - corner[0], y - 0.5 - corner[1]};
@@ -67,7 +68,7 @@ static void check_between(const struct glint_probe_record *record, const struct 
     }
 }
 
-/* What a layer makes of its two colours. */
+/* The blend of a layer's two colours. */
 struct layered {
     double color[3], largest;
 };
@@ -84,26 +85,26 @@ static struct layered layered(const struct glint_probe_record *layer) {
 }
 
 static void layered_is(const struct layered *made, const struct kept *image, const uint32_t at[2]) {
-    for (uint32_t c = 0; c < 3; c++) near(made->color[c], held(image, at, c), made->largest);
+    for (uint32_t c = 0; c < 3; c++) assert_near_sum(made->color[c], held(image, at, c), made->largest);
 }
 
 static void same_rgb(const struct glint_probe_record *record, const char *const names[3], const struct kept *image,
                      uint32_t x, uint32_t y) {
-    for (uint32_t c = 0; c < 3; c++) same(record, names[c], image, x, y, c);
+    for (uint32_t c = 0; c < 3; c++) assert_kept_value(record, names[c], image, x, y, c);
 }
 
-/* One pixel's story and all images of its run. */
+/* The trace of one pixel, and all images of its run. */
 struct recorded_pixel {
-    const struct glint_probe_trace *story;
+    const struct glint_probe_trace *trace;
     const struct images *images;
     const uint32_t *pixel, *texel;
 };
 static const struct glint_probe_record *next(const struct recorded_pixel *p, const char *slot, const char *kind,
                                              size_t *at) {
-    return of_slot(p->story, slot, kind, at);
+    return next_record(p->trace, slot, kind, at);
 }
 
-/* ---- Passes: the number of mixtures of several parts that were recorded ---- */
+/* ---- Passes: each check returns the number of recorded mixtures with several parts ---- */
 
 static size_t check_blurred(const struct recorded_pixel *p) {
     struct mean mean = {0};
@@ -114,14 +115,14 @@ static size_t check_blurred(const struct recorded_pixel *p) {
         mean_add(&mean, record, 1);
     }
     for (uint32_t c = 0; c < 3 && mean.count; c++)
-        near(mean.sum[c] / mean.total, held(find(p->images, "reflection_half"), p->texel, c),
-             mean.largest * (double)mean.count / mean.total);
+        assert_near_sum(mean.sum[c] / mean.total, held(find_kept(p->images, "reflection_half"), p->texel, c),
+                        mean.largest * (double)mean.count / mean.total);
     at = 0;
     assert_non_null(record = next(p, "resolve", "trust", &at));
     static const char *const parts[] = {"viewer", "edge", "back_face", "foreground"};
     for (uint32_t k = 0; k < 4; k++)
-        same(record, parts[k], find(p->images, "attenuation"), p->texel[0], p->texel[1], k);
-    same(record, "contribution", find(p->images, "contribution"), p->texel[0], p->texel[1], 0);
+        assert_kept_value(record, parts[k], find_kept(p->images, "attenuation"), p->texel[0], p->texel[1], k);
+    assert_kept_value(record, "contribution", find_kept(p->images, "contribution"), p->texel[0], p->texel[1], 0);
     return mean.count > 1;
 }
 
@@ -130,9 +131,9 @@ static size_t check_contribution(const struct recorded_pixel *p) {
     const struct glint_probe_record *layer = next(p, "compose", "layer", &at);
     if (!layer) return 0;
     const struct layered made = layered(layer);
-    same_rgb(layer, rgb, find(p->images, "reflection"), p->pixel[0], p->pixel[1]);
-    same_rgb(layer, below, find(p->images, "lit"), p->pixel[0], p->pixel[1]);
-    layered_is(&made, find(p->images, "composed"), p->pixel);
+    same_rgb(layer, rgb, find_kept(p->images, "reflection"), p->pixel[0], p->pixel[1]);
+    same_rgb(layer, below, find_kept(p->images, "lit"), p->pixel[0], p->pixel[1]);
+    layered_is(&made, find_kept(p->images, "composed"), p->pixel);
     return recorded(layer, "share_r") > 0;
 }
 
@@ -140,24 +141,24 @@ static size_t check_kf2(const struct recorded_pixel *p) {
     return check_blurred(p) + check_contribution(p);
 }
 
-/* The chain is looked at between texels and levels, with weights of eight bits again: three axes. */
+/* The chain is sampled between texels and levels, also with weights of eight bits: three axes. */
 static size_t check_mips(const struct recorded_pixel *p) {
     struct mean mean = {0};
     double weights = 0, high = 0;
     size_t at = 0;
     for (const struct glint_probe_record *tap; (tap = next(p, "blur", "tap", &at));) {
-        const uint32_t x = number(tap, "texel_x"), y = number(tap, "texel_y");
+        const uint32_t x = record_number(tap, "texel_x"), y = record_number(tap, "texel_y");
         same_rgb(tap, rgb, image_of(tap, p->images), x, y);
-        same(tap, "part", image_of(tap, p->images), x, y, 3);
+        assert_kept_value(tap, "part", image_of(tap, p->images), x, y, 3);
         mean_add(&mean, tap, recorded(tap, "part"));
         weights += recorded(tap, "weight");
         for (int c = 0; c < 3; c++) high = fmax(high, recorded(tap, rgb[c]));
     }
     if (!mean.count) return 0;
-    near(weights, 1, (double)mean.count);
+    assert_near_sum(weights, 1, (double)mean.count);
     for (uint32_t c = 0; c < 3 && mean.total > 0; c++) {
-        const double found = held(find(p->images, "reflection_blurred"), p->texel, c);
-        /* Both sums are off by so much, and the quotient by both. */
+        const double found = held(find_kept(p->images, "reflection_blurred"), p->texel, c);
+        /* Both sums have this error, and the quotient that of both. */
         const double tolerance = 3.0 / 256 * (high + fabs(found)) / mean.total + fabs(found) * 0x1p-20;
         if (!(fabs(mean.sum[c] / mean.total - found) <= tolerance))
             fail_msg("recorded %.9g, found %.9g", mean.sum[c] / mean.total, found);
@@ -165,15 +166,15 @@ static size_t check_mips(const struct recorded_pixel *p) {
     return mean.count > 4; /* of two levels */
 }
 
-/* Taps that a level's texel is made of, or that a layer lies over another with: images that no later pass overwrites hold what
-   was recorded. */
+/* Taps that a texel of a level is computed from, or of a layer over another one: images that later passes do not overwrite must equal
+   the records. */
 static size_t check_levels(const struct recorded_pixel *p) {
     enum { TAPS = 64 };
     const struct glint_probe_record *taps[TAPS], *layer = NULL;
     struct mean mean = {0};
     size_t mixtures = 0, levels = 0;
-    for (size_t i = 0; i < p->story->count; i++) {
-        const struct glint_probe_record *record = &p->story->records[i];
+    for (size_t i = 0; i < p->trace->count; i++) {
+        const struct glint_probe_record *record = &p->trace->records[i];
         if (strcmp(record->pass->slot, "blur") != 0) continue;
         if (glint_probe_is(record, "tap")) {
             assert_in_range(mean.count, 0, TAPS - 1);
@@ -185,7 +186,7 @@ static size_t check_levels(const struct recorded_pixel *p) {
         for (size_t t = 0; t < mean.count; t++) {
             const struct kept *image = image_of(taps[t], p->images);
             if (over || strcmp(image->name, "reflection_across") == 0 || recorded(taps[t], "level") == 0)
-                same_rgb(taps[t], rgb, image, number(taps[t], "texel_x"), number(taps[t], "texel_y"));
+                same_rgb(taps[t], rgb, image, record_number(taps[t], "texel_x"), record_number(taps[t], "texel_y"));
         }
         if (mean.count && !(over && recorded(record, "share_r") == 0)) mean_is(&mean, record);
         mixtures += mean.count > 1;
@@ -193,15 +194,16 @@ static size_t check_levels(const struct recorded_pixel *p) {
         if (over) layer = record;
         else if (layer) {
             const struct layered made = layered(layer);
-            for (int c = 0; c < 3; c++) near(made.color[c], recorded(record, rgb[c]), made.largest);
-            same_rgb(record, rgb, image_of(record, p->images), number(record, "texel_x"), number(record, "texel_y"));
+            for (int c = 0; c < 3; c++) assert_near_sum(made.color[c], recorded(record, rgb[c]), made.largest);
+            same_rgb(record, rgb, image_of(record, p->images), record_number(record, "texel_x"),
+                     record_number(record, "texel_y"));
             layer = NULL;
             levels++;
         }
     }
     if (layer) {
         const struct layered made = layered(layer);
-        layered_is(&made, find(p->images, "reflection_blurred"), p->texel);
+        layered_is(&made, find_kept(p->images, "reflection_blurred"), p->texel);
     }
     assert_in_range(levels, 0, 1);
     return mixtures;
@@ -210,10 +212,11 @@ static size_t check_levels(const struct recorded_pixel *p) {
 static size_t check_planar(const struct recorded_pixel *p) {
     size_t at = 0;
     const struct glint_probe_record *record;
-    const struct kept *map = find(p->images, "planar_depth"), *mirrored = find(p->images, "planar_reflection");
+    const struct kept *map = find_kept(p->images, "planar_depth"),
+                      *mirrored = find_kept(p->images, "planar_reflection");
     while ((record = next(p, "planar", "mirrored_depth", &at))) {
         const double x = recorded(record, "at_x"), y = recorded(record, "at_y");
-        bool found = false; /* by a place that is known to one in 256 of a texel */
+        bool found = false; /* by a position that is accurate to 1/256 of a texel */
         for (int k = 0; k < 4; k++) {
             const double u = fmin(fmax(floor(x + (k & 1 ? 1 : -1) / 256.0), 0), map->width - 1);
             const double v = fmin(fmax(floor(y + (k >> 1 ? 1 : -1) / 256.0), 0), map->height - 1);
@@ -226,17 +229,17 @@ static size_t check_planar(const struct recorded_pixel *p) {
     if (!(record = next(p, "planar", "sample", &at))) return 0;
     check_between(record, p->images, recorded(record, "x"), recorded(record, "y"));
     same_rgb(record, rgb, mirrored, p->pixel[0], p->pixel[1]);
-    same(record, "weight", mirrored, p->pixel[0], p->pixel[1], 3);
+    assert_kept_value(record, "weight", mirrored, p->pixel[0], p->pixel[1], 3);
     return 1;
 }
 
-/* The water over the bottom; the planar map over the surroundings; that over this. */
+/* Water over the bottom, the planar map over the surroundings, and both combined. */
 static size_t check_water(const struct recorded_pixel *p) {
     const struct glint_probe_record *record, *layers[3];
     size_t at = 0, count = 0;
     while ((record = next(p, "water", "bottom", &at)))
-        same(record, "thickness_m", find(p->images, "water_normal"), number(record, "texel_x"),
-             number(record, "texel_y"), 3);
+        assert_kept_value(record, "thickness_m", find_kept(p->images, "water_normal"), record_number(record, "texel_x"),
+                          record_number(record, "texel_y"), 3);
     for (at = 0; (record = next(p, "water", "layer", &at)); layers[count++] = record) assert_in_range(count, 0, 2);
     if (count == 0) return 0;
     assert_int_equal(count, 3);
@@ -245,17 +248,17 @@ static size_t check_water(const struct recorded_pixel *p) {
     if (sample) check_between(sample, p->images, recorded(sample, "x"), recorded(sample, "y"));
     for (int c = 0; c < 3; c++) {
         const double bottom =
-            sample ? recorded(sample, rgb[c]) : held(find(p->images, "composed"), p->pixel, (uint32_t)c);
+            sample ? recorded(sample, rgb[c]) : held(find_kept(p->images, "composed"), p->pixel, (uint32_t)c);
         assert_true(recorded(layers[0], rgb[c]) == bottom);
     }
-    same_rgb(layers[0], below, find(p->images, "water_color"), p->pixel[0], p->pixel[1]);
-    same_rgb(layers[1], rgb, find(p->images, "planar_reflection"), p->pixel[0], p->pixel[1]);
+    same_rgb(layers[0], below, find_kept(p->images, "water_color"), p->pixel[0], p->pixel[1]);
+    same_rgb(layers[1], rgb, find_kept(p->images, "planar_reflection"), p->pixel[0], p->pixel[1]);
     const struct layered through = layered(layers[0]), mirrored = layered(layers[1]), all = layered(layers[2]);
     for (int c = 0; c < 3; c++) {
-        near(through.color[c], recorded(layers[2], below[c]), through.largest);
-        near(mirrored.color[c], recorded(layers[2], rgb[c]), mirrored.largest);
+        assert_near_sum(through.color[c], recorded(layers[2], below[c]), through.largest);
+        assert_near_sum(mirrored.color[c], recorded(layers[2], rgb[c]), mirrored.largest);
     }
-    layered_is(&all, find(p->images, "composed_water"), p->pixel);
+    layered_is(&all, find_kept(p->images, "composed_water"), p->pixel);
     return 1;
 }
 
@@ -268,8 +271,8 @@ static size_t check_transparency(const struct recorded_pixel *p) {
     struct mean mean = {0};
     size_t at = 0, count = 0;
     while ((record = next(p, "transparency", "neighbour", &at))) {
-        same_rgb(record, rgb, find(p->images, "transparent_reflection"), number(record, "texel_x"),
-                 number(record, "texel_y"));
+        same_rgb(record, rgb, find_kept(p->images, "transparent_reflection"), record_number(record, "texel_x"),
+                 record_number(record, "texel_y"));
         mean_add(&mean, record, 1);
     }
     for (at = 0; (record = next(p, "transparency", "layer", &at)); layers[count++] = record)
@@ -277,11 +280,11 @@ static size_t check_transparency(const struct recorded_pixel *p) {
     if (count == 0) return 0;
     assert_int_equal(count, 2);
     if (mean.count) mean_is(&mean, layers[1]);
-    same_rgb(layers[0], rgb, find(p->images, "transparent_color"), p->pixel[0], p->pixel[1]);
-    same_rgb(layers[0], below, find(p->images, "composed"), p->pixel[0], p->pixel[1]);
+    same_rgb(layers[0], rgb, find_kept(p->images, "transparent_color"), p->pixel[0], p->pixel[1]);
+    same_rgb(layers[0], below, find_kept(p->images, "composed"), p->pixel[0], p->pixel[1]);
     const struct layered through = layered(layers[0]), all = layered(layers[1]);
-    for (int c = 0; c < 3; c++) near(through.color[c], recorded(layers[1], below[c]), through.largest);
-    layered_is(&all, find(p->images, "composed_transparent"), p->pixel);
+    for (int c = 0; c < 3; c++) assert_near_sum(through.color[c], recorded(layers[1], below[c]), through.largest);
+    layered_is(&all, find_kept(p->images, "composed_transparent"), p->pixel);
     return mean.count > 1;
 }
 
@@ -289,7 +292,7 @@ static size_t check_transparency(const struct recorded_pixel *p) {
 
 static const struct way {
     const char *scene;
-    size_t (*check)(const struct recorded_pixel *pixel);
+    size_t (*require)(const struct recorded_pixel *pixel);
     const char *words[PROBED_WORDS];
 } ways[] = {
     {"street", check_kf2, {"downsample.share=0", "screen_trace=dda", "resolve=blurred", "compose=contribution"}},
@@ -308,9 +311,10 @@ static void mixtures(struct gpu *gpu, const struct way *way) {
     struct glint_error err = {0};
     size_t told_of = 0;
     probed_scene(gpu, way->scene);
-    arrange(gpu, way->words);
+    arrange_pipeline(gpu, way->words);
     draw_pixels(pixels);
-    for (int floats = 0; floats < 2; floats++) { /* of floats, the last, what is stored is what was computed */
+    for (int floats = 0; floats < 2;
+         floats++) { /* in the second run images are floats, so that stored and computed values are equal */
         free_images(&probed);
         probed_run(gpu, NULL, floats, &plain);
         probed_run(gpu, pixels, floats, &probed);
@@ -318,12 +322,12 @@ static void mixtures(struct gpu *gpu, const struct way *way) {
         free_images(&plain);
     }
     for (size_t i = 0; i < PIXELS; i++) {
-        struct glint_probe_trace story;
+        struct glint_probe_trace trace;
         const uint32_t texel[2] = {pixels[i][0] / 2, pixels[i][1] / 2};
-        check(glint_replay_probe(gpu->replay, i, &story, &err), &err);
-        assert_int_equal(story.dropped, 0);
-        told_of += way->check(&(struct recorded_pixel){&story, &probed, pixels[i], texel});
-        free(story.records);
+        require(glint_replay_probe(gpu->replay, i, &trace, &err), &err);
+        assert_int_equal(trace.dropped, 0);
+        told_of += way->require(&(struct recorded_pixel){&trace, &probed, pixels[i], texel});
+        free(trace.records);
     }
     free_images(&probed);
     print_message("# %zu mixtures\n", told_of);

@@ -1,5 +1,5 @@
-/* hiz/nearest, screen_trace/hiz and screen_trace/dda against depth_traversal.c in double precision, against each other at odd sizes
-   and depth encodings, and against closed forms where rays are special. */
+/* hiz/nearest, screen_trace/hiz and screen_trace/dda compared with depth_traversal.c in double precision, with each other at odd sizes
+   and depth encodings, and with closed forms for special rays. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -21,8 +21,8 @@ struct traced {
     uint32_t *finished, *end, *fetches, *steps;
 };
 
-/* Screen rays alone, for every pixel. */
-static void set_up(struct gpu *gpu, const char *variant) {
+/* Traces screen rays only, for every pixel. */
+static void load_screen_trace(struct gpu *gpu, const char *variant) {
     static const char *const without[] = {
         "cubemap_active", "cubemap_select", "cubemap_trace", "resolve", "upscale", "compose", NULL};
     char text[64];
@@ -36,7 +36,7 @@ static void set_up(struct gpu *gpu, const char *variant) {
     gpu->all = true;
 }
 
-static struct traced trace(struct gpu *gpu) {
+static struct traced trace_screen(struct gpu *gpu) {
     struct traced t = {0};
     gpu_run(gpu);
     t.travelled = gpu_floats(gpu, "screen_travelled", &t.width, &t.height);
@@ -55,12 +55,12 @@ static void traced_free(struct traced *t) {
     free(t->steps);
 }
 
-/* The sky is no surface: rays that end there are not hits. */
+/* Rays that end in the sky are not hits. */
 static bool is_hit(const struct traced *t, size_t i) {
     return t->finished[i] != 0 && t->travelled[i] < 3e38f;
 }
 
-/* One ray against another. flips: one hits, the other does not. */
+/* Agreement of pairs of rays. flips: one hits, the other misses. */
 struct agreement {
     size_t rays, hits, flips, far, lost, invented;
 };
@@ -78,12 +78,12 @@ static void print_and_check(const struct agreement *a, const char *what) {
     print_message("# %s: %zu rays, %zu hits; %zu flips (%zu lost, %zu invented), %zu ends more than 1.5 pixels off\n",
                   what, a->rays, a->hits, a->flips, a->lost, a->invented, a->far);
     assert_true(a->hits * 10 > a->rays);
-    /* Rounding decides where a ray grazes a rim or its own surface: within these the walk and the shader may differ. */
+    /* Where a ray grazes a silhouette or its own surface, rounding decides, and the two may differ. */
     assert_true(1000 * a->flips <= 5 * a->rays);
     assert_true(1000 * a->far <= 5 * a->hits);
 }
 
-/* Where rays go: the depth buffer that they start on. */
+/* The depth buffer that rays are traced in. */
 struct paths {
     float *depth_m, *normal;
     struct depth_grid grid;
@@ -123,8 +123,8 @@ static void against_the_walk(struct gpu *gpu, const char *scene) {
     gpu_sample(gpu, scene, scene, &(struct glint_sample_options){.width = 320, .height = 180, .cube_size = 8});
     for (int v = 0; v < 2; ++v) {
         struct agreement a = {0};
-        set_up(gpu, variants[v]);
-        struct traced t = trace(gpu);
+        load_screen_trace(gpu, variants[v]);
+        struct traced t = trace_screen(gpu);
         struct paths paths = paths_of(gpu, &t);
         for (size_t i = 0; i < (size_t)t.width * t.height; ++i) {
             struct depth_ray ray;
@@ -152,15 +152,15 @@ static void on_room_as_in_double(void **state) {
     against_the_walk(*state, "room");
 }
 
-/* Rays that both variants trace; the same arithmetic decides, so that only ties between two texels may differ. */
+/* Rays of both variants. They use the same arithmetic, so that only ties between two texels may differ. */
 static void hiz_as_dda(struct gpu *gpu, const char *what) {
     struct agreement a = {0};
-    set_up(gpu, "dda");
-    struct traced expected = trace(gpu);
-    set_up(gpu, "hiz");
-    gpu_set(gpu, "screen_trace.cells=65536"); /* the way is compared, not where it is given up */
+    load_screen_trace(gpu, "dda");
+    struct traced expected = trace_screen(gpu);
+    load_screen_trace(gpu, "hiz");
+    gpu_set(gpu, "screen_trace.cells=65536"); /* compares paths, not limits */
     gpu_set(gpu, "screen_trace.cells_lq=65536");
-    struct traced t = trace(gpu);
+    struct traced t = trace_screen(gpu);
     double fetches = 0, texels = 0;
     struct paths paths = paths_of(gpu, &t);
     for (size_t i = 0; i < (size_t)t.width * t.height; ++i) {
@@ -175,7 +175,7 @@ static void hiz_as_dda(struct gpu *gpu, const char *what) {
                   what, t.width, t.height, a.rays, a.hits, a.lost, a.invented, a.far,
                   texels > 0 ? fetches / texels : 0);
     assert_true(10000 * (a.flips + a.far) <= a.rays);
-    if (t.width > 600) assert_true(2 * fetches <= texels); /* far fewer the larger the picture is: tools/traces.py */
+    if (t.width > 600) assert_true(2 * fetches <= texels); /* far fewer for larger images, see tools/traces.py */
     paths_free(&paths);
     traced_free(&expected);
     traced_free(&t);
@@ -199,11 +199,11 @@ static void at_1919_by_1079_as_texel_by_texel(void **state) {
     hiz_as_dda(*state, "street");
 }
 
-/* Every cell of a level is the nearest and the farthest of all texels of level 0 within it, left-overs included. */
+/* Every cell of a level contains the minimum and maximum of all texels of level 0 within it, including incomplete cells. */
 static void parents_cover_all_children(void **state) {
     struct gpu *gpu = *state;
     gpu_sample(gpu, "street", "odd4", &(struct glint_sample_options){.width = 130, .height = 65, .cube_size = 8});
-    set_up(gpu, "hiz");
+    load_screen_trace(gpu, "hiz");
     gpu_run(gpu);
     uint32_t width, height, size[2];
     float *texels = gpu_floats(gpu, "hiz", &width, &height), *depth_m = gpu_floats(gpu, "depth_half", NULL, NULL);
@@ -211,7 +211,7 @@ static void parents_cover_all_children(void **state) {
         assert_true(depth_m[i] == INFINITY ? texels[2 * i] == -1 && texels[2 * i + 1] == 0
                                            : texels[2 * i] * depth_m[i] > 1 && texels[2 * i] * depth_m[i] <= 2.01f &&
                                                  texels[2 * i + 1] * depth_m[i] <= 1.0000002f);
-    for (uint32_t level = 1; level <= 6; ++level) { /* 2 × 1 is the last that is rounded down everywhere */
+    for (uint32_t level = 1; level <= 6; ++level) { /* 2 × 1 is the last level whose size is rounded down everywhere */
         char name[32];
         snprintf(name, sizeof name, "hiz.level%u", level);
         float *cells = gpu_floats(gpu, name, &size[0], &size[1]);
@@ -244,8 +244,8 @@ static void reversed_depth_gives_the_same_hits(void **state) {
         struct glint_sample_options options = {.width = 320, .height = 180, .cube_size = 8};
         options.encodings.depth = encodings[i];
         gpu_sample(gpu, "street", i ? "reversed" : "device", &options);
-        set_up(gpu, "hiz");
-        t[i] = trace(gpu);
+        load_screen_trace(gpu, "hiz");
+        t[i] = trace_screen(gpu);
     }
     struct paths paths = paths_of(gpu, &t[1]);
     for (size_t i = 0; i < (size_t)t[0].width * t[0].height; ++i)
@@ -259,10 +259,10 @@ static void reversed_depth_gives_the_same_hits(void **state) {
 
 /* ---- Special rays. The camera looks along -z from the origin at the wall z = -5 m; pixels are square. ---- */
 
-enum { WIDE = 65, HIGH = 37 }; /* odd: a pixel's centre lies on the axis of view */
+enum { WIDE = 65, HIGH = 37 }; /* odd, so that the centre of a pixel is on the optical axis */
 static const double degrees = 60, wall_m = 5;
 
-static double slope_of(double x, double size) { /* metres sideways in a metre of depth, of a pixel's centre */
+static double slope_of(double x, double size) { /* metres sideways per metre of depth, at the centre of a pixel */
     return (2 * (x + 0.5) - size) / HIGH * tan(degrees * 3.14159265358979323846 / 360);
 }
 
@@ -270,19 +270,20 @@ static float *plane_of(const struct plain *plain, float *values, enum plain_chan
     return values + (size_t)channel * plain->width * plain->height;
 }
 
-/* The middle pixel stands alone at 3 m, its normal such that its ray goes along (x, y, z). */
+/* The central pixel is isolated at 3 m, and its normal reflects its ray along (x, y, z). */
 static const double start_m = 3;
-static double wanted[3];
+static double ray[3];
 static void turn_the_middle(const struct plain *plain, float *values) {
     const size_t middle = (size_t)(HIGH / 2) * WIDE + WIDE / 2;
     plane_of(plain, values, PLAIN_DEPTH)[middle] = (float)start_m;
-    double normal[3] = {wanted[0], wanted[1], wanted[2] + 1}, length = 0; /* half way between the ray and the viewer */
+    double normal[3] = {ray[0], ray[1], ray[2] + 1},
+           length = 0; /* halfway between the ray and the direction to the viewer */
     for (int k = 0; k < 3; ++k) length += normal[k] * normal[k];
     for (int k = 0; k < 3; ++k)
         plane_of(plain, values, PLAIN_NORMAL_X + (enum plain_channel)k)[middle] = (float)(normal[k] / sqrt(length));
 }
 
-/* The same, and the planes x = 1 m and x = -1 m (vertical: y = ±0.7 m) before the wall. */
+/* The same with the planes x = 1 m and x = -1 m (vertical: y = ±0.7 m) in front of the wall. */
 static bool vertical;
 static void side_walls(const struct plain *plain, float *values) {
     const double side = vertical ? 0.7 : 1;
@@ -298,17 +299,17 @@ static void side_walls(const struct plain *plain, float *values) {
 
 static const char *const walkers[2] = {"dda", "hiz"};
 
-/* What becomes of the middle pixel's ray. */
+/* Traces the ray of the central pixel. */
 static struct traced middle_ray(struct gpu *gpu, const char *variant, double x, double y, double z, bool walls) {
     char path[256];
-    wanted[0] = x, wanted[1] = y, wanted[2] = z;
+    ray[0] = x, ray[1] = y, ray[2] = z;
     struct plain plain = {
         .width = WIDE, .height = HIGH, .fov_y_degrees = degrees, .spoil = walls ? side_walls : turn_the_middle};
     plain_capture(gpu_path(gpu, "special", path), &plain);
     gpu_load(gpu, "special");
-    set_up(gpu, variant);
+    load_screen_trace(gpu, variant);
     gpu->float_precision = true;
-    struct traced t = trace(gpu);
+    struct traced t = trace_screen(gpu);
     const size_t middle = (size_t)(HIGH / 2) * WIDE + WIDE / 2;
     t.travelled[0] = t.travelled[middle], t.end[0] = t.end[middle], t.finished[0] = t.finished[middle];
     return t;
@@ -323,7 +324,7 @@ static void along_the_axes_and_parallel_to_the_screen(void **state) {
             print_message("# %s along (%g, %g, 0): end %u at %.7f m\n", walkers[v], directions[d][0], directions[d][1],
                           t.end[0], (double)t.travelled[0]);
             assert_int_equal(t.end[0], END_hit);
-            /* 1/z is linear on the side wall, and the bias is not part of a hit's place: only rounding is left. */
+            /* 1/z is linear on the side wall, and the bias does not move a hit: only rounding remains. */
             assert_true(fabs((double)t.travelled[0] - (vertical ? 0.7 : 1)) < 1e-4);
             traced_free(&t);
         }
@@ -334,14 +335,14 @@ static void towards_the_camera_nothing_is_hit(void **state) {
         struct traced t = middle_ray(*state, walkers[v], 0, 0, 1, false);
         assert_int_equal(t.finished[0], 0);
         assert_int_equal(t.end[0], END_faced_viewer);
-        assert_true(fabs((double)t.travelled[0] - (start_m - 0.1)) < 1e-3); /* as far as the near plane */
+        assert_true(fabs((double)t.travelled[0] - (start_m - 0.1)) < 1e-3); /* up to the near plane */
         traced_free(&t);
     }
 }
 
 static void past_the_camera_it_ends_at_the_near_plane(void **state) {
     for (int v = 0; v < 2; ++v) {
-        /* A tenth of the picture's slope: still in the picture at the near plane, 2.9 m on. */
+        /* A tenth of the image's slope: it is still on screen at the near plane after 2.9 m. */
         const double x = 0.01, length = sqrt(1 + x * x);
         struct traced t = middle_ray(*state, walkers[v], x / length, 0, 1 / length, false);
         assert_int_equal(t.end[0], END_faced_viewer);
@@ -350,7 +351,7 @@ static void past_the_camera_it_ends_at_the_near_plane(void **state) {
     }
 }
 
-/* Every ray of a mirror floor meets the wall where the closed form has it. */
+/* Every ray of a mirror floor hits the wall at the position of the closed form. */
 static void from_the_floor_to_the_wall(void **state) {
     struct gpu *gpu = *state;
     char path[256];
@@ -359,21 +360,21 @@ static void from_the_floor_to_the_wall(void **state) {
     gpu_load(gpu, "floor");
     for (int v = 0; v < 2; ++v) {
         size_t floor = 0, seen = 0, hits = 0, wrong = 0;
-        set_up(gpu, walkers[v]);
+        load_screen_trace(gpu, walkers[v]);
         gpu->float_precision = true;
-        struct traced t = trace(gpu);
+        struct traced t = trace_screen(gpu);
         float *normal = gpu_floats(gpu, "normal_half", NULL, NULL);
         for (uint32_t i = 0; i < t.width * t.height; ++i) {
             if (normal[4 * i + 1] < 0.5f) continue;
             const double half = tan(degrees * 3.14159265358979323846 / 360) / 121;
             const double down = (2 * (i / 161) + 1 - 121.0) * half, side = (2 * (i % 161) + 1 - 161.0) * half;
             const double depth = 1 / down, step = sqrt(1 + down * down + side * side);
-            const double distance = (wall_m - depth) * step; /* a metre of depth at a time, the height mirrored */
+            const double distance = (wall_m - depth) * step; /* by metres of depth, with the height mirrored */
             const double height = -1 + down * (wall_m - depth);
             const double x = side * wall_m / (wall_m * half), y = height / (wall_m * half);
             ++floor;
             if (fabs(x) > 160 || fabs(y) > 120 || height < -1 + 0.01 * wall_m)
-                continue; /* outside, or next to its start */
+                continue; /* off screen, or next to its start */
             ++seen;
             hits += is_hit(&t, i);
             wrong += !(fabs((double)t.travelled[i] - distance) <= 1e-3 * distance);
@@ -389,9 +390,9 @@ static void from_the_floor_to_the_wall(void **state) {
 /* ---- linear_binary ---- */
 
 static double median_error(struct gpu *gpu, const char *setting, size_t *hits) {
-    set_up(gpu, "linear_binary");
+    load_screen_trace(gpu, "linear_binary");
     gpu_set(gpu, setting);
-    struct traced t = trace(gpu);
+    struct traced t = trace_screen(gpu);
     struct paths paths = paths_of(gpu, &t);
     double *errors = malloc((size_t)t.width * t.height * sizeof *errors);
     assert_non_null(errors);
@@ -420,7 +421,7 @@ static void bisections_bring_a_hit_to_its_texel(void **state) {
     print_message("# median error %.3f %% with 6 bisections, %.3f %% without, of %zu and %zu hits\n", 100 * with,
                   100 * without, hits[0], hits[1]);
     assert_int_equal(hits[0], hits[1]);
-    /* A step is 0.02 of the picture at most; 6 bisections leave a 64th of it, and a texel is a 320th. */
+    /* A step is at most 0.02 of the image; 6 bisections leave a 64th of it, and a texel is a 320th. */
     assert_true(hits[0] > 5000 && 4 * with < without && with < 0.02);
 }
 
@@ -429,10 +430,10 @@ static void with_infinite_thickness_all_is_solid(void **state) {
     size_t behind[2] = {0, 0}, hits[2] = {0, 0};
     gpu_sample(gpu, "street", "street", &(struct glint_sample_options){.width = 320, .height = 180, .cube_size = 8});
     for (int i = 0; i < 2; ++i) {
-        set_up(gpu, "hiz");
+        load_screen_trace(gpu, "hiz");
         gpu_set(gpu, "screen_trace.pass_behind=false");
         if (i) gpu_set(gpu, "screen_trace.thickness_m=1e6");
-        struct traced t = trace(gpu);
+        struct traced t = trace_screen(gpu);
         for (size_t k = 0; k < (size_t)t.width * t.height; ++k) {
             behind[i] += t.end[k] == END_behind;
             hits[i] += is_hit(&t, k);
@@ -442,7 +443,7 @@ static void with_infinite_thickness_all_is_solid(void **state) {
     print_message("# went behind: %zu rays, %zu with infinite thickness; hits %zu, %zu\n", behind[0], behind[1],
                   hits[0], hits[1]);
     assert_true(behind[0] > 1000 && behind[1] == 0);
-    assert_int_equal(hits[1], hits[0] + behind[0]); /* whatever is behind something is a hit there */
+    assert_int_equal(hits[1], hits[0] + behind[0]); /* anything behind a surface is a hit there */
 }
 
 int main(int argc, char **argv) {

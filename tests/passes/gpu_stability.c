@@ -1,5 +1,5 @@
-/* Stability on mirror_box: amplification against the derivative of the closed form, in double. The box, the mirror and the
-   camera are computed here and in mirror_box.c from the capture's attributes; nothing of the shaders is used. */
+/* Stability on mirror_box: amplification compared with the derivative of the closed form, in double. The box, the mirror and the camera
+   are computed here and in mirror_box.c from the attributes of the capture, independently of the shaders. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -14,7 +14,7 @@
 #include "mirror_box.h"
 
 enum { WIDTH = 120, HEIGHT = 80 };
-#define NEAR_M 0.1 /* the sampler's: B of the projection */
+#define NEAR_M 0.1 /* the sampler's near plane: B of the projection */
 
 /* ---- Captures that declare a coarser format ---- */
 
@@ -48,8 +48,8 @@ static void copy_part(struct glint_writer *writer, struct glint_capture *capture
     while (count) free(planes[--count]);
 }
 
-/* Loads a copy of what is loaded. */
-static void declare(struct gpu *gpu, const char *name, const char *channel, const char *storage) {
+/* Loads a copy of the current capture with another storage. */
+static void declare_storage(struct gpu *gpu, const char *name, const char *channel, const char *storage) {
     struct glint_error err = {0};
     char path[256];
     struct glint_writer *writer = glint_writer_create(gpu_path(gpu, name, path), NULL, &err);
@@ -66,8 +66,8 @@ static void declare(struct gpu *gpu, const char *name, const char *channel, cons
     gpu_load(gpu, name);
 }
 
-/* Mirror rays through the cube maps alone, whose distances are exact on planes. */
-static void load(struct gpu *gpu, const char *name, struct glint_encodings encodings) {
+/* Mirror rays through cube maps only, whose distances are exact on planes. */
+static void load_mirror_rays(struct gpu *gpu, const char *name, struct glint_encodings encodings) {
     gpu_sample(gpu, "mirror_box", name,
                &(struct glint_sample_options){.width = WIDTH,
                                               .height = HEIGHT,
@@ -89,7 +89,7 @@ static void measure(struct gpu *gpu, const char *const *inputs, uint32_t seeds, 
         fail_msg("%s", err.message);
 }
 
-static const struct glint_stability_image *find(const struct glint_stability *stability, const char *name) {
+static const struct glint_stability_image *find_image(const struct glint_stability *stability, const char *name) {
     for (size_t i = 0; i < stability->image_count; i++)
         if (!strcmp(stability->images[i].name, name)) return &stability->images[i];
     fail_msg("image %s: missing", name);
@@ -98,7 +98,7 @@ static const struct glint_stability_image *find(const struct glint_stability *st
 
 /* ---- The closed form ---- */
 
-/* Where a ray ends that comes from the eye to `start` and is mirrored about n. */
+/* The distance to the wall of a ray from the eye that is mirrored at `start` about n. */
 static double distance(const double eye[3], const double start[3], const double n[3]) {
     double way[3], length = 0, along = 0, unit[3], size = sqrt(dot3(n, n));
     int axis;
@@ -113,7 +113,7 @@ static void eye_of(const struct gpu *gpu, double eye[3]) {
     for (int k = 0; k < 3; k++) eye[k] = -(m[k] * m[3] + m[4 + k] * m[7] + m[8 + k] * m[11]);
 }
 
-/* Where two walls meet, half a metre around, a texel of the cube map holds both. */
+/* Within half a metre of the edge between two walls, a texel of the cube map may cover both. */
 static bool is_near_an_edge(const struct expected *e) {
     int walls = 0;
     for (int k = 0; k < 3; k++) walls += e->end[k] < 0.5 || e->end[k] > mirror_box[k] - 0.5;
@@ -121,8 +121,8 @@ static bool is_near_an_edge(const struct expected *e) {
 }
 
 struct agreement {
-    size_t count, off;    /* rays away from edges; those that are off by more than 5 % */
-    double worst, square; /* largest part off; sum of squares of found over expected */
+    size_t count, off;    /* rays away from edges; those with an error above 5 % */
+    double worst, square; /* largest relative error; sum of squares of found over expected */
 };
 static void add(struct agreement *a, double found, double expected) {
     const double off = fabs(found / expected - 1);
@@ -134,8 +134,8 @@ static void add(struct agreement *a, double found, double expected) {
 
 /* ---- Depth ---- */
 
-/* Of a depth buffer of 16 bits: half a step h moves the depth z by z²/B · h. A mirrored ray's start moves along the way to the
-   eye, and so does its end's distance, whichever wall it is on: dt/dz · z/t = |start - eye| / t. */
+/* Half a step h of a 16-bit depth buffer moves the depth z by z²/B · h. The start of a mirror ray moves towards the eye, and the
+   distance of its end by as much on any wall: dt/dz · z/t = |start - eye| / t. */
 static double relative_step_of_depth(double z) {
     return z / NEAR_M * 0.5 / 65535;
 }
@@ -151,14 +151,15 @@ static void depth_is_amplified_as_the_closed_form_says(void **state) {
     struct glint_stability stability;
     struct agreement a = {0};
     double eye[3];
-    load(gpu, "device", (struct glint_encodings){.depth = GLINT_DEPTH_DEVICE});
-    declare(gpu, "d16", "depth.Z", "D16");
+    load_mirror_rays(gpu, "device", (struct glint_encodings){.depth = GLINT_DEPTH_DEVICE});
+    declare_storage(gpu, "d16", "depth.Z", "D16");
     gpu_run(gpu);
     struct rays rays = rays_of(gpu);
     uint32_t *pick = gpu_uints(gpu, "pick", NULL, NULL);
     eye_of(gpu, eye);
     measure(gpu, (const char *const[]){"gbuffer:depth", NULL}, 2, &stability);
-    const struct glint_stability_image *image = find(&stability, "travelled"), *depth = find(&stability, "depth_full");
+    const struct glint_stability_image *image = find_image(&stability, "travelled"),
+                                       *depth = find_image(&stability, "depth_full");
     assert_true(image->width == rays.width && image->height == rays.height);
     for (size_t i = 0; i < (size_t)rays.width * rays.height; i++) {
         const struct expected *e = &rays.expected[i];
@@ -166,7 +167,7 @@ static void depth_is_amplified_as_the_closed_form_says(void **state) {
         double way[3];
         for (int k = 0; k < 3; k++) way[k] = e->start[k] - eye[k];
         add(&a, (double)image->amplification[i], sqrt(dot3(way, way)) / e->distance);
-        /* The input moves as the format says. */
+        /* the input moves by half a step of the format */
         const size_t x = 2 * (i % rays.width) + (pick[i] & 1), y = 2 * (i / rays.width) + (pick[i] >> 1);
         const double step = relative_step_of_depth(depth_of(gpu, e->start));
         assert_true(fabs((double)depth->change[y * WIDTH + x] / step - 1) < 0.01);
@@ -181,10 +182,11 @@ static void depth_is_amplified_as_the_closed_form_says(void **state) {
 
 /* ---- Normals ---- */
 
-/* Ten bits, unorm: a component moves by 1/1023. The floor's is 512/1023 for 0, and 1, an end, which stays. */
+/* Ten bits, unorm: a component moves by 1/1023. Those of the floor's normal are 512/1023 for 0, and 1, which does not move beyond the
+   end of the range. */
 static const double code = 1.0 / 1023;
 
-/* Of t and of the normal itself, by central differences over what half a step really moves. */
+/* The derivatives of t and of the normal by central differences over half a step. */
 static double derivative(const double eye[3], const double start[3], int axis, double *moved) {
     double at[2], ends[2][3], square = 0, n[3] = {code, 1, code};
     for (int side = 0; side < 2; side++) {
@@ -202,14 +204,14 @@ static void normals_are_amplified_as_the_closed_form_says(void **state) {
     static const char *const channels[] = {"gbuffer:normal.X", "gbuffer:normal.Z", "gbuffer:normal"};
     struct gpu *gpu = *state;
     double eye[3];
-    load(gpu, "unorm", (struct glint_encodings){.normal = GLINT_NORMAL_UNORM});
+    load_mirror_rays(gpu, "unorm", (struct glint_encodings){.normal = GLINT_NORMAL_UNORM});
     eye_of(gpu, eye);
     for (int c = 0; c < 3; c++) {
         struct glint_stability stability;
         struct agreement a = {0};
         struct rays rays = rays_of(gpu);
         measure(gpu, (const char *const[]){channels[c], NULL}, c < 2 ? 2 : 8, &stability);
-        const struct glint_stability_image *image = find(&stability, "travelled");
+        const struct glint_stability_image *image = find_image(&stability, "travelled");
         for (size_t i = 0; i < (size_t)rays.width * rays.height; i++) {
             const struct expected *e = &rays.expected[i];
             double moved[2], by[2];
@@ -217,7 +219,7 @@ static void normals_are_amplified_as_the_closed_form_says(void **state) {
             for (int k = 0; k < 2; k++) by[k] = derivative(eye, e->start, 2 * k, &moved[k]);
             const double t = distance(eye, e->start, (const double[]){code, 1, code});
             const double expected = c < 2 ? fabs(by[c]) / moved[c] : hypot(by[0], by[1]) / hypot(moved[0], moved[1]);
-            /* Where the wall turns with the ray nothing changes to first order. */
+            /* to first order there is no change where the wall rotates with the ray */
             if (expected > 0.02 * t) add(&a, (double)image->amplification[i], expected / t);
         }
         const double mean = sqrt(a.square / (double)a.count);

@@ -1,5 +1,5 @@
-/* What finer steps converge to: screen_trace/linear_facets to dda, and cubemap_trace/march with surfaces=exact to exact with
-   maps=chain. Steps of both differ from texels, so that nothing agrees by construction. */
+/* The limits of finer steps: screen_trace/linear_facets approaches dda, and cubemap_trace/march with surfaces=exact approaches exact
+   with maps=chain. The steps of both differ from texels, so that nothing agrees by construction. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -11,7 +11,7 @@
 
 #include "gpu.h"
 
-/* Where each ray ended, and in which cube map; the second is NULL for rays on screen. */
+/* The end of each ray and its cube map, which is NULL for screen rays. */
 struct ends {
     size_t count;
     float *travelled_m;
@@ -34,8 +34,8 @@ static void ends_free(struct ends *e) {
     free(e->end);
 }
 
-/* Part of the rays that end elsewhere: farther apart than a part of the way, or in another place. */
-static double elsewhere(const struct ends *a, const struct ends *b, double part) {
+/* The fraction of rays that end elsewhere: distances differ by more than a fraction, or cube maps differ. */
+static double fraction_elsewhere(const struct ends *a, const struct ends *b, double part) {
     size_t rays = 0, apart = 0;
     assert_int_equal(a->count, b->count);
     for (size_t i = 0; i < a->count; ++i) {
@@ -75,14 +75,14 @@ static void finer_steps_on_screen_end_as_texel_by_texel(void **state) {
         snprintf(text, sizeof text, "screen_trace.steps=%s", steps[i]);
         gpu_set(gpu, text);
         struct ends stepped = ends_of(gpu, "screen_travelled", "screen_finished", "screen_end");
-        double part = elsewhere(&stepped, &walked, 1e-4);
+        double part = fraction_elsewhere(&stepped, &walked, 1e-4);
         print_message("# %s steps: %.3f %% of the rays end elsewhere\n", steps[i], 100 * part);
         assert_true(part < before);
         before = part;
         ends_free(&stepped);
     }
-    /* 4096 steps of a way that crosses 200 texels at most: one in a hundred texels has so little of the ray in it that it can
-       be left out, and a ray ends by few of those that it crosses. */
+    /* 4096 steps for a ray that crosses at most 200 texels: one in a hundred texels contains so little of the ray that it can be
+       missed, and few of the crossed texels decide where a ray ends. */
     assert_true(before < 0.01);
     ends_free(&walked);
 }
@@ -115,7 +115,7 @@ static void finer_steps_through_cube_maps_end_as_by_texels(void **state) {
     gpu_sample(gpu, "room", "room", &(struct glint_sample_options){.width = 96, .height = 54, .cube_size = 64});
     struct ends half = followed(gpu, "cubemap_trace.texel_part=0.5"),
                 fine = followed(gpu, "cubemap_trace.texel_part=0.1");
-    double own = elsewhere(&half, &fine, 0.02), before = 1;
+    double own = fraction_elsewhere(&half, &fine, 0.02), before = 1;
     for (size_t i = 0; i < sizeof steps / sizeof *steps; ++i) {
         cube_map_rays(gpu, "cubemap_trace=march");
         for (size_t k = 0; k < sizeof always / sizeof *always; ++k) {
@@ -125,15 +125,15 @@ static void finer_steps_through_cube_maps_end_as_by_texels(void **state) {
         snprintf(text, sizeof text, "cubemap_trace.steps_hq=%s", steps[i]);
         gpu_set(gpu, text);
         struct ends marched = ends_of(gpu, "travelled", "cubemap_index", "cubemap_end");
-        double part = elsewhere(&marched, &fine, 0.02);
+        double part = fraction_elsewhere(&marched, &fine, 0.02);
         print_message("# %s steps: %.2f %% of the rays end elsewhere; of steps of half a texel %.2f %%\n", steps[i],
                       100 * part, 100 * own);
         assert_true(part < before);
         before = part;
         ends_free(&marched);
     }
-    /* As near to a tenth of a texel as half a texel is: both only miss what is thinner than their steps. Twice, for the march's
-       first step, which is held. */
+    /* Steps of a tenth of a texel are as accurate as steps of half a texel: both miss only what is thinner than a step. Twice, for the
+       march's fixed first step. */
     assert_true(before < 2 * own);
     ends_free(&half);
     ends_free(&fine);

@@ -1,5 +1,5 @@
-/* A room and the room with x and y exchanged, seen by a camera that looks along z: pictures of the one are those of the other,
-   mirrored at the diagonal that goes up to the right. It holds for every variant that treats axes alike, whatever it computes. */
+/* A room and the same room with x and y exchanged, seen by a camera that looks along z: their images are mirror images about the
+   diagonal. This holds for every variant that treats both axes equally. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -30,10 +30,10 @@ static const char *const images[] = {"screen_travelled",
 
 struct way {
     const char *what;
-    const char *words[16]; /* slot=variant, slot.parameter=value; NULL ends them */
+    const char *words[16]; /* slot=variant, slot.parameter=value, terminated by NULL */
 };
 
-/* Values of the images that there are, one after the other. */
+/* The values of all images that exist, one after the other. */
 static float *values_of(struct gpu *gpu, const struct way *way, bool second, size_t *count, size_t ends[16]) {
     float *all = NULL;
     room_load(gpu, second);
@@ -57,13 +57,13 @@ static float *values_of(struct gpu *gpu, const struct way *way, bool second, siz
     return all;
 }
 
-/* Both are the same arithmetic with its terms in another order, so that what is decided by the last bit may fall the other way:
-   where surfaces meet, and where a step ends right at one. That is a part of the pixels; what treats axes unlike moves most. */
+/* Both use the same arithmetic with terms in another order, so that decisions by the last bit may differ: where surfaces meet, and
+   where a step ends exactly on one. This affects a small fraction of the pixels; treating axes differently changes most. */
 static const double ties = 0.02;
 
-/* How far what a filter brings may be off: texture units weigh texels in steps and may cut off what lies between two of them,
-   so that a place and its mirror image are a step apart, in three weights: across, down, between levels. Colours and alpha
-   lie between 0 and 1. What is measured is the distance to the nearer of two steps' middle: half a step. */
+/* The error of filtered values: texture units quantise weights and may truncate the position between two texels, so that a position and
+   its mirror image differ by a step in three weights: across, down, between levels. Colours and alpha are in [0, 1]. Half a step is
+   measured as the distance to the centre of the nearer of two steps. */
 static double filter_slack(struct gpu *gpu) {
     double half_step = 0;
     uint32_t width, height;
@@ -75,7 +75,7 @@ static double filter_slack(struct gpu *gpu) {
     for (size_t i = 0; i < (size_t)width * height; ++i) half_step = fmax(half_step, (double)off[4 * i]);
     free(off);
     print_message("# weights of the filter: off by %.2g\n", half_step);
-    assert_true(half_step <= 1.0 / 32); /* Vulkan grants four bits */
+    assert_true(half_step <= 1.0 / 32); /* Vulkan requires at least four bits */
     return 3 * 2 * half_step;
 }
 
@@ -94,7 +94,7 @@ static void check(struct gpu *gpu, const struct way *way, double slack) {
         if (i == from) continue;
         const double part = (double)apart / (double)(i - from);
         print_message("# %s: %s: %.2f %% differ\n", way->what, images[n], 100 * part);
-        same = same && part <= ties && (full > 0 || n == 0); /* the screen's rays may have no length */
+        same = same && part <= ties && (full > 0 || n == 0); /* screen rays may have no length */
     }
     free(first), free(second);
     assert_true(same);

@@ -1,4 +1,4 @@
-/* No switch is void: with any of them turned, some image of the room is another. */
+/* Every switch has an effect: if it is changed, some image of the room changes. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -105,7 +105,7 @@ static void no_switch_is_void(void **state) {
     assert_int_equal(voids, 0);
 }
 
-/* Some refine what is there without them, so that most of it stays near. */
+/* Some only refine results, so that most of the images stays similar. */
 static void refinements_change_little(void **state) {
     struct gpu *gpu = *state;
     static const struct {

@@ -1,5 +1,5 @@
-/* Glass over the picture on the scene glasshouse, against what its path tracer says the camera sees: both faces of a pane by
-   Fresnel's formulas, the mirror ray followed to its end. */
+/* Glass on the scene glasshouse, compared with the image of its path tracer: both faces of a pane with Fresnel's equations, and the
+   exact mirror ray. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -23,16 +23,16 @@ static void use_panes(struct gpu *gpu) {
     for (size_t i = 0; i < sizeof slots / sizeof *slots; ++i) gpu_use(gpu, slots[i]);
 }
 
-static void load(struct gpu *gpu, const char *scene) {
+static void load_scene(struct gpu *gpu, const char *scene) {
     gpu_sample(gpu, scene, scene,
                &(struct glint_sample_options){
                    .width = WIDTH, .height = HEIGHT, .cube_size = 64, .light_samples = 8, .unjittered = true});
     gpu_reset(gpu);
     use_panes(gpu);
-    gpu_set(gpu, "compose.intensity=0"); /* the truth has what the panes reflect, nothing else */
+    gpu_set(gpu, "compose.intensity=0"); /* the truth contains only the reflections of panes */
 }
 
-/* Mean of |seen - true| / (seen + true + 0.05) over the pixels of the panes, or the largest beside them. */
+/* The mean of |image - truth| / (image + truth + 0.05) over the pixels of panes, or the maximum over all others. */
 static double error_of(struct gpu *gpu, const float *opacity, const float *scene, bool beside) {
     double sum = 0, worst = 0;
     size_t count = 0;
@@ -53,20 +53,20 @@ static void every_part_of_it_brings_the_picture_nearer(void **state) {
     static const char *const off[] = {NULL, "transparent_screen_trace.length_m=0", "transparent_cubemap_trace.chain=1",
                                       "transparency.fresnel=false", "transparency.intensity=0"};
     double errors[5];
-    load(gpu, "glasshouse");
+    load_scene(gpu, "glasshouse");
     float *opacity = gpu_part(gpu, "transparent", (const char *[]){"A"}, 1),
           *scene = gpu_part(gpu, "scene", (const char *[]){"R", "G", "B"}, 3);
     for (int i = 0; i < 5; ++i) {
-        load(gpu, "glasshouse");
+        load_scene(gpu, "glasshouse");
         if (off[i]) gpu_set(gpu, off[i]);
         gpu_run(gpu);
         errors[i] = error_of(gpu, opacity, scene, false);
         print_message("# %-40s %.4f\n", off[i] ? off[i] : "all", errors[i]);
         if (i) assert_true(errors[i] > errors[0]);
-        /* Nothing is laid over what no pane covers; both were rounded to half floats. */
+        /* Pixels without a pane do not change, apart from the rounding of both to half floats. */
         assert_true(error_of(gpu, opacity, scene, true) < 1e-3);
     }
-    /* What is left of the reflection's error is what no buffer shows: an inner side seen from outside, edges. */
+    /* The remaining error of the reflection is due to surfaces that no buffer shows: back faces, edges. */
     assert_true(errors[4] > 3 * errors[0]);
     free(opacity), free(scene);
 }
@@ -75,7 +75,7 @@ static void a_frame_without_glass_leaves_it_out(void **state) {
     struct gpu *gpu = *state;
     size_t count = 0;
     bool found = false;
-    load(gpu, "matte");
+    load_scene(gpu, "matte");
     gpu_run(gpu);
     const struct glint_pass_result *results = glint_replay_results(gpu->replay, &count);
     for (size_t i = 0; i < count; ++i) {
@@ -86,7 +86,7 @@ static void a_frame_without_glass_leaves_it_out(void **state) {
     assert_true(found);
 }
 
-/* Where nothing moves, the frame before shows what this one shows: rays that end on the screen find the same colour there. */
+/* Where nothing moves, the previous frame equals the current one, and rays that end on screen find the same colour. */
 static void panes_find_their_colour_in_the_previous_frame(void **state) {
     struct gpu *gpu = *state;
     float *color[2];
@@ -122,7 +122,7 @@ static void panes_find_their_colour_in_the_previous_frame(void **state) {
     const double most = on_screen ? quantile(apart, on_screen, 0.9) : 1;
     print_message("# %zu rays end on the screen, nine in ten off by less than %.2g; %zu others differ\n", on_screen,
                   most, others);
-    /* The two pictures are rounded to half floats; what an edge hides from one pixel it may show to the next. */
+    /* Both images are rounded to half floats; an edge may occlude a point in one pixel and not in the next. */
     assert_true(on_screen > 200 && most < 2e-3 && others == 0);
     free(color[0]), free(color[1]), free(finished), free(apart);
 }
@@ -137,7 +137,7 @@ static void at_wall(uint32_t number, const double direction[3], float out[5]) {
     out[3] = 1, out[4] = 100;
 }
 
-/* Looks towards the viewer, at 3 m, in the left half; the water is at 4 m, and in the upper third at 2 m. */
+/* Faces the viewer at 3 m in the left half; the water is at 4 m, and in the upper third at 2 m. */
 static float pane_roughness;
 static void matte(const struct plain *plain, float *values) {
     memset(values + (size_t)PLAIN_SPECULAR * plain->width * plain->height, 0,
@@ -176,7 +176,7 @@ static void load_plain(struct gpu *gpu, bool water, float roughness, void (*spoi
                                     .water = water ? water_at : NULL});
 }
 
-/* One pipeline: panes lie over the water, unless the water is before them. */
+/* Panes are composed over water, unless the water is in front of them. */
 static void panes_lie_over_water(void **state) {
     struct gpu *gpu = *state;
     load_plain(gpu, true, 0, NULL);
@@ -190,7 +190,7 @@ static void panes_lie_over_water(void **state) {
     int over = 0, wet = 0;
     for (uint32_t i = 0; i < SIDE * SIDE; ++i) {
         const bool pane = i % SIDE < SIDE / 2 && i / SIDE >= SIDE / 3;
-        for (uint32_t k = 0; k < 3; ++k) { /* half covered by what the pane shows itself */
+        for (uint32_t k = 0; k < 3; ++k) { /* half covered by the pane's own colour */
             const float below = water[4 * i + k], own = 0.25f * (float)(k + 1);
             assert_true(fabsf(all[4 * i + k] - (pane ? 0.5f * (below + own) : below)) < 1e-6f);
         }
@@ -198,7 +198,7 @@ static void panes_lie_over_water(void **state) {
     }
     assert_true(over > 0 && wet == SIDE * SIDE);
     free(water), free(all), free(composed);
-    /* Without water the same pipeline lays them over the opaque picture. */
+    /* Without water the same pipeline composes them over the opaque image. */
     load_plain(gpu, false, 0, NULL);
     gpu_use(gpu, "water=combine");
     gpu_set(gpu, "transparency.intensity=0");
@@ -211,7 +211,7 @@ static void panes_lie_over_water(void **state) {
     free(all), free(composed);
 }
 
-/* A pane reflects where nothing else does: what its rays are traced through is made all the same. */
+/* A pane in a matte scene: the images that its rays are traced in are written nevertheless. */
 static void panes_reflect_in_a_matte_scene(void **state) {
     struct gpu *gpu = *state;
     float *color[2];
@@ -225,7 +225,7 @@ static void panes_reflect_in_a_matte_scene(void **state) {
     for (int i = 0; i < 2; ++i) free(color[i]);
 }
 
-/* A smooth pane has its mirror ray to the bit. Rays of a rough one are drawn from its lobe, and several a pixel are averaged. */
+/* A smooth pane has exactly its mirror ray. Rays of a rough one are sampled from its lobe, and several per pixel are averaged. */
 static void panes_have_their_roughness(void **state) {
     struct gpu *gpu = *state;
     double variance[2];
@@ -245,7 +245,7 @@ static void panes_have_their_roughness(void **state) {
         float *color = gpu_floats(gpu, "transparent_reflection", NULL, NULL);
         double sum = 0, squares = 0;
         int count = 0;
-        for (int y = 20; y < 28; ++y) /* the viewer's own direction changes little over these */
+        for (int y = 20; y < 28; ++y) /* the view direction changes little over these */
             for (int x = 16; x < 24; ++x, ++count) {
                 double value = (double)color[4 * (y * SIDE / 2 + x)];
                 sum += value, squares += value * value;
@@ -254,18 +254,18 @@ static void panes_have_their_roughness(void **state) {
         free(color);
     }
     print_message("# variance of a rough pane's reflection: one ray %.5f, 16 rays %.5f\n", variance[0], variance[1]);
-    /* A sixteenth; what 64 texels tell of a variance is good to a fifth, and the picture itself has a slope. */
+    /* A sixteenth; the variance of 64 texels is accurate to a fifth, and the image has a slope. */
     assert_true(variance[0] > 1e-3 && variance[1] < variance[0] / 6);
 }
 
-/* In the left column of each block a pane at 2 m without a normal, in the right one a usable one at 3 m. */
+/* In the left column of each block a pane at 2 m without a normal, in the right one a valid pane at 3 m. */
 static void half_usable(uint32_t x, uint32_t y, float out[9]) {
     const float values[9] = {0.25f, 0.5f, 0.75f, 0.5f, 0, 0, (float)(x % 2), x % 2 ? 3 : 2, 0};
     (void)y;
     memcpy(out, values, sizeof values);
 }
 
-/* A ray starts at the nearest surface that can have one, not at the nearest. */
+/* A ray starts at the nearest valid surface. */
 static void a_pane_without_a_normal_has_no_ray(void **state) {
     struct gpu *gpu = *state;
     load_panes(gpu, &(struct plain){.width = SIDE, .height = SIDE, .fov_y_degrees = 60, .pane = half_usable});
@@ -276,12 +276,12 @@ static void a_pane_without_a_normal_has_no_ray(void **state) {
     uint32_t *pick = gpu_uints(gpu, "transparent_pick", NULL, NULL);
     for (uint32_t i = 0; i < SIDE * SIDE / 4; ++i) {
         assert_true(depth[i] == 3 && normal[4 * i + 2] == 1);
-        assert_int_equal(pick[i], 1); /* of two that are as near, the first */
+        assert_int_equal(pick[i], 1); /* the first of two at equal distance */
     }
     free(depth), free(normal), free(pick);
 }
 
-/* Two panes next to each other that look elsewhere, the left one at 3 m, the right one half as far; above them there is none. */
+/* Two adjacent panes with different normals, the left one at 3 m, the right one at half the distance; there is none above them. */
 static void two_panes(uint32_t x, uint32_t y, float out[9]) {
     const bool left = x < SIDE / 2;
     const float values[9] = {
@@ -294,7 +294,7 @@ static void white(const double direction[3], float out[3]) {
     out[0] = out[1] = out[2] = 1;
 }
 
-/* What is laid over a pixel is mixed of the texels of its own pane; what is of none has nothing to mix in. */
+/* The reflection of a pixel is interpolated from texels of its own pane; pixels without a pane do not change. */
 static void a_pane_shows_its_own_reflection(void **state) {
     struct gpu *gpu = *state;
     load_panes(gpu, &(struct plain){.width = SIDE,
@@ -307,7 +307,7 @@ static void a_pane_shows_its_own_reflection(void **state) {
                                     .pane = two_panes});
     gpu->all = true;
     gpu_set(gpu, "transparent_screen_trace.length_m=0");
-    gpu_set(gpu, "transparency.fresnel=false"); /* a share of 0.53 at an index of 4, sixteen times */
+    gpu_set(gpu, "transparency.fresnel=false"); /* a reflectance of 0.53 at an index of 4, times sixteen */
     gpu_set(gpu, "transparency.index=4");
     gpu_set(gpu, "transparency.intensity=16");
     gpu_run(gpu);
@@ -328,7 +328,7 @@ static void a_pane_shows_its_own_reflection(void **state) {
                 apart = fmax(apart, fabs(sum / weights - (double)all[4 * (y * SIDE + x) + k]));
             }
     print_message("# off by at most %.2g\n", apart);
-    /* Where a third of the weight is the other pane's, a ten-thousandth of that third is taken of colours up to 1. */
+    /* where a third of the weight is the other pane's, a ten-thousandth of it is used, of colours up to 1 */
     assert_true(apart < 4e-5);
     free(half), free(all);
 }

@@ -1,4 +1,4 @@
-/* upscale/best_match: which sample a pixel takes; resolve_sharp: what smooth pixels show instead. */
+/* upscale/best_match: the texel that a pixel uses; resolve_sharp: the colour of smooth pixels. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -13,7 +13,7 @@
 
 enum { SIZE = 128 };
 
-/* Left half: stippled, a nearer surface in every other pixel. Right half: upright bars of the same, five pixels wide. */
+/* Left half: a nearer surface, stippled in every other pixel. Right half: vertical bars of it, five pixels wide. */
 static float depth_at(uint32_t x, uint32_t y) {
     return (x < SIZE / 2 ? (x + y) % 2 : x / 5 % 2) ? 2 : 5;
 }
@@ -22,7 +22,7 @@ static void two_surfaces(const struct plain *plain, float *values) {
         values[i] = depth_at(i % plain->width, i / plain->width);
 }
 
-static void load(struct gpu *gpu, float roughness, bool floor) {
+static void load_stripes(struct gpu *gpu, float roughness, bool floor) {
     char path[256];
     plain_capture(gpu_path(gpu, "surfaces", path), &(struct plain){.width = SIZE,
                                                                    .height = SIZE,
@@ -36,7 +36,7 @@ static void load(struct gpu *gpu, float roughness, bool floor) {
     gpu_use(gpu, "upscale=best_match");
 }
 
-/* Pixels whose reflection came from the other surface. */
+/* Counts pixels whose reflection is from the other surface. */
 static int mistaken(struct gpu *gpu) {
     gpu_run(gpu);
     float *color = gpu_floats(gpu, "reflection", NULL, NULL);
@@ -50,7 +50,7 @@ static void every_pixel_takes_a_sample_of_its_own_surface(void **state) {
     static const char *const worse[] = {"upscale.depth_weight=0", "downsample.tie=near", NULL};
     struct gpu *gpu = *state;
     for (int i = 0; i < 4; ++i) {
-        load(gpu, 0.5f, false);
+        load_stripes(gpu, 0.5f, false);
         gpu_shader(gpu, "resolve", "stand_in.comp");
         gpu_set(gpu, "resolve.texel_scale=3");
         if (i == 3) gpu_use(gpu, "upscale=bilinear");
@@ -65,13 +65,13 @@ static void every_pixel_takes_a_sample_of_its_own_surface(void **state) {
     }
 }
 
-/* Catches: a picture without the blur or the history that the pipeline has. Every pixel has a texel of its own, and takes it. */
+/* Catches: an image without the blur or the history of the pipeline. At full resolution every pixel uses its own texel. */
 static void the_last_of_the_images_is_taken(void **state) {
     static const char *const steps[] = {NULL, "blur=plus", "temporal=rough"}, *const made[] = {"reflection_half",
                                                                                                "reflection_blurred",
                                                                                                "reflection_temporal"};
     struct gpu *gpu = *state;
-    load(gpu, 0.5f, true);
+    load_stripes(gpu, 0.5f, true);
     gpu_use(gpu, "downsample=none");
     for (int s = 0; s < 3; ++s) {
         if (steps[s]) gpu_use(gpu, steps[s]);
@@ -90,10 +90,10 @@ static void the_last_of_the_images_is_taken(void **state) {
     }
 }
 
-/* Rays of every pixel, resolved twice: the same colours. */
+/* Rays of every pixel, resolved twice, have the same colours. */
 static void smooth_pixels_are_resolved_by_their_own_normals(void **state) {
     struct gpu *gpu = *state;
-    load(gpu, 0, true);
+    load_stripes(gpu, 0, true);
     gpu_use(gpu, "downsample=none");
     gpu_use(gpu, "resolve_sharp=hit");
     gpu_run(gpu);
@@ -110,8 +110,8 @@ static void smooth_pixels_are_resolved_by_their_own_normals(void **state) {
     free(upscaled), free(sharp), free(source);
 }
 
-/* Upright bars of 2.2 pixels on the wall, with the sky between them. The mirror ray of a floor pixel seems to come from below it, from
-   the camera's mirror image, and so meets the wall in the pixel's own column. */
+/* Vertical bars of 2.2 pixels on the wall, with sky between them. The mirror ray of a floor pixel appears to start at the mirror image
+   of the camera below, and so hits the wall in the pixel's own column. */
 static double per_pixel(void) {
     return 2 * tan(30 * M_PI / 180) / SIZE;
 }
@@ -136,7 +136,7 @@ static void nothing_but_sky(uint32_t number, const double direction[3], float ou
     for (int k = 0; k < 5; ++k) out[k] = sky[k];
 }
 
-/* Whether a ray of the texels around the pixel hit a bar. */
+/* Whether a ray of one of the texels around the pixel hit a bar. */
 static bool bar_was_hit_around(const float *travelled_m, const uint32_t *finished, int pixel) {
     const int x = pixel % SIZE / 2, y = pixel / SIZE / 2;
     for (int k = 0; k < 9; ++k) {
@@ -147,9 +147,9 @@ static bool bar_was_hit_around(const float *travelled_m, const uint32_t *finishe
     return false;
 }
 
-/* What each floor pixel has to show is known: what stands in its column, at the height where its mirror ray meets the wall. The ray
-   that upscale chose may have met the other. With `neighbours` a pixel misses no bar that a ray around hit, and few show one
-   that is not there: those around which every ray hit one. */
+/* The expected colour of each floor pixel is known: that of the wall in its column, at the height where its mirror ray hits. The ray
+   that upscale chose may have hit something else. With `neighbours` a pixel misses no bar that a surrounding ray hit, and few pixels
+   show a bar that is not there: those around which every ray hit one. */
 static void the_own_ray_takes_the_hits_around_that_it_meets(void **state) {
     struct gpu *gpu = *state;
     char path[256];
@@ -192,10 +192,10 @@ static void the_own_ray_takes_the_hits_around_that_it_meets(void **state) {
     assert_true(missed[0] > 10 && missed[1] == 0 && 4 * invented[1] < invented[0] && bars_seen > SIZE);
 }
 
-/* Rough pixels are no smooth ones, and a frame of them has nothing to resolve anew. */
+/* Rough pixels are not sharpened, and a frame of rough pixels has nothing to resolve again. */
 static void rough_pixels_keep_what_was_upscaled(void **state) {
     struct gpu *gpu = *state;
-    load(gpu, 0.3f, true);
+    load_stripes(gpu, 0.3f, true);
     gpu_use(gpu, "resolve_sharp=hit");
     gpu_run(gpu);
     uint32_t *source = gpu_uints(gpu, "sharp_source", NULL, NULL);
@@ -204,7 +204,7 @@ static void rough_pixels_keep_what_was_upscaled(void **state) {
     free(source);
 }
 
-/* Upright bars of two roughnesses on an even wall, five pixels wide: each holds a sample of three texels in a row. */
+/* Vertical bars of two roughnesses on a flat wall, five pixels wide: of three texels in a row, each bar contains one. */
 static float roughness_at(uint32_t x) {
     return x / 5 % 2 ? 0.25F : 0.75F;
 }
@@ -225,8 +225,8 @@ static void load_wall(struct gpu *gpu, void (*spoil)(const struct plain *, float
     gpu_set(gpu, "resolve.texel_scale=5");
 }
 
-/* Where depths and normals are alike, a sample of the pixel's own roughness is taken: the other costs 10 · 0.5, and the
-   farthest texel, of 3.5 pixels along each axis, less than 0.02 · 25. */
+/* If depths and normals are equal, a texel of the pixel's own roughness is used: another one costs 10 · 0.5, and the farthest texel,
+   3.5 pixels away along each axis, less than 0.02 · 25. */
 static void roughness_alone_tells_surfaces_apart(void **state) {
     struct gpu *gpu = *state;
     for (int blind = 0; blind < 2; ++blind) {
@@ -243,14 +243,14 @@ static void roughness_alone_tells_surfaces_apart(void **state) {
     }
 }
 
-/* Eighths by chance, so that any of the texels around may be the best. */
+/* Random eighths, so that any of the surrounding texels may be the best. */
 static void any_roughness(const struct plain *plain, float *values) {
     const uint32_t pixels = plain->width * plain->height;
     for (uint32_t i = 0; i < pixels; ++i) values[PLAIN_ROUGHNESS * pixels + i] = (float)(i * 2654435761U >> 20 & 7) / 8;
 }
 
-/* With `around` off they are the texel that holds the pixel, and those on the pixel's side of its middle, as a bilinear lookup
-   has them. Each of the four is the best of some. */
+/* With `around` off, candidates are the texel of the pixel and those on the pixel's side of its centre, as for bilinear interpolation.
+   Each of the four is the best for some pixels. */
 static void the_four_nearest_are_those_on_the_pixels_side(void **state) {
     struct gpu *gpu = *state;
     int taken[4] = {0};
@@ -283,7 +283,7 @@ static void rounded_depth(const struct plain *plain, float *values) {
     for (uint32_t i = 0; i < plain->width * plain->height; ++i) values[i] *= 1 + by_chance(i) / 524288;
 }
 
-/* On an even wall every sample fits; which one a pixel takes must not hang on the last bit of how rough or how far it is. */
+/* On a flat wall all texels are equally good; which one a pixel uses must not depend on the rounding of roughness or depth. */
 static void rounding_chooses_no_other_sample(void **state) {
     struct gpu *gpu = *state;
     void (*const spoils[])(const struct plain *, float *) = {NULL, rounded_roughness, rounded_depth};
@@ -318,7 +318,7 @@ static void sky_above(const struct plain *plain, float *values) {
     }
 }
 
-/* The colours are the roughness, alike everywhere: so is what is mixed of those that there are. */
+/* The colours are the roughness, which is constant: so is the interpolation of the texels that have rays. */
 static void what_has_no_ray_darkens_nothing(void **state) {
     struct gpu *gpu = *state;
     load_wall(gpu, sky_above);

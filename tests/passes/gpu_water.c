@@ -1,5 +1,5 @@
-/* Water over the picture on the scene lake, against what its path tracer says the camera sees: Fresnel's formulas, the
-   reflected and the refracted ray each followed to its end. */
+/* Water on the scene lake, compared with the image of its path tracer: Fresnel's equations, with both the reflected and the refracted
+   ray traced to their hits. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,7 +15,7 @@
 
 enum { WIDTH = 192, HEIGHT = 108 };
 
-static void load(struct gpu *gpu) {
+static void load_lake(struct gpu *gpu) {
     gpu_sample(gpu, "lake", "lake",
                &(struct glint_sample_options){.width = WIDTH,
                                               .height = HEIGHT,
@@ -28,7 +28,7 @@ static void load(struct gpu *gpu) {
     gpu_use(gpu, "water=combine");
 }
 
-/* Mean of |seen - true| / (seen + true + 0.05) over the pixels of the water. */
+/* The mean of |image - truth| / (image + truth + 0.05) over the pixels of the water. */
 static double error_of(struct gpu *gpu, const float *opacity, const float *scene) {
     double sum = 0;
     size_t count = 0;
@@ -55,11 +55,11 @@ static void every_part_of_it_brings_the_picture_nearer(void **state) {
                                       "water.fresnel=false",
                                       "water.intensity=0"};
     double errors[7];
-    load(gpu);
+    load_lake(gpu);
     float *opacity = gpu_part(gpu, "water", (const char *[]){"opacity"}, 1),
           *scene = gpu_part(gpu, "scene", (const char *[]){"R", "G", "B"}, 3);
     for (int i = 0; i < 7; ++i) {
-        load(gpu);
+        load_lake(gpu);
         if (off[i]) gpu_set(gpu, off[i]);
         gpu_run(gpu);
         errors[i] = error_of(gpu, opacity, scene);
@@ -75,10 +75,10 @@ static void every_part_of_it_brings_the_picture_nearer(void **state) {
     free(opacity), free(scene);
 }
 
-/* Where no water is, and what stands before it, is the picture as it was, bit for bit. */
+/* Pixels without water, or with an object in front of it, do not change by a bit. */
 static void all_else_stays(void **state) {
     struct gpu *gpu = *state;
-    load(gpu);
+    load_lake(gpu);
     gpu_run(gpu);
     float *opacity = gpu_part(gpu, "water", (const char *[]){"opacity"}, 1);
     float *finished = gpu_floats(gpu, "composed_water", NULL, NULL),
@@ -98,11 +98,11 @@ static void all_else_stays(void **state) {
     free(opacity), free(finished), free(composed), free(planar);
 }
 
-/* Without ripples the mirror ray is the one that the map was rendered for: the lookup is at the pixel's own place in it, since
-   the plane's points are seen at the same place by both cameras. */
+/* Without ripples the mirror ray is the one that the map was rendered for: the lookup is at the pixel's own position, since both
+   cameras see points of the plane at the same position. */
 static void a_flat_mirror_is_looked_up_in_place(void **state) {
     struct gpu *gpu = *state;
-    load(gpu);
+    load_lake(gpu);
     gpu_set(gpu, "planar.perturb=false");
     gpu_run(gpu);
     const struct glint_part_info *info = glint_capture_find(gpu->capture, "planar.000");
@@ -115,7 +115,7 @@ static void a_flat_mirror_is_looked_up_in_place(void **state) {
     assert_non_null(errors);
     size_t count = 0;
     for (size_t i = 0; i < WIDTH * HEIGHT; ++i) {
-        /* of the same aspect, without the jitter of the frame's camera */
+        /* of the same aspect ratio, without the jitter of the frame's camera */
         double x = ((double)(i % WIDTH) + 0.5 - jitter[0]) / WIDTH * w - 0.5,
                y = ((double)(i / WIDTH) + 0.5 - jitter[1]) / HEIGHT * h - 0.5;
         if (!(opacity[i] > 0) || x < 0 || y < 0 || x >= w - 1 || y >= h - 1) continue;
@@ -130,16 +130,16 @@ static void a_flat_mirror_is_looked_up_in_place(void **state) {
     print_message("# %zu pixels: off by %.2g (99th percentile), at most %.2g\n", count, p99, worst);
     assert_true(count > 5000);
     assert_true(p99 <=
-                4e-3); /* half floats up to 2, and a sampler's 8 bits between texels, of edges between sky and firs */
+                4e-3); /* half floats up to 2, and a sampler with weights of 8 bits at edges between sky and firs */
     free(map), free(opacity), free(planar), free(errors);
 }
 
-/* Its parts decode to the same under other encodings. */
+/* Its parts decode to equal values in other encodings. */
 static void encodings_change_nothing(void **state) {
     struct gpu *gpu = *state;
     double errors[2];
     for (int i = 0; i < 2; ++i) {
-        load(gpu);
+        load_lake(gpu);
         if (i)
             gpu_sample(gpu, "lake", "encoded",
                        &(struct glint_sample_options){.width = WIDTH,
@@ -159,8 +159,7 @@ static void encodings_change_nothing(void **state) {
         free(opacity), free(scene);
     }
     print_message("# %.4f, encoded %.4f\n", errors[0], errors[1]);
-    /* Octahedral normals of 16 bits and half floats of sRGB colours, of which the picture is made and which it is compared
-       with: three parts in a thousand of a colour. */
+    /* 16-bit octahedral normals, and colours in sRGB as half floats, both in the image and in the truth: 0.003 of a colour. */
     assert_true(fabs(errors[1] - errors[0]) < 0.003);
 }
 
@@ -201,25 +200,25 @@ static void load_plain(struct gpu *gpu, void (*water)(uint32_t x, uint32_t y, fl
     gpu_use(gpu, "water=combine");
 }
 
-/* What the cube map covers hides the sky, which is seen where it covers nothing. */
+/* The cube map's alpha covers the sky, which is visible where alpha is 0. */
 static void the_sky_is_behind_the_cube_map(void **state) {
     static const float sky[3] = {0.25f, 0.5f, 2};
     struct gpu *gpu = *state;
     load_plain(gpu, facing);
-    gpu_set(gpu, "water.fresnel=false"); /* a share of 0.36 at an index of 4, sixteen times */
+    gpu_set(gpu, "water.fresnel=false"); /* a reflectance of 0.36 at an index of 4, times sixteen */
     gpu_set(gpu, "water.index=4");
     gpu_set(gpu, "water.intensity=16");
     gpu_run(gpu);
     float *seen = gpu_floats(gpu, "composed_water", NULL, NULL);
     for (int i = 0; i < SIDE * SIDE; ++i) {
         const int x = i % SIDE - SIDE / 2;
-        if (abs(x) < 8) continue; /* less than 1/8 of what a face shows: between texels, or mixed by the sampler */
+        if (abs(x) < 8) continue; /* less than 1/8 of a face: between texels, or filtered by the sampler */
         for (int k = 0; k < 3; ++k) assert_true(fabsf(seen[4 * i + k] - (x > 0 ? 1 : sky[k])) < 1e-5f);
     }
     free(seen);
 }
 
-/* A metre below the viewer, half a metre of it along every view ray. */
+/* A metre below the viewer, half a metre of water along every view ray. */
 static double down_at(double y) {
     return (2 * (y + 0.5) / SIDE - 1) * half_view;
 }
@@ -230,9 +229,8 @@ static void lake_at(uint32_t x, uint32_t y, float out[9]) {
     memcpy(out, values, sizeof values);
 }
 
-/* How far the refracted ray goes until it has sunk as deep as the water is where a pixel looks, and the place where that is seen,
-   in pixels. */
-static double way_to(const double from[3], const double ray[3], int x, int y, double place[2]) {
+/* The length of the refracted ray until it is as deep as the water at a pixel, and the position on screen of that end in pixels. */
+static double refracted_length(const double from[3], const double ray[3], int x, int y, double place[2]) {
     const double at[2] = {(2 * (x + 0.5) / SIDE - 1) * half_view, down_at(y)};
     const double way = 0.5 * at[1] / sqrt(1 + at[0] * at[0] + at[1] * at[1]) / -ray[1];
     const double end[3] = {from[0] + way * ray[0], from[1] + way * ray[1], from[2] + way * ray[2]};
@@ -241,9 +239,9 @@ static double way_to(const double from[3], const double ray[3], int x, int y, do
     return way;
 }
 
-/* The bottom is as bright everywhere, and half of its light is left after each metre, so that the picture tells the way: of the
-   pixel that the refracted ray leads to, twice looked up. */
-static void the_way_is_that_of_the_pixel_that_is_looked_up(void **state) {
+/* The bottom has constant light, of which half is left after each metre, so that the image shows the length of the refracted ray: for
+   the pixel where it ends, after two lookups. */
+static void depth_is_looked_up_at_the_refracted_position(void **state) {
     struct gpu *gpu = *state;
     load_plain(gpu, lake_at);
     gpu_set(gpu, "water.intensity=0");
@@ -254,22 +252,22 @@ static void the_way_is_that_of_the_pixel_that_is_looked_up(void **state) {
     for (int i = 0; i < SIDE * SIDE; ++i) {
         const double across = (2 * (i % SIDE + 0.5) / SIDE - 1) * half_view, down = down_at(i / SIDE);
         if (!(down > 0.1)) continue;
-        /* Snell's law on a level plane: the part along it is divided by the index. */
+        /* Snell's law for a level plane: the component along it is divided by the index. */
         const double length = sqrt(1 + across * across + down * down),
                      flat[2] = {across / length / 1.333, -1 / length / 1.333};
         const double from[3] = {across / down, -1, -1 / down};
         const double ray[3] = {flat[0], -sqrt(1 - flat[0] * flat[0] - flat[1] * flat[1]), flat[1]};
-        double place[2], way = way_to(from, ray, i % SIDE, i / SIDE, place);
+        double place[2], way = refracted_length(from, ray, i % SIDE, i / SIDE, place);
         bool sure = true;
         for (int k = 0; k < 2 && sure; ++k) {
-            for (int c = 0; c < 2; ++c) /* rounding may lead to the next pixel; those without water say nothing */
+            for (int c = 0; c < 2; ++c) /* rounding may lead to the next pixel; pixels without water are ignored */
                 sure = sure && fabs(place[c] - round(place[c])) > 1e-3 && place[c] > 0 && place[c] < SIDE;
             sure = sure && down_at(floor(place[1])) > 0.1;
-            if (sure) way = way_to(from, ray, (int)place[0], (int)place[1], place);
+            if (sure) way = refracted_length(from, ray, (int)place[0], (int)place[1], place);
         }
         sure = sure && place[0] > 0 && place[0] < SIDE && place[1] < SIDE && down_at(floor(place[1])) > 0.11;
         if (!sure) continue;
-        /* pow: 16 ULP of an exponent below 1, and a dozen roundings of the way before it */
+        /* pow: 16 ULP of an exponent below 1, and a dozen roundings of the length before */
         assert_true(fabs((double)seen[4 * i + 1] - 0.5 * pow(0.5, way)) < 1e-5);
         ++count;
     }
@@ -284,7 +282,7 @@ int main(void) {
         cmocka_unit_test(all_else_stays),
         cmocka_unit_test(encodings_change_nothing),
         cmocka_unit_test(the_sky_is_behind_the_cube_map),
-        cmocka_unit_test(the_way_is_that_of_the_pixel_that_is_looked_up),
+        cmocka_unit_test(depth_is_looked_up_at_the_refracted_position),
         cmocka_unit_test(a_flat_mirror_is_looked_up_in_place),
     };
     return cmocka_run_group_tests_name("gpu_water", tests, gpu_set_up, gpu_tear_down);

@@ -1,4 +1,4 @@
-/* The scene mirror_box by closed form, from a capture's attributes in double; nothing of the shaders is used. */
+/* The scene mirror_box in closed form, in double from the attributes of a capture, independently of the shaders. */
 #ifndef GLINT_TESTS_PASSES_MIRROR_BOX_H
 #define GLINT_TESTS_PASSES_MIRROR_BOX_H
 
@@ -9,15 +9,15 @@ extern const double mirror_box[3];
 
 /* One ray that starts on the mirror floor. */
 struct expected {
-    double distance;   /* to the wall or ceiling it meets */
+    double distance;   /* to the wall or ceiling */
     double start[3];   /* in the world */
-    double end[3];     /* where it meets that */
-    double end_uv[2];  /* where the end would be seen */
+    double end[3];     /* the hit */
+    double end_uv[2];  /* screen position of the hit */
     bool end_in_front; /* of the camera */
     bool on_floor;
 };
 
-/* Everything about the last run's rays. */
+/* All rays of the last run. */
 struct rays {
     uint32_t width, height; /* half resolution */
     float *travelled, *screen_travelled;
@@ -25,14 +25,14 @@ struct rays {
     struct expected *expected;
 };
 
-/* Of the last run; its pixels are the half resolution's. */
+/* Reads the last run at half resolution. */
 struct rays rays_of(struct gpu *gpu);
 void rays_free(struct rays *r);
 
 double dot3(const double *a, const double *b);
-/* Distance along a ray from inside the box to its inside. */
+/* The distance along a ray from inside the box to its walls. */
 double leave_box(const double from[3], const double direction[3], int *axis);
-/* The walls' light, as the scene states it. */
+/* The light of the walls, as defined by the scene. */
 double wall_light(const double p[3], int component);
 
 #endif

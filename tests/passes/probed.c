@@ -11,7 +11,7 @@
 
 #include <cmocka.h>
 
-void check(bool ok, const struct glint_error *err) {
+void require(bool ok, const struct glint_error *err) {
     if (!ok) fail_msg("%s", err->message);
 }
 
@@ -29,7 +29,7 @@ static void keep_images(struct gpu *gpu, struct images *images) {
         kept->bits = calloc((size_t)image->width * image->height * image->components, sizeof *kept->bits);
         assert_non_null(kept->bits);
         const bool uint = image->format == GLINT_FORMAT_R8UI || image->format == GLINT_FORMAT_R32UI;
-        check(glint_replay_read_image(gpu->replay, image, uint ? GLINT_U32 : GLINT_F32, kept->bits, &err), &err);
+        require(glint_replay_read_image(gpu->replay, image, uint ? GLINT_U32 : GLINT_F32, kept->bits, &err), &err);
     }
 }
 
@@ -38,7 +38,7 @@ void free_images(struct images *images) {
     images->count = 0;
 }
 
-const struct kept *find(const struct images *images, const char *name) {
+const struct kept *find_kept(const struct images *images, const char *name) {
     for (size_t i = 0; i < images->count; i++)
         if (strcmp(images->list[i].name, name) == 0) return &images->list[i];
     fail_msg("the run has no image %s", name);
@@ -59,7 +59,7 @@ static uint32_t bits_of(float value) {
 void same_images(const struct images *a, const struct images *b) {
     assert_int_equal(a->count, b->count);
     for (size_t i = 0; i < a->count; i++) {
-        const struct kept *one = &a->list[i], *other = find(b, one->name);
+        const struct kept *one = &a->list[i], *other = find_kept(b, one->name);
         assert_memory_equal(one->bits, other->bits,
                             (size_t)one->width * one->height * one->components * sizeof *one->bits);
     }
@@ -71,7 +71,7 @@ void probed_scene(struct gpu *gpu, const char *scene) {
     gpu_sample(gpu, scene, scene, &(struct glint_sample_options){.width = WIDTH, .height = HEIGHT, .cube_size = FACE});
 }
 
-void arrange(struct gpu *gpu, const char *const words[PROBED_WORDS]) {
+void arrange_pipeline(struct gpu *gpu, const char *const words[PROBED_WORDS]) {
     gpu_reset(gpu);
     for (size_t i = 0; i < PROBED_WORDS && words[i]; i++) {
         const char *dot = strchr(words[i], '.');
@@ -87,7 +87,7 @@ void probed_run(struct gpu *gpu, uint32_t (*pixels)[2], bool floats, struct imag
                                                  .float_precision = floats,
                                                  .probes = (const uint32_t(*)[2])pixels,
                                                  .probe_count = pixels ? PIXELS : 0};
-    check(glint_replay_run(gpu->replay, gpu->pipeline, &options, NULL, NULL, &err), &err);
+    require(glint_replay_run(gpu->replay, gpu->pipeline, &options, NULL, NULL, &err), &err);
     keep_images(gpu, images);
 }
 
@@ -102,36 +102,36 @@ void draw_pixels(uint32_t (*pixels)[2]) {
 
 /* ---- Values ---- */
 
-void same(const struct glint_probe_record *record, const char *value, const struct kept *image, uint32_t x, uint32_t y,
-          uint32_t component) {
+void assert_kept_value(const struct glint_probe_record *record, const char *value, const struct kept *image, uint32_t x,
+                       uint32_t y, uint32_t component) {
     const uint32_t recorded = bits_of(glint_probe_value(record, value)), found = bits_at(image, x, y, component);
     if (recorded != found)
         fail_msg("%s.%s is 0x%08x, but %s holds 0x%08x at %u,%u", record->kind->name, value, recorded, image->name,
                  found, x, y);
 }
 
-uint32_t number(const struct glint_probe_record *record, const char *value) {
+uint32_t record_number(const struct glint_probe_record *record, const char *value) {
     return (uint32_t)glint_probe_value(record, value);
 }
 
 const struct kept *level_of(const struct images *images, const char *name, uint32_t level) {
     char text[128];
     snprintf(text, sizeof text, level ? "%s.level%u" : "%s", name, level);
-    return find(images, text);
+    return find_kept(images, text);
 }
 
 /* Of six products. */
 enum { ROUNDINGS = 16 };
-void near(double recorded, double found, double largest) {
+void assert_near_sum(double recorded, double found, double largest) {
     if (!(fabs(recorded - found) <= ROUNDINGS * 0x1p-24 * largest))
         fail_msg("recorded %.9g, found %.9g", recorded, found);
 }
 
-const struct glint_probe_record *of_slot(const struct glint_probe_trace *story, const char *slot, const char *kind,
-                                         size_t *at) {
-    for (; *at < story->count; ++*at)
-        if (glint_probe_is(&story->records[*at], kind) && strcmp(story->records[*at].pass->slot, slot) == 0)
-            return &story->records[(*at)++];
+const struct glint_probe_record *next_record(const struct glint_probe_trace *trace, const char *slot, const char *kind,
+                                             size_t *at) {
+    for (; *at < trace->count; ++*at)
+        if (glint_probe_is(&trace->records[*at], kind) && strcmp(trace->records[*at].pass->slot, slot) == 0)
+            return &trace->records[(*at)++];
     return NULL;
 }
 

@@ -1,4 +1,4 @@
-/* A room without a ceiling and a block in it, by closed form. */
+/* A room without a ceiling and a block in it, in closed form. */
 #include "room.h"
 
 #include <math.h>
@@ -25,8 +25,8 @@ static void swap_axes(double v[3]) {
     v[0] = v[1], v[1] = x;
 }
 
-/* Where a ray enters a box from outside, or leaves it from inside; the axis that it crosses. */
-static double meet(const double box[2][3], const double origin[3], const double d[3], bool inside, int *axis) {
+/* Where a ray enters a box from outside or leaves it from inside, and the axis that it crosses. */
+static double intersect_box(const double box[2][3], const double origin[3], const double d[3], bool inside, int *axis) {
     double enter = -INFINITY, leave = INFINITY;
     int first = 0, last = 0;
     for (int k = 0; k < 3; ++k) {
@@ -39,10 +39,11 @@ static double meet(const double box[2][3], const double origin[3], const double 
 }
 
 /* The room has no ceiling. */
-static struct seen look(const double origin[3], const double d[3]) {
+static struct seen trace_scene(const double origin[3], const double d[3]) {
     struct seen s = {0};
     int axis, of_block;
-    double t = meet(room, origin, d, true, &axis), behind = meet(block, origin, d, false, &of_block), p[3], length = 0;
+    double t = intersect_box(room, origin, d, true, &axis), behind = intersect_box(block, origin, d, false, &of_block),
+           p[3], length = 0;
     const bool is_sky = axis == 1 && d[1] > 0 && t <= behind;
     if (behind < t) t = behind, axis = of_block;
     for (int k = 0; k < 3; ++k) p[k] = origin[k] + t * d[k];
@@ -57,7 +58,7 @@ static struct seen look(const double origin[3], const double d[3]) {
     return s;
 }
 
-/* Which of the two is written, and what lies over it; the callbacks of a plain capture have no other way to know. */
+/* Which of the two rooms is written, and its layers; static because callbacks have no user pointer. */
 static bool swapped;
 static const double centers[2][3] = {{0.5, 0.3, -2.5}, {-1, -0.8, -0.5}};
 
@@ -65,7 +66,7 @@ static struct seen seen_from(const double origin[3], const double direction[3]) 
     double o[3], d[3];
     memcpy(o, origin, sizeof o), memcpy(d, direction, sizeof d);
     if (swapped) swap_axes(o), swap_axes(d);
-    struct seen s = look(o, d);
+    struct seen s = trace_scene(o, d);
     if (swapped) swap_axes(s.normal);
     return s;
 }
@@ -74,7 +75,7 @@ static struct seen seen_by_pixel(uint32_t x, uint32_t y, double *depth_m) {
     static const double eye[3] = {0, 0, 0};
     const double d[3] = {half_view * ((2.0 * x + 1) / SIZE - 1), half_view * (1 - (2.0 * y + 1) / SIZE), -1};
     const struct seen s = seen_from(eye, d);
-    *depth_m = s.distance; /* d goes one metre deep */
+    *depth_m = s.distance; /* d has a depth of one metre */
     return s;
 }
 
@@ -109,7 +110,7 @@ static void sky(const double direction[3], float out[3]) {
     for (int k = 0; k < 3; ++k) out[k] = (float)(0.3 + 0.2 * k + 0.2 * d);
 }
 
-/* A sheet before the scene: part of its depth away, leaning. */
+/* A tilted sheet in front of the scene, at a fraction of its depth. */
 static void sheet(uint32_t x, uint32_t y, float out[9]) {
     double depth_m, normal[3] = {0.2 * sin(0.11 * x + 0.05 * y), 0.15 * cos(0.07 * x - 0.04 * y), 1}, length = 0;
     uint32_t of_first[2] = {swapped ? SIZE - 1 - y : x, swapped ? SIZE - 1 - x : y};

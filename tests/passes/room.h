@@ -1,5 +1,5 @@
-/* A room without a ceiling and a block in it, of all kinds of surfaces, with two cube maps, the sky, water and panes: for what holds
-   of any scene. */
+/* A room without a ceiling and a block in it, with all kinds of surfaces, two cube maps, the sky, water and panes: for properties that
+   hold for any scene. */
 #ifndef GLINT_TESTS_PASSES_ROOM_H
 #define GLINT_TESTS_PASSES_ROOM_H
 
@@ -7,10 +7,10 @@
 
 enum { ROOM_SIZE = 96 };
 
-/* Writes and loads it, or the same with the world's x and y exchanged. */
+/* Writes and loads it, optionally with the world's x and y exchanged. */
 void room_load(struct gpu *gpu, bool swapped);
-/* A fresh pipeline of plain.json whose random choices are off, changed by words: slot=variant, slot.parameter=value; NULL ends
-   them. Every pass runs, in floats. */
+/* Creates the pipeline of plain.json without random choices and applies words: slot=variant, slot.parameter=value, terminated by NULL.
+   Every pass runs, with float images. */
 void room_arrange(struct gpu *gpu, const char *const *words);
 
 #endif

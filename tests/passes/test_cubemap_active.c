@@ -1,4 +1,4 @@
-/* cubemap_active/nearest: which cube maps take part, and the chains. */
+/* cubemap_active/nearest: the active cube maps, and their chains. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -12,8 +12,8 @@
 
 enum { MOST = 16 };
 
-/* Stands in for the replay: keeps tables in plain memory. */
-struct stand_in {
+/* A mock of the replay that keeps tables in memory. */
+struct mock_replay {
     struct glint_host_context context;
     struct glint_frame frame;
     struct glint_cubemap cubemaps[MOST];
@@ -23,7 +23,7 @@ struct stand_in {
 };
 
 static double value(const struct glint_host_context *context, const char *parameter) {
-    const struct stand_in *s = context->user;
+    const struct mock_replay *s = context->user;
     if (strcmp(parameter, "count") == 0) return s->count;
     if (strcmp(parameter, "chain") == 0) return s->chain;
     if (strcmp(parameter, "force_outdoor") == 0) return s->outdoor;
@@ -34,7 +34,7 @@ static double value(const struct glint_host_context *context, const char *parame
 static struct glint_table *table(struct glint_host_context *context, const char *image, uint32_t width, uint32_t height,
                                  struct glint_error *err) {
     (void)err;
-    struct stand_in *s = context->user;
+    struct mock_replay *s = context->user;
     static const char *const names[] = {"active_index", "active_center", "active_chain", "active_volume"};
     struct glint_table *const tables[] = {&s->index, &s->center, &s->chains, &s->volumes};
     size_t i = 0;
@@ -47,8 +47,8 @@ static struct glint_table *table(struct glint_host_context *context, const char 
 }
 
 /* Cube maps along x at 1, 2, … m, all indoors. */
-static struct stand_in *corridor(size_t count) {
-    struct stand_in *s = calloc(1, sizeof *s);
+static struct mock_replay *corridor(size_t count) {
+    struct mock_replay *s = calloc(1, sizeof *s);
     assert_non_null(s);
     for (size_t i = 0; i < count; ++i) s->cubemaps[i].center[0] = 1.0 + (double)i;
     s->count = 8;
@@ -60,7 +60,7 @@ static struct stand_in *corridor(size_t count) {
     return s;
 }
 
-static void run(struct stand_in *s) {
+static void run_pass(struct mock_replay *s) {
     const struct glint_pass *pass = glint_pass_find("cubemap_active", "nearest");
     assert_non_null(pass);
     struct glint_error err = {0};
@@ -69,11 +69,11 @@ static void run(struct stand_in *s) {
 
 static void the_nearest_in_order(void **state) {
     (void)state;
-    struct stand_in *s = corridor(12);
+    struct mock_replay *s = corridor(12);
     s->frame.has_player = true;
     s->frame.player[0] = 6.2;
     s->count = 5;
-    run(s);
+    run_pass(s);
     const uint32_t expected[] = {5, 6, 4, 7, 3};
     assert_int_equal(s->index.width, 5);
     assert_memory_equal(s->index.texels.u, expected, sizeof expected);
@@ -82,24 +82,24 @@ static void the_nearest_in_order(void **state) {
 
 static void around_the_camera_without_a_player(void **state) {
     (void)state;
-    struct stand_in *s = corridor(12);
+    struct mock_replay *s = corridor(12);
     s->context.eye[0] = 11.9;
     s->count = 1;
-    run(s);
+    run_pass(s);
     assert_int_equal(s->index.texels.u[0], 11);
     free(s);
 }
 
 static void one_outdoor_is_kept(void **state) {
     (void)state;
-    struct stand_in *s = corridor(12);
+    struct mock_replay *s = corridor(12);
     s->cubemaps[9].outdoor = s->cubemaps[11].outdoor = true;
-    run(s);
+    run_pass(s);
     assert_int_equal(s->index.width, 8);
     assert_int_equal(s->index.texels.u[7], 9); /* the nearer of both */
     assert_int_equal(s->index.texels.u[6], 6);
     s->outdoor = 0;
-    run(s);
+    run_pass(s);
     assert_int_equal(s->index.texels.u[7], 7);
     free(s);
 }
@@ -107,9 +107,9 @@ static void one_outdoor_is_kept(void **state) {
 static void an_outdoor_one_already_there_changes_nothing(void **state) {
     (void)state;
     for (size_t there = 0; there < 8; there++) {
-        struct stand_in *s = corridor(12);
+        struct mock_replay *s = corridor(12);
         s->cubemaps[there].outdoor = s->cubemaps[11].outdoor = true;
-        run(s);
+        run_pass(s);
         assert_int_equal(s->index.texels.u[7], 7);
         free(s);
     }
@@ -117,30 +117,30 @@ static void an_outdoor_one_already_there_changes_nothing(void **state) {
 
 static void floors_are_kept_apart(void **state) {
     (void)state;
-    struct stand_in *s = corridor(2);
+    struct mock_replay *s = corridor(2);
     s->cubemaps[0].center[0] = 0; /* 3 m above */
     s->cubemaps[0].center[2] = 3;
     s->cubemaps[1].center[0] = 8; /* 8 m along */
     s->frame.up = GLINT_AXIS_Z;
     s->count = 1;
-    run(s);
+    run_pass(s);
     assert_int_equal(s->index.texels.u[0], 1);
     s->vertical = 1;
-    run(s);
+    run_pass(s);
     assert_int_equal(s->index.texels.u[0], 0);
     s->vertical = 4;
-    s->frame.up = GLINT_AXIS_NEG_Y; /* then z is no height */
-    run(s);
+    s->frame.up = GLINT_AXIS_NEG_Y; /* then z is not the height */
+    run_pass(s);
     assert_int_equal(s->index.texels.u[0], 0);
     free(s);
 }
 
 static void chains_start_with_themselves_and_go_by_distance(void **state) {
     (void)state;
-    struct stand_in *s = corridor(5);
+    struct mock_replay *s = corridor(5);
     const double x[] = {0, 1, 3, 7, 15};
     for (int i = 0; i < 5; ++i) s->cubemaps[i].center[0] = x[i];
-    run(s);
+    run_pass(s);
     assert_int_equal(s->chains.width, 4);
     assert_int_equal(s->chains.height, 5);
     const uint32_t expected[5][4] = {{0, 1, 2, 3}, {1, 0, 2, 3}, {2, 1, 0, 3}, {3, 2, 1, 0}, {4, 3, 2, 1}};
@@ -150,8 +150,8 @@ static void chains_start_with_themselves_and_go_by_distance(void **state) {
 
 static void a_chain_is_no_longer_than_there_are_cube_maps(void **state) {
     (void)state;
-    struct stand_in *s = corridor(2);
-    run(s);
+    struct mock_replay *s = corridor(2);
+    run_pass(s);
     assert_int_equal(s->chains.width, 2);
     const uint32_t expected[2][2] = {{0, 1}, {1, 0}};
     assert_memory_equal(s->chains.texels.u, expected, sizeof expected);
@@ -160,11 +160,11 @@ static void a_chain_is_no_longer_than_there_are_cube_maps(void **state) {
 
 static void centres_lose_nothing_far_from_the_origin(void **state) {
     (void)state;
-    struct stand_in *s = corridor(1);
+    struct mock_replay *s = corridor(1);
     s->frame.metres_per_unit = 0.01;
     s->cubemaps[0].center[0] = 1e8 + 0.125; /* 1,000 km */
     s->context.eye[0] = 1e8;
-    run(s);
+    run_pass(s);
     assert_true(s->center.texels.f[0] == 0.00125f); /* a float holds no 1e8 + 0.125 */
     assert_true(s->center.texels.f[3] == 1.0f);
     free(s);
@@ -172,15 +172,15 @@ static void centres_lose_nothing_far_from_the_origin(void **state) {
 
 static void no_cube_map_is_an_error(void **state) {
     (void)state;
-    struct stand_in *s = corridor(0);
+    struct mock_replay *s = corridor(0);
     struct glint_error err = {0};
     assert_false(glint_pass_find("cubemap_active", "nearest")->host(&s->context, &err));
     assert_int_equal(err.code, GLINT_ERROR_USAGE);
     free(s);
 }
 
-/* How far a point (relative to the eye, metres) lies outside row i's planes, at most; -1e30 without planes. */
-static double outside(const struct stand_in *s, uint32_t i, const double at[3]) {
+/* The largest distance by which a point (relative to the eye, metres) is outside of row i's planes; -1e30 without planes. */
+static double outside(const struct mock_replay *s, uint32_t i, const double at[3]) {
     const float *row = &s->volumes.texels.f[4 * s->volumes.width * i];
     double most = -1e30;
     for (uint32_t k = 1; k <= (uint32_t)row[0]; ++k) {
@@ -195,7 +195,7 @@ static double outside(const struct stand_in *s, uint32_t i, const double at[3]) 
 
 static void inner_volumes_become_planes_and_spheres_around_the_eye(void **state) {
     (void)state;
-    struct stand_in *s = corridor(4);
+    struct mock_replay *s = corridor(4);
     s->context.eye[0] = 1000;
     s->frame.metres_per_unit = 0.5;
     s->frame.has_player = true;
@@ -206,16 +206,16 @@ static void inner_volumes_become_planes_and_spheres_around_the_eye(void **state)
     sphere->inner = GLINT_VOLUME_SPHERE;
     sphere->sphere_center[1] = 3;
     sphere->sphere_radius = 5;
-    hull->inner = GLINT_VOLUME_HULL; /* |x| + |y| + |z| <= 1 about its centre */
+    hull->inner = GLINT_VOLUME_HULL; /* |x| + |y| + |z| <= 1 around its centre */
     hull->plane_count = 8;
     for (int i = 0; i < 8; ++i) {
         for (int k = 0; k < 3; ++k) hull->planes[i][k] = i >> k & 1 ? 7 : -7;
         hull->planes[i][3] = -7;
     }
-    run(s);
+    run_pass(s);
     assert_int_equal(s->volumes.width, 9);
     assert_int_equal(s->volumes.height, 4);
-    /* In metres from the eye, whose unit is half a metre: the box has its centre at (0.5, 0, 0). */
+    /* in metres from the eye, with a unit of half a metre: the centre of the box is at (0.5, 0, 0) */
     const double corner[3] = {0.5 - 0.5, -1, -1.5}, other[3] = {0.5 + 1, 1.5, 2};
     const double beyond[3] = {0.5 + 1.25, 0, 0};
     assert_true(fabs(outside(s, 0, corner) - (0)) < 1e-6);

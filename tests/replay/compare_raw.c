@@ -1,5 +1,5 @@
-/* compare_raw WIDTH HEIGHT FOUND TRUTH MAPS PPD EXPOSURE START STOP: compares two files of R G B floats, prints the figures by name and
-   writes the maps of FLIP and HDR-FLIP; for tests in other languages. */
+/* compare_raw WIDTH HEIGHT FOUND TRUTH MAPS PPD EXPOSURE START STOP: compares two files of R G B floats, prints the metrics by name and
+   writes the maps of FLIP and HDR-FLIP, for tests in other languages. */
 #include <stdio.h>
 #include <stdlib.h>
 

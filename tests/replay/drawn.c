@@ -7,7 +7,7 @@
 #include "noise.h"
 #include "plain_capture.h"
 
-/* Which pixels reflect. */
+/* The pattern of the reflecting pixels. */
 enum shape { ALL, BLOCK, STRIPES, SCATTERED, SQUARES, SMOOTH_ONES, SHAPES };
 static const char *const shape_names[SHAPES] = {"all",     "a block",    "stripes", "scattered pixels",
                                                 "squares", "smooth ones"};
@@ -16,17 +16,17 @@ enum { CUBES_MOST = 4, FACE_SIZES = 8 };
 struct drawn {
     uint32_t seed, frame;
     enum shape shape;
-    double share;            /* of the pixels that reflect, roughly */
-    uint32_t wide, across;   /* of squares and stripes, which stand so far apart; pixels */
-    double from[2], to[2];   /* of the block, parts of the picture */
+    double share;            /* approximate fraction of reflecting pixels */
+    uint32_t wide, across;   /* size and spacing of squares and stripes in pixels */
+    double from[2], to[2];   /* of the block, relative to the image */
     double slope;            /* of the stripes */
-    double roughness[2];     /* from the one to the other */
-    double patch_px;         /* one roughness for so many pixels */
-    double sky, sky_patches; /* part of the picture above which there is sky, of patches that are sky */
-    double tilt, moved_px;   /* of normals, and from frame to frame */
+    double roughness[2];     /* range */
+    double patch_px;         /* size of areas with constant roughness */
+    double sky, sky_patches; /* fraction of the image above which there is sky, and of patches that are sky */
+    double tilt, moved_px;   /* of normals, and per frame */
 };
 
-/* What is drawn first has the numbers from 0. */
+/* Names of random numbers, in the order in which they are used. */
 enum draw {
     WIDTH,
     HEIGHT,
@@ -68,7 +68,7 @@ static double draw(uint32_t seed, enum draw what) {
 static double between(uint32_t seed, enum draw what, double low, double high) {
     return low + (high - low) * draw(seed, what);
 }
-/* A number of a place; kind: another one for each use. */
+/* A random number of a position; `kind` distinguishes uses. */
 static double at_place(const struct drawn *d, uint32_t kind, double x, double y) {
     return noise(d->seed ^ kind * 0x9E3779B9u,
                  (uint32_t)(int32_t)floor(y) << 16 ^ ((uint32_t)(int32_t)floor(x) & 0xFFFF));
@@ -152,20 +152,20 @@ static void paint(const struct plain *plain, float *values) {
     }
 }
 
-/* ---- What cube maps show: colours of a few hundred directions; some let the sky through above ---- */
+/* ---- Contents of cube maps: colours of a few hundred directions; some have sky at the top ---- */
 
 static double of_direction(uint32_t kind, const double d[3]) {
     const uint32_t place =
         (uint32_t)((d[0] + 1) * 6) << 16 ^ (uint32_t)((d[1] + 1) * 6) << 8 ^ (uint32_t)((d[2] + 1) * 6);
     return noise(kind, place);
 }
-static void closed(uint32_t number, const double direction[3], float out[5]) {
+static void closed_cubemap(uint32_t number, const double direction[3], float out[5]) {
     for (uint32_t k = 0; k < 3; k++) out[k] = (float)(0.05 + 5 * pow(of_direction(31 * number + k, direction), 3));
     out[3] = 1;
     out[4] = (float)(3 + 6 * of_direction(31 * number + 3, direction));
 }
 static void open_above(uint32_t number, const double direction[3], float out[5]) {
-    closed(number, direction, out);
+    closed_cubemap(number, direction, out);
     if (direction[1] < 0.2 + 0.3 * of_direction(31 * number + 4, direction)) return;
     memset(out, 0, 4 * sizeof *out);
     out[4] = INFINITY;
@@ -175,7 +175,7 @@ static void sky(const double direction[3], float out[3]) {
         out[k] = (float)(1 + 0.7 * direction[k] + 8 * pow(of_direction(900 + k, direction), 9));
 }
 
-/* Water and a pane, each over a part of the picture. */
+/* Water and a pane, each over part of the image. */
 static void layer(uint32_t x, uint32_t y, float out[9]) {
     static const float there[9] = {0.1f, 0.2f, 0.3f, 0.5f, 0, 0.6f, 0.8f, 3, 0.2f}, none[9] = {[7] = INFINITY};
     memcpy(out, (x / 5 + y / 3) % 3 == 0 ? there : none, sizeof there);
@@ -191,7 +191,7 @@ static void draw_cubes(uint32_t seed, struct plain *plain) {
     plain->cube_count = (uint32_t)(draw(seed, CUBES) * (CUBES_MOST + 1));
     plain->cube_size = faces[(int)(draw(seed, FACE) * FACE_SIZES)];
     plain->color_only = draw(seed, DISTANCES) < 0.1;
-    if (plain->cube_count) plain->cube = draw(seed, OPEN_CUBES) < 0.6 ? open_above : closed;
+    if (plain->cube_count) plain->cube = draw(seed, OPEN_CUBES) < 0.6 ? open_above : closed_cubemap;
     for (uint32_t i = 0; i < plain->cube_count; i++) {
         struct glint_cubemap *cube = &plain->cubes[i];
         for (uint32_t k = 0; k < 3; k++) cube->center[k] = 4 * noise(seed, CENTRES + 3 * i + k) - 2;

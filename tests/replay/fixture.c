@@ -1,4 +1,4 @@
-/* A device under validation and a tiny capture: a room's floor with a mirror to rough gradient under a sky. */
+/* A device with validation and a tiny capture: a floor with roughness from mirror to rough, a wall and sky. */
 #include "fixture.h"
 
 #include <dirent.h>
@@ -15,7 +15,7 @@
 
 enum { W = FIXTURE_WIDTH, H = FIXTURE_HEIGHT, N = FIXTURE_FACE };
 
-/* A camera at (0, 1.5, 0) that looks along -Z over a floor at y = 0 to a wall at z = -6; sky above the wall's 3 m. */
+/* A camera at (0, 1.5, 0) that looks along -Z at a floor at y = 0 and a wall at z = -6, with sky above the wall's 3 m. */
 struct gbuffer {
     float depth[H][W], normal[H][W][3], material[H][W][3], albedo[H][W][3], lit[H][W][3];
 };
@@ -66,7 +66,7 @@ static bool add_gbuffer(struct glint_writer *writer, const struct gbuffer *g, st
                &(struct glint_part){.name = "lit", .width = W, .height = H, .channels = lit, .channel_count = 3}, err);
 }
 
-/* A cube map of a box of 6 m around its centre, whose colour tells the cube map and the face apart. */
+/* A cube map of a box of 6 m around its centre, whose colours identify the cube map and the face. */
 static bool add_cubemap(struct glint_writer *writer, int number, int color, const char *sibling,
                         struct glint_error *err) {
     static const char *const names[] = {"R", "G", "B", "A", "distance.Z"};
@@ -145,7 +145,7 @@ bool fixture_write_cubemaps(const char *path, int first, struct glint_error *err
     return ok;
 }
 
-/* False when a device is needed, or when there is one that nothing validates. Without a device the tests skip. */
+/* False if a device is required but missing, or is not validated. Without a device the tests are skipped. */
 static bool make_device(struct fixture *fixture, struct glint_error *err) {
     fixture->device =
         glint_device_create(&(struct glint_device_options){.validation = !getenv("GLINT_TEST_UNCHECKED")}, err);
@@ -284,6 +284,11 @@ const struct glint_pass_result *fixture_result(const struct fixture *fixture, co
         if (strcmp(results[i].pass->slot, slot) == 0) return &results[i];
     fail_msg("no result of %s", slot);
     return NULL;
+}
+
+bool fixture_stop_at_resolve(void *user, const char *what, double done) {
+    (void)user, (void)done;
+    return strcmp(what, "resolve") != 0;
 }
 
 void fixture_says(const struct glint_error *err, const char *part) {

@@ -1,13 +1,13 @@
-/* A device under validation and a tiny capture, for the tests of replay. */
+/* A device with validation and a tiny capture for the tests of replay. */
 #ifndef GLINT_TEST_FIXTURE_H
 #define GLINT_TEST_FIXTURE_H
 
 #include "glint/replay.h"
 
 struct fixture {
-    char folder[64]; /* a temporary one; the capture lies in it */
+    char folder[64]; /* a temporary folder, which contains the capture */
     char capture_path[128];
-    struct glint_device *device; /* NULL for tests of the host */
+    struct glint_device *device; /* NULL for tests without a device */
     struct glint_capture *capture;
     struct glint_pipeline *pipeline;
     struct glint_replay *replay;
@@ -15,7 +15,7 @@ struct fixture {
 
 enum {
     FIXTURE_WIDTH = 50,
-    FIXTURE_HEIGHT = 31, /* odd, so that half sizes round */
+    FIXTURE_HEIGHT = 31, /* odd, so that half sizes are rounded */
     FIXTURE_FACE = 8,
     FIXTURE_CUBEMAPS = 3
 };
@@ -23,34 +23,36 @@ enum {
 struct fixture_options {
     bool matte; /* nothing reflects */
     bool no_cubemaps;
-    const struct glint_part *extra; /* more parts, or NULL */
+    const struct glint_part *extra; /* additional parts, or NULL */
     size_t extra_count;
-    uint32_t number; /* of the frame, 0: 7; each has other depths */
+    uint32_t number; /* of the frame, 0: 7; frames have different depths */
     bool cut;
-    const char *cubemaps; /* a file beside the capture that holds the cube maps, or NULL */
+    const char *cubemaps; /* a file beside the capture with the cube maps, or NULL */
 };
-/* Writes the capture. False when the writer refused it. */
+/* Writes the capture. False if the writer refuses it. */
 bool fixture_write_capture(const char *path, const struct fixture_options *options, struct glint_error *err);
 
-/* Cube maps alone, for captures that name the file; `first` numbers their colours. */
+/* Writes a file with cube maps alone; `first` selects their colours. */
 bool fixture_write_cubemaps(const char *path, int first, struct glint_error *err);
 
-/* cmocka group fixtures: *state receives a struct fixture. Without a Vulkan device the tests skip, unless
-   GLINT_REQUIRE_DEVICE=1; a device without the validation layer is a failure. */
+/* cmocka group fixtures: *state is a struct fixture. Without a Vulkan device the tests are skipped unless GLINT_REQUIRE_DEVICE=1; a
+   device without the validation layer is a failure. */
 int fixture_setup_device(void **state);
 int fixture_setup_host(void **state);
 int fixture_teardown(void **state);
-/* Skips the calling test when there is no device. */
+/* Skips the calling test if there is no device. */
 struct fixture *fixture_need_device(void **state);
 
-/* Runs the fixture's pipeline, writes the last run to a folder beside the capture, finds a result: or fail the test. */
+/* Runs the fixture's pipeline, writes the last run to a folder beside the capture, or finds a result; fails the test on errors. */
 void fixture_run(struct fixture *fixture, const struct glint_replay_options *options);
 void fixture_write_run(struct fixture *fixture, const char *name, char path[128]);
 const struct glint_pass_result *fixture_result(const struct fixture *fixture, const char *slot);
-/* Fails the calling test unless the message holds `part`. */
+/* A progress callback that stops at the pass resolve. */
+bool fixture_stop_at_resolve(void *user, const char *what, double done);
+/* Fails the calling test unless the message contains `part`. */
 void fixture_says(const struct glint_error *err, const char *part);
 
-/* Fails the calling test when the validation layer said anything. */
+/* Fails the calling test if the validation layer reported anything. */
 void fixture_check_messages(const struct fixture *fixture);
 
 /* All images of the last run in their own types. */
@@ -65,7 +67,7 @@ struct snapshot {
 };
 void snapshot_take(struct snapshot *snapshot, struct glint_replay *replay);
 void snapshot_free(struct snapshot *snapshot);
-/* Fails the calling test unless every image of `part` has the same bits in `whole`; returns how many there were. */
+/* Fails the calling test unless every image of `part` has the same bits in `whole`; returns the number of images. */
 size_t snapshot_compare(const struct snapshot *part, const struct snapshot *whole);
 
 #endif

@@ -1,4 +1,4 @@
-/* Work on cube maps that one process leaves for the next, here one replay for another. */
+/* Results for cube maps that one process stores for the next, here one replay for another. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,8 +13,8 @@
 
 #include "fixture.h"
 
-/* What a new process knows: nothing. */
-static void start_anew(struct fixture *fixture, struct glint_capture *capture) {
+/* Begins with an empty state, as in a new process. */
+static void reset_replay(struct fixture *fixture, struct glint_capture *capture) {
     struct glint_error err = {0};
     glint_replay_destroy(&fixture->replay);
     fixture->replay = glint_replay_create(fixture->device, &err);
@@ -28,11 +28,11 @@ static bool executed(struct fixture *fixture, const char *slot) {
     return !result->cached;
 }
 
-/* A run in a process of its own, with the pictures in `*snapshot`. */
-static void run_anew(struct fixture *fixture, struct glint_capture *capture, struct glint_replay_options options,
-                     const char *name, struct snapshot *snapshot) {
+/* A run as in a new process, whose images are in `*snapshot`. */
+static void run_in_new_process(struct fixture *fixture, struct glint_capture *capture,
+                               struct glint_replay_options options, const char *name, struct snapshot *snapshot) {
     char folder[128];
-    start_anew(fixture, capture);
+    reset_replay(fixture, capture);
     fixture_run(fixture, &options);
     fixture_check_messages(fixture);
     if (name) fixture_write_run(fixture, name, folder);
@@ -52,7 +52,7 @@ static void add_chain(struct fixture *fixture) {
     assert_true(glint_pipeline_use(fixture->pipeline, "sky_mips=prefilter", &err));
 }
 
-/* Catches: bits lost on the way through the file, a pass executed all the same, or a file of the run that differs. */
+/* Catches: bits lost in the file, a pass that runs nevertheless, or a different file of the run. */
 static void the_next_process_finds_the_work_done(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct snapshot first, second;
@@ -60,29 +60,29 @@ static void the_next_process_finds_the_work_done(void **state) {
     snprintf(cache, sizeof cache, "%s/found", fixture->folder);
     const struct glint_replay_options options = {.cache = cache};
     add_chain(fixture);
-    run_anew(fixture, fixture->capture, options, "one", &first);
+    run_in_new_process(fixture, fixture->capture, options, "one", &first);
     assert_true(executed(fixture, "cubemap_mips") && executed(fixture, "sky_mips"));
-    run_anew(fixture, fixture->capture, options, "two", &second);
+    run_in_new_process(fixture, fixture->capture, options, "two", &second);
     assert_false(executed(fixture, "cubemap_mips") || executed(fixture, "sky_mips"));
     assert_int_equal(snapshot_compare(&second, &first), first.count);
     assert_true(same_file(fixture, "one", "two", "cubemap_mips") && same_file(fixture, "one", "two", "compose"));
     snapshot_free(&second);
-    const char *const outputs[] = {"composed", NULL}; /* what is not wanted comes from there too */
+    const char *const outputs[] = {"composed", NULL}; /* images that are not requested are restored, too */
     struct glint_replay_options few = options;
     few.outputs = outputs;
-    run_anew(fixture, fixture->capture, few, NULL, &second);
+    run_in_new_process(fixture, fixture->capture, few, NULL, &second);
     assert_false(executed(fixture, "cubemap_mips"));
     assert_int_equal(snapshot_compare(&second, &first), 1);
     snapshot_free(&second);
     few = options;
     few.no_cache = true;
-    run_anew(fixture, fixture->capture, few, NULL, &second);
+    run_in_new_process(fixture, fixture->capture, few, NULL, &second);
     assert_true(executed(fixture, "cubemap_mips"));
     snapshot_free(&second);
     snapshot_free(&first);
 }
 
-/* Catches: keys that leave out a parameter, or the capture's contents. */
+/* Catches: keys that omit a parameter or the contents of the capture. */
 static void other_work_is_not_found(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct glint_error err = {0};
@@ -92,25 +92,25 @@ static void other_work_is_not_found(void **state) {
     snprintf(path, sizeof path, "%s/other.exr", fixture->folder);
     const struct glint_replay_options options = {.cache = cache};
     add_chain(fixture);
-    run_anew(fixture, fixture->capture, options, "one", &first);
+    run_in_new_process(fixture, fixture->capture, options, "one", &first);
     assert_true(glint_pipeline_set(fixture->pipeline, "cubemap_mips.reach=2", &err));
-    run_anew(fixture, fixture->capture, options, NULL, &second);
+    run_in_new_process(fixture, fixture->capture, options, NULL, &second);
     assert_true(executed(fixture, "cubemap_mips"));
     assert_false(executed(fixture, "sky_mips"));
     snapshot_free(&second);
     assert_true(glint_pipeline_set(fixture->pipeline, "cubemap_mips.reach=3", &err));
-    assert_true(fixture_write_capture(path, &(struct fixture_options){.number = 8}, &err)); /* its cube maps in it */
+    assert_true(fixture_write_capture(path, &(struct fixture_options){.number = 8}, &err)); /* contains its cube maps */
     struct glint_capture *capture = glint_capture_open(path, NULL, &err);
     assert_non_null(capture);
-    run_anew(fixture, capture, options, NULL, &second);
+    run_in_new_process(fixture, capture, options, NULL, &second);
     assert_true(executed(fixture, "cubemap_mips"));
     snapshot_free(&second);
     snapshot_free(&first);
-    start_anew(fixture, fixture->capture);
+    reset_replay(fixture, fixture->capture);
     glint_capture_close(&capture);
 }
 
-/* Catches: pictures made of a file that went bad, and one that stays bad. */
+/* Catches: images restored from a damaged file, and a damaged file that is not replaced. */
 static void damaged_files_are_made_again(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct snapshot first, second;
@@ -118,7 +118,7 @@ static void damaged_files_are_made_again(void **state) {
     snprintf(cache, sizeof cache, "%s/damaged", fixture->folder);
     const struct glint_replay_options options = {.cache = cache};
     add_chain(fixture);
-    run_anew(fixture, fixture->capture, options, "one", &first);
+    run_in_new_process(fixture, fixture->capture, options, "one", &first);
     DIR *entries = opendir(cache);
     assert_non_null(entries);
     for (struct dirent *entry; (entry = readdir(entries));) {
@@ -127,11 +127,11 @@ static void damaged_files_are_made_again(void **state) {
         assert_int_equal(truncate(path, 700), 0);
     }
     closedir(entries);
-    run_anew(fixture, fixture->capture, options, "two", &second);
+    run_in_new_process(fixture, fixture->capture, options, "two", &second);
     assert_true(executed(fixture, "cubemap_mips"));
     assert_int_equal(snapshot_compare(&second, &first), first.count);
     snapshot_free(&second);
-    run_anew(fixture, fixture->capture, options, NULL, &second);
+    run_in_new_process(fixture, fixture->capture, options, NULL, &second);
     assert_false(executed(fixture, "cubemap_mips"));
     snapshot_free(&second);
     snapshot_free(&first);

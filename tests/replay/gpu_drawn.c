@@ -1,5 +1,5 @@
-/* A plan changes no bit, on captures that nobody thought of: gpu_drawn [COUNT [FIRST SEED]]. Each is replayed with one preset, by turns
-   all of them; a seed that fails is printed. */
+/* Plans change no bit on random captures: gpu_drawn [COUNT [FIRST SEED]]. Each is replayed with one preset in turn; a seed that fails
+   is printed. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -11,7 +11,8 @@
 #include "drawn.h"
 #include "pair.h"
 
-static uint32_t count = 6, first = 6; /* two of these six once found lookups that depended on what lay beside them */
+static uint32_t count = 6,
+                first = 6; /* two of these six once revealed lookups that depended on neighbouring invocations */
 
 /* Seeds of small captures that once found that a cube map's colour was divided by its opacity only in frames that show sky. */
 static const uint32_t found_before[] = {65, 115};
@@ -22,7 +23,7 @@ static size_t preset_count(void) {
     return count;
 }
 
-/* Most store floats: halves round off most of what could differ. */
+/* Most store floats, because halves round most differences off. */
 static bool stores_halves(uint32_t seed) {
     return seed / preset_count() % 4 == 3;
 }
@@ -50,8 +51,8 @@ static size_t differences(struct pair *pair, uint32_t seed) {
     return differ;
 }
 
-/* Catches: whatever a plan leaves out that somebody reads, and arithmetic that depends on what lies beside it. Seeds of one preset
-   and precision follow each other, so that few programs have to be compiled. */
+/* Catches: whatever a plan skips that is read, and arithmetic that depends on neighbouring invocations. Seeds with the same preset and
+   precision are consecutive, so that few programs are compiled. */
 static void plans_of_drawn_captures_change_no_bit(void **state) {
     struct pair *pair = pair_of(state);
     const size_t presets = preset_count();

@@ -1,4 +1,4 @@
-/* A judge on a device under validation: its errors, its counts of rays, its times. */
+/* A judge on a device with validation: its errors, counts of rays and times. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -19,7 +19,7 @@ static struct glint_judge *judge_of(struct fixture *fixture, struct glint_captur
     return judge;
 }
 
-/* Catches: another image or another mask compared, and a capture without a truth taken for an error. */
+/* Catches: comparisons of another image or with another mask, and a capture without truth treated as an error. */
 static void errors_are_those_of_the_reflection(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct glint_judge *judge = judge_of(fixture, fixture->capture, false);
@@ -46,7 +46,7 @@ static void errors_are_those_of_the_reflection(void **state) {
     fixture_check_messages(fixture);
 }
 
-/* Tracers that run although nothing reflects send rays that nobody asked for. */
+/* Tracers that run although nothing reflects have rays that must not be counted. */
 static void rays_of_surfaces_that_reflect_nothing_are_not_counted(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct glint_error err = {0};
@@ -70,7 +70,7 @@ static void rays_of_surfaces_that_reflect_nothing_are_not_counted(void **state) 
     fixture_check_messages(fixture);
 }
 
-/* A truth that knows nothing of what lies right: neither errors nor the rows of rays go by what it holds there. */
+/* A truth that is unknown in the right half: neither errors nor rows of rays depend on its values there. */
 static void what_the_truth_does_not_know_counts_nowhere(void **state) {
     enum { W = FIXTURE_WIDTH, H = FIXTURE_HEIGHT };
     struct fixture *fixture = fixture_need_device(state);
@@ -99,7 +99,7 @@ static void what_the_truth_does_not_know_counts_nowhere(void **state) {
     }
     for (size_t r = 0; r < verdict.ends.count; r++) {
         counted += verdict.ends.rows[r].pixels;
-        assert_false(verdict.ends.rows[r].error > 0.95); /* as it is against 1000 */
+        assert_false(verdict.ends.rows[r].error > 0.95); /* the error against the value 1000 there */
     }
     assert_int_equal(verdict.errors[GLINT_TARGET_TRUTH].rows[0].pixels, known);
     assert_true(counted > 100 && counted <= given);
@@ -109,8 +109,8 @@ static void what_the_truth_does_not_know_counts_nowhere(void **state) {
     fixture_check_messages(fixture);
 }
 
-/* Catches: a pass that costs one pipeline something and the other nothing, sums that leave a pass out, and rounds that
-   repeat the figures of the round before. */
+/* Catches: a pass that counts for one pipeline and not for the other, sums that omit a pass, and rounds that repeat the figures of the
+   previous round. */
 static void pipelines_pay_alike_for_what_they_share(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct glint_judge *judge = judge_of(fixture, fixture->capture, false);

@@ -1,4 +1,4 @@
-/* Pipelines that take turns on one replay: each finds its own images again, and what changed alone is run. */
+/* Alternating pipelines on one replay: each finds its own images again, and only what changed runs. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -13,8 +13,8 @@
 
 enum { PLENTY = 64 << 20 };
 
-/* The fixture's pipeline, changed by assignments: "slot=variant", or "slot.parameter=value". */
-static struct glint_pipeline *changed(const struct fixture *fixture, const char *const *assignments) {
+/* The fixture's pipeline with assignments: "slot=variant", or "slot.parameter=value". */
+static struct glint_pipeline *changed_pipeline(const struct fixture *fixture, const char *const *assignments) {
     struct glint_error err = {0};
     struct glint_pipeline *pipeline = glint_pipeline_copy(fixture->pipeline, &err);
     assert_non_null(pipeline);
@@ -34,14 +34,14 @@ static struct glint_replay *loaded(struct fixture *fixture) {
     return replay;
 }
 
-static void run(struct glint_replay *replay, const struct glint_pipeline *pipeline,
-                const struct glint_replay_options *options) {
+static void run_pipeline(struct glint_replay *replay, const struct glint_pipeline *pipeline,
+                         const struct glint_replay_options *options) {
     struct glint_error err = {0};
     if (!glint_replay_run(replay, pipeline, options, NULL, NULL, &err)) fail_msg("%s", err.message);
 }
 
-/* The slots that executed, in order, each followed by a blank. */
-static const char *executed(struct glint_replay *replay) {
+/* The executed slots in order, each followed by a blank. */
+static const char *executed_slots(struct glint_replay *replay) {
     static char text[512];
     size_t count;
     const struct glint_pass_result *results = glint_replay_results(replay, &count);
@@ -54,11 +54,11 @@ static const char *executed(struct glint_replay *replay) {
     return text;
 }
 
-/* The bits are those of a replay that has no other pipeline's images; `fresh` runs everything. */
+/* The bits equal those of a replay without images of other pipelines; `fresh` runs everything. */
 static void check_fresh(struct glint_replay *fresh, struct glint_replay *replay,
                         const struct glint_pipeline *pipeline) {
     struct snapshot found, expected;
-    run(fresh, pipeline, &(struct glint_replay_options){.no_cache = true});
+    run_pipeline(fresh, pipeline, &(struct glint_replay_options){.no_cache = true});
     snapshot_take(&expected, fresh);
     snapshot_take(&found, replay);
     assert_int_equal(found.count, expected.count);
@@ -75,29 +75,29 @@ static uint64_t spare_bytes(const struct glint_replay *replay) {
 
 static const char late[] = "screen_trace cubemap_select cubemap_trace resolve upscale compose ";
 
-/* Catches: images of another variant taken for one's own, ones that are lost when another pipeline has its turn, captures
-   read again, and passes run again though nothing changed. */
+/* Catches: images of another variant that are reused, images that another pipeline evicts, captures that are read again, and passes
+   that run again although nothing changed. */
 static void pipelines_that_take_turns_find_their_own(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     static const char *const other[] = {"screen_trace=dda", "cubemap_trace=box", "blur=plus", NULL};
-    struct glint_pipeline *a = changed(fixture, NULL), *b = changed(fixture, other);
+    struct glint_pipeline *a = changed_pipeline(fixture, NULL), *b = changed_pipeline(fixture, other);
     struct glint_replay *fresh_a = loaded(fixture), *fresh_b = loaded(fixture);
     for (uint64_t keep = 0; keep <= PLENTY; keep += PLENTY) {
         const struct glint_replay_options options = {.keep_bytes = keep};
         struct glint_replay *replay = loaded(fixture);
-        run(replay, a, &options);
+        run_pipeline(replay, a, &options);
         check_fresh(fresh_a, replay, a);
-        run(replay, b, &options);
+        run_pipeline(replay, b, &options);
         const char *expected = "screen_trace cubemap_select cubemap_trace resolve blur upscale compose ";
-        assert_string_equal(executed(replay), expected);
+        assert_string_equal(executed_slots(replay), expected);
         check_fresh(fresh_b, replay, b);
         const double seconds = glint_replay_seconds(replay, "read");
         for (int turn = 0; turn < 2; turn++) {
-            run(replay, a, &options);
-            assert_string_equal(executed(replay), keep ? "" : late);
+            run_pipeline(replay, a, &options);
+            assert_string_equal(executed_slots(replay), keep ? "" : late);
             check_fresh(fresh_a, replay, a);
-            run(replay, b, &options);
-            assert_string_equal(executed(replay), keep ? "" : expected);
+            run_pipeline(replay, b, &options);
+            assert_string_equal(executed_slots(replay), keep ? "" : expected);
             check_fresh(fresh_b, replay, b);
         }
         if (keep) assert_true(glint_replay_seconds(replay, "read") == seconds);
@@ -111,7 +111,7 @@ static void pipelines_that_take_turns_find_their_own(void **state) {
     fixture_check_messages(fixture);
 }
 
-/* Catches: memory that grows with every pipeline, and old images that are used again with what they held. */
+/* Catches: memory that grows with every pipeline, and images that are reused with stale contents. */
 static void what_is_kept_stays_within_its_limit(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct glint_replay *fresh = loaded(fixture);
@@ -121,8 +121,8 @@ static void what_is_kept_stays_within_its_limit(void **state) {
             char set[64];
             snprintf(set, sizeof set, "screen_trace.length_m=%d", 4 + i % 7);
             const char *const one[] = {set, i % 3 ? "upscale=bilinear" : "upscale=best_match", NULL};
-            struct glint_pipeline *pipeline = changed(fixture, one);
-            run(replay, pipeline, &(struct glint_replay_options){.keep_bytes = keep});
+            struct glint_pipeline *pipeline = changed_pipeline(fixture, one);
+            run_pipeline(replay, pipeline, &(struct glint_replay_options){.keep_bytes = keep});
             assert_true(spare_bytes(replay) <= keep);
             if (i % 4 == 3) check_fresh(fresh, replay, pipeline);
             glint_pipeline_destroy(&pipeline);
@@ -133,34 +133,34 @@ static void what_is_kept_stays_within_its_limit(void **state) {
     fixture_check_messages(fixture);
 }
 
-/* Catches: a round that measures what the round before did, or the same work twice; keys that do not tell work apart. */
+/* Catches: a round that times passes of the previous round, or the same pass twice; keys that do not distinguish passes. */
 static void a_round_runs_each_work_once(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     static const char *const other[] = {"upscale=best_match", NULL};
-    struct glint_pipeline *a = changed(fixture, NULL), *b = changed(fixture, other);
+    struct glint_pipeline *a = changed_pipeline(fixture, NULL), *b = changed_pipeline(fixture, other);
     struct glint_replay *replay = loaded(fixture), *fresh_a = loaded(fixture);
     for (uint32_t round = 1; round < 4; round++) {
         const struct glint_replay_options options = {.keep_bytes = PLENTY, .round = round, .repeat = 1};
         uint64_t shared = 0;
         size_t count;
-        run(replay, a, &options);
+        run_pipeline(replay, a, &options);
         char all[128];
         snprintf(all, sizeof all, "downsample %s", late);
-        assert_string_equal(executed(replay), all);
+        assert_string_equal(executed_slots(replay), all);
         const struct glint_pass_result *results = glint_replay_results(replay, &count);
         for (size_t i = 0; i < count; i++)
             if (!strcmp(results[i].pass->slot, "resolve")) shared = results[i].key;
         assert_true(shared != 0);
-        run(replay, b, &options);
-        assert_string_equal(executed(replay), "upscale compose ");
+        run_pipeline(replay, b, &options);
+        assert_string_equal(executed_slots(replay), "upscale compose ");
         results = glint_replay_results(replay, &count);
         for (size_t i = 0; i < count; i++) {
             if (!strcmp(results[i].pass->slot, "resolve")) assert_true(results[i].key == shared);
             if (!strcmp(results[i].pass->slot, "compose")) assert_true(results[i].key && results[i].key != shared);
             assert_int_equal(results[i].time.n, results[i].pass->host || !results[i].cached);
         }
-        run(replay, a, &options);
-        assert_string_equal(executed(replay), "");
+        run_pipeline(replay, a, &options);
+        assert_string_equal(executed_slots(replay), "");
         check_fresh(fresh_a, replay, a);
     }
     glint_replay_destroy(&replay);
@@ -170,16 +170,16 @@ static void a_round_runs_each_work_once(void **state) {
     fixture_check_messages(fixture);
 }
 
-/* Catches: a whole run for diagnostics, though they change no bit of what is there. */
+/* Catches: diagnostics that run the whole pipeline although they change no image that exists. */
 static void diagnostics_run_the_tracers_alone(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct glint_replay *replay = loaded(fixture), *fresh = loaded(fixture);
-    run(replay, fixture->pipeline, NULL);
-    run(replay, fixture->pipeline, &(struct glint_replay_options){.diagnostics = true});
-    assert_string_equal(executed(replay), "screen_trace cubemap_trace ");
+    run_pipeline(replay, fixture->pipeline, NULL);
+    run_pipeline(replay, fixture->pipeline, &(struct glint_replay_options){.diagnostics = true});
+    assert_string_equal(executed_slots(replay), "screen_trace cubemap_trace ");
     assert_non_null(glint_replay_find_image(replay, "screen_fetches"));
-    run(replay, fixture->pipeline, NULL);
-    assert_string_equal(executed(replay), "");
+    run_pipeline(replay, fixture->pipeline, NULL);
+    assert_string_equal(executed_slots(replay), "");
     assert_null(glint_replay_find_image(replay, "screen_fetches"));
     check_fresh(fresh, replay, fixture->pipeline);
     glint_replay_destroy(&fresh);

@@ -1,4 +1,4 @@
-/* Images with levels on a device under validation: written one level at a time, read whole. */
+/* Images with levels on a device with validation: written one level at a time, read as a whole. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -17,7 +17,7 @@ static int level_size(int size, int level) {
     return size >> level ? size >> level : 1;
 }
 
-/* What chain.comp says, in integers, each value below 2^24 and so exact in a float. */
+/* The values of chain.comp in integers below 2^24, which are exact in floats. */
 static void expect_chain(int out[LEVELS][H][W]) {
     for (int y = 0; y < H; y++)
         for (int x = 0; x < W; x++) out[0][y][x] = x + W * y;
@@ -41,8 +41,8 @@ static void expect_chain(int out[LEVELS][H][W]) {
             }
 }
 
-/* Catches: a level written into another one, levels in the wrong order or without a barrier between them, a view that
-   shows fewer levels, and sizes that round up. */
+/* Catches: a level written to another one, levels in the wrong order or without a barrier in between, a view with too few levels, and
+   sizes that are rounded up. */
 static void each_level_comes_from_the_one_before(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     static int expected[LEVELS][H][W];
@@ -76,15 +76,15 @@ static void each_level_comes_from_the_one_before(void **state) {
                 assert_true(seen[(y * W + x) * 4 + i] ==
                             (float)expected[2 * i][fy < bottom ? fy : bottom][fx < right ? fx : right]);
             }
-    assert_true(seen[3] == 5); /* no pass makes cubes: the reader's fallback value */
+    assert_true(seen[3] == 5); /* no pass writes cubes: the reader's fallback value */
     free(seen);
-    float *beside = made_read(fixture, "beside"); /* written in every phase but last in phase 3, at level 0 */
+    float *beside = made_read(fixture, "beside"); /* written in every phase, the last time in phase 3, at level 0 */
     assert_true(beside[0] == 3);
     free(beside);
     assert_null(glint_replay_find_image(fixture->replay, "chain.level6"));
 }
 
-/* Catches: layers in another order than faces, a dispatch that leaves layers out, a view of one cube map alone. */
+/* Catches: layers in another order than faces, a dispatch that omits layers, a view of only one cube map. */
 static void cube_maps_are_written_by_layer_and_read_by_direction(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct glint_error err = {0};
@@ -108,7 +108,7 @@ static void cube_maps_are_written_by_layer_and_read_by_direction(void **state) {
             for (int x = 0; x < face; x++) assert_true(pixels[y * face + x] == (float)(y / face + 1000 * l));
         free(pixels);
     }
-    assert_true(fixture_result(fixture, "cubes")->cached_work); /* cube maps alone */
+    assert_true(fixture_result(fixture, "cubes")->cached_work); /* it processes only cube maps */
     assert_false(fixture_result(fixture, "chain")->cached_work);
     assert_false(fixture_result(fixture, "reader")->cached_work);
     float *seen = made_read(fixture, "seen");
@@ -119,7 +119,7 @@ static void cube_maps_are_written_by_layer_and_read_by_direction(void **state) {
     fixture_check_messages(fixture);
 }
 
-/* Catches: levels that a run folder loses, swaps or cannot give back. */
+/* Catches: levels that a run folder omits, swaps or cannot restore. */
 static void every_cut_of_levels_gives_the_bits_of_the_whole(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct made made;
@@ -128,7 +128,7 @@ static void every_cut_of_levels_gives_the_bits_of_the_whole(void **state) {
     made_check_cuts(fixture, &made, (struct glint_replay_options){.float_precision = true});
 }
 
-/* Catches: levels left out of what memory an image shares, and keys that forget levels. */
+/* Catches: levels missing in the size of aliased memory, and keys that omit levels. */
 static void levels_are_kept_and_share_memory_as_images_do(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     const char *const outputs[] = {"seen", NULL};
@@ -145,7 +145,7 @@ static void levels_are_kept_and_share_memory_as_images_do(void **state) {
     snapshot_free(&whole), snapshot_free(&part);
 }
 
-/* Catches: a run that takes an incomplete or foreign set of levels for the image. */
+/* Catches: a run that accepts an incomplete or foreign set of levels. */
 static void a_missing_level_is_named(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct glint_error err = {0};
@@ -164,8 +164,8 @@ static void a_missing_level_is_named(void **state) {
     fixture_says(&err, "image chain.level3");
 }
 
-/* Catches: an engine's chain taken for its finest level, or one that lacks a level. */
-static void an_engines_chain_stands_in_for_a_pass(void **state) {
+/* Catches: an engine's chain that is reduced to its finest level, or one that misses a level. */
+static void an_engines_chain_replaces_a_pass(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct glint_error err = {0};
     const char *const last[] = {"reader", NULL};
@@ -218,7 +218,7 @@ int main(void) {
         cmocka_unit_test(every_cut_of_levels_gives_the_bits_of_the_whole),
         cmocka_unit_test(levels_are_kept_and_share_memory_as_images_do),
         cmocka_unit_test(a_missing_level_is_named),
-        cmocka_unit_test(an_engines_chain_stands_in_for_a_pass),
+        cmocka_unit_test(an_engines_chain_replaces_a_pass),
     };
     return cmocka_run_group_tests(tests, fixture_setup_device, fixture_teardown);
 }

@@ -13,13 +13,13 @@
 
 enum { W = (FIXTURE_WIDTH + 1) / 2, H = (FIXTURE_HEIGHT + 1) / 2, NOTHING = 7 };
 
-static void set(struct made *made, size_t place, const char *parameter) {
+static void set_parameter(struct made *made, size_t place, const char *parameter) {
     const struct glint_pass *pass = made->pipeline.passes[place].pass;
     for (size_t r = 0; r < pass->row_count; r++)
         if (pass->rows[r].name && strcmp(pass->rows[r].name, parameter) == 0) made->values[place][r] = 1;
 }
 
-/* `added`: to a texel's value by its class, 0 to 4; -1: the pass does not work there. */
+/* `added`: the value added to a texel by its class, 0 to 4; -1: the pass does not run there. */
 static void check_worked(struct fixture *fixture, const int added[5]) {
     float *worked = made_read(fixture, "worked");
     for (int y = 0; y < H; y++)
@@ -32,41 +32,41 @@ static void check_worked(struct fixture *fixture, const int added[5]) {
     free(worked);
 }
 
-/* Catches: group counts taken from the wrong range or before the list is complete, a list that is not made or not the first, the
-   whole image run beside it, and stale texels in the rest (worked held other values before). */
+/* Catches: group counts of the wrong range or read before the list is complete, a list that is missing or not written first, a dispatch
+   over the whole image in addition, and stale texels elsewhere (worked contained other values). */
 static void a_pass_works_on_its_list(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct made made, alone;
     MADE(&alone, &made_worker);
     MADE(&made, &made_sieve, &made_worker);
-    set(&alone, 0, "tell"), set(&made, 1, "tell");
+    set_parameter(&alone, 0, "tell"), set_parameter(&made, 1, "tell");
     made_run(fixture, &alone, &(struct glint_replay_options){.no_cache = true});
     check_worked(fixture, (const int[]){0, 0, 0, 0, 0}); /* no list: the whole image */
     made_run(fixture, &made, &(struct glint_replay_options){.no_cache = true, .repeat = 3});
     check_worked(fixture, (const int[]){-1, RANGE_smooth + 1, RANGE_smooth + 1, -1, -1});
-    set(&made, 0, "empty");
+    set_parameter(&made, 0, "empty");
     made_run(fixture, &made, &(struct glint_replay_options){.no_cache = true});
-    check_worked(fixture, (const int[]){-1, -1, -1, -1, -1}); /* an empty range starts nothing */
+    check_worked(fixture, (const int[]){-1, -1, -1, -1, -1}); /* an empty range starts no workgroup */
 }
 
-/* Catches: a skipped maker that leaves its readers with a list of nothing instead of none. */
+/* Catches: a skipped maker whose readers then have an empty list instead of none. */
 static void without_its_maker_a_list_is_the_whole_image(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     const char *const skip[] = {"sieve", NULL};
     struct made made;
     MADE(&made, &made_sieve, &made_worker);
-    set(&made, 1, "tell");
+    set_parameter(&made, 1, "tell");
     made_run(fixture, &made, &(struct glint_replay_options){.no_cache = true, .skip = skip});
     check_worked(fixture, (const int[]){0, 0, 0, 0, 0});
 }
 
-/* Catches: what lay in memory before, in the part of a list that its items do not reach. */
+/* Catches: stale memory in the part of a list after its items. */
 static void a_list_is_empty_behind_its_items(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct glint_error err = {0};
     struct made made;
     MADE(&made, &made_forger);
-    made_run(fixture, &made, &(struct glint_replay_options){.no_cache = true}); /* the images hold fives */
+    made_run(fixture, &made, &(struct glint_replay_options){.no_cache = true}); /* the images contain fives */
     MADE(&made, &made_sieve, &made_worker);
     made_run(fixture, &made, &(struct glint_replay_options){.no_cache = true});
     const struct glint_image *image = glint_replay_find_image(fixture->replay, "list_a");
@@ -80,7 +80,7 @@ static void a_list_is_empty_behind_its_items(void **state) {
     free(texels);
 }
 
-/* Catches: a pass that works otherwise when its list is not made. */
+/* Catches: a pass whose result differs if its list is not written. */
 static void every_cut_of_lists_gives_the_bits_of_the_whole(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct made made;
@@ -89,14 +89,14 @@ static void every_cut_of_lists_gives_the_bits_of_the_whole(void **state) {
     check_worked(fixture, (const int[]){-1, 0, 0, -1, -1});
 }
 
-/* Catches: a header from a stranger that starts four billion workgroups, or too few to write every texel. */
+/* Catches: an untrusted header that starts four billion workgroups, or too few to write every texel. */
 static void a_list_of_a_run_is_not_taken(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     const char *const passes[] = {"worker", NULL}, *const forger[] = {"forger", NULL};
     char folder[128];
     struct made made;
     MADE(&made, &made_forger, &made_worker);
-    set(&made, 1, "tell");
+    set_parameter(&made, 1, "tell");
     made_run(fixture, &made, &(struct glint_replay_options){.no_cache = true, .passes = forger});
     fixture_write_run(fixture, "forged", folder);
     made_run(fixture, &made, &(struct glint_replay_options){.no_cache = true, .passes = passes, .inputs = folder});
@@ -104,9 +104,9 @@ static void a_list_of_a_run_is_not_taken(void **state) {
     fixture_check_messages(fixture);
 }
 
-/* The worker with a change of its first row of that kind and name; another kind: of its first row of that name. */
-static void refused(struct fixture *fixture, const char *name, enum glint_row_kind kind, struct glint_row change,
-                    const char *because) {
+/* The worker with its first row of that kind and name replaced; if the kind differs, its first row of that name. */
+static void assert_refused(struct fixture *fixture, const char *name, enum glint_row_kind kind, struct glint_row change,
+                           const char *because) {
     struct glint_error err = {0};
     struct glint_row rows[24];
     struct glint_pass pass = made_worker;
@@ -114,7 +114,7 @@ static void refused(struct fixture *fixture, const char *name, enum glint_row_ki
     memcpy(rows, made_worker.rows, made_worker.row_count * sizeof *rows);
     size_t r = 0;
     while (r < pass.row_count && (rows[r].kind != kind || strcmp(rows[r].name, name) != 0)) r++;
-    rows[r] = change; /* behind the last one where there is none */
+    rows[r] = change; /* appended if there is none */
     pass.row_count += r == pass.row_count;
     pass.rows = rows;
     MADE(&made, &made_sieve, &pass);
@@ -122,26 +122,28 @@ static void refused(struct fixture *fixture, const char *name, enum glint_row_ki
     fixture_says(&err, because);
 }
 
-/* Catches: declarations that would start work from pixels, or from a list that lies otherwise. */
+/* Catches: declarations that would start workgroups from pixels, or from a list of another layout. */
 static void wrong_declarations_are_refused(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct glint_row list = *glint_pass_row(&made_worker, GLINT_ROW_READ, "list_a"), wrong = list;
     wrong.name = "depth_full";
-    refused(fixture, "list_a", GLINT_ROW_READ, wrong,
-            "worker/made reads depth_full as utextureBuffer, but it is not a list");
+    assert_refused(fixture, "list_a", GLINT_ROW_READ, wrong,
+                   "worker/made reads depth_full as utextureBuffer, but it is not a list");
     wrong = list;
     wrong.fallback = 0;
-    refused(fixture, "list_a", GLINT_ROW_READ, wrong, "list list_a: expected R32UI and a fallback value of 0xFFFFFFFF");
+    assert_refused(fixture, "list_a", GLINT_ROW_READ, wrong,
+                   "list list_a: expected R32UI and a fallback value of 0xFFFFFFFF");
     wrong = list;
     wrong.glsl = "utexture2D";
-    refused(fixture, "list_a", GLINT_ROW_READ, wrong,
-            "worker/made reads list_a as utexture2D, but it is a list, to be read as utextureBuffer");
-    refused(fixture, "worked", GLINT_ROW_DISPATCH,
-            (struct glint_row){.kind = GLINT_ROW_DISPATCH_LIST, .name = "list_a"},
-            "worker/made: DISPATCH_LIST list_a: expected a DISPATCH before it");
-    refused(fixture, "", GLINT_ROW_WORKGROUP,
-            (struct glint_row){.kind = GLINT_ROW_WORKGROUP, .id = 1, .name = "", .first = 8, .last = 16},
-            "worker/made: DISPATCH_LIST list_a: expected 16, 32 or 64 tiles of 1 x 1 texels in a workgroup, found 128");
+    assert_refused(fixture, "list_a", GLINT_ROW_READ, wrong,
+                   "worker/made reads list_a as utexture2D, but it is a list, to be read as utextureBuffer");
+    assert_refused(fixture, "worked", GLINT_ROW_DISPATCH,
+                   (struct glint_row){.kind = GLINT_ROW_DISPATCH_LIST, .name = "list_a"},
+                   "worker/made: DISPATCH_LIST list_a: expected a DISPATCH before it");
+    assert_refused(
+        fixture, "", GLINT_ROW_WORKGROUP,
+        (struct glint_row){.kind = GLINT_ROW_WORKGROUP, .id = 1, .name = "", .first = 8, .last = 16},
+        "worker/made: DISPATCH_LIST list_a: expected 16, 32 or 64 tiles of 1 x 1 texels in a workgroup, found 128");
 }
 
 int main(void) {

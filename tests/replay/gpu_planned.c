@@ -1,4 +1,4 @@
-/* What a plan leaves out makes no difference: the picture is that of a replay that leaves nothing out, bit for bit. */
+/* Plans change nothing: the images equal those of a replay that skips nothing, bit for bit. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -12,7 +12,7 @@
 #include "glint/samples.h"
 #include "painted.h"
 #include "plain_capture.h"
-#include "ways.h"
+#include "ray_paths.h"
 
 enum { WIDTH = 56, HEIGHT = 32, FACE = 16, FRAMES = 2 };
 
@@ -43,39 +43,40 @@ static const char *sampled(const struct fixture *fixture, const char *scene, int
     return path;
 }
 
-/* One mirror, and cube maps as fine as it takes to leave faces of them out. */
+/* A single mirror, and cube maps large enough for faces to be culled. */
 static const char *mirror(const struct fixture *fixture, char path[256]) {
     const struct glint_sample_options options = {
-        .width = WAYS_WIDTH, .height = WAYS_HEIGHT, .cube_size = 128, .light_samples = 2};
+        .width = PATHS_WIDTH, .height = PATHS_HEIGHT, .cube_size = 128, .light_samples = 2};
     struct glint_error err = {0};
     snprintf(path, 256, "%s/mirror.exr", fixture->folder);
     pair_check(glint_sample_write("desert_night", path, &options, NULL, NULL, &err), &err);
     return path;
 }
 
-/* Rays end in the cocoon. */
-static void fall_back(struct pair *pair) {
+/* Rays end on the cocoon. */
+static void use_cocoon(struct pair *pair) {
     struct glint_error err = {0};
     pair_check(glint_pipeline_set(pair->pipeline, "cubemap_trace.length_m=0.1", &err) &&
                    glint_pipeline_set(pair->pipeline, "cubemap_trace.exhausted=fallback", &err),
                &err);
 }
 
-/* Catches: faces counted where no work on them is left out, or not counted where it is. */
+/* Catches: faces that are counted as culled although they are processed, or the reverse. */
 static void check_counted_faces(const struct pair *pair) {
     const struct glint_cube_faces *all = glint_replay_cube_faces(pair->whole),
                                   *some = glint_replay_cube_faces(pair->planned);
     const uint32_t maps = pair->last.active_surveyed, crossed = glint_survey_faces(&pair->last, GLINT_SURVEY_CROSSED);
-    assert_int_equal(all->uploaded, 2 * 6 * maps); /* colour and distance; three chains, the cocoon's and the cocoon */
+    assert_int_equal(all->uploaded,
+                     2 * 6 * maps); /* colour and distance; three chains, the cocoon's levels and the cocoon */
     assert_int_equal(all->filtered, 5 * 6 * maps);
     assert_true(all->uploaded == all->uploaded_of && all->filtered == all->filtered_of);
     assert_true(some->uploaded_of == all->uploaded_of && some->filtered_of == all->filtered_of);
-    assert_int_equal(some->uploaded, crossed + 6 * maps); /* the cocoon asks for all distances */
+    assert_int_equal(some->uploaded, crossed + 6 * maps); /* the cocoon needs all distances */
     assert_int_equal(some->filtered, 6 * maps + crossed);
     assert_true(2 * (some->uploaded + some->filtered) <= all->uploaded + all->filtered);
 }
 
-/* Catches: a face that a ray, a filter or the cocoon reads and that was left out. */
+/* Catches: a culled face that a ray, a filter or the cocoon reads. */
 static void faces_that_no_ray_comes_to_are_left_out(void **state) {
     struct pair *pair = pair_of(state);
     static const char *const presets[] = {"mafia3", "mafia3", "mafia3_shipped", "mafia_de"};
@@ -85,13 +86,13 @@ static void faces_that_no_ray_comes_to_are_left_out(void **state) {
     mirror(pair->fixture, path);
     for (size_t p = 0; p < sizeof presets / sizeof *presets; p++) {
         size_t left_out = 0;
-        *is_cpu = p == 1 ? !own : own; /* rays are followed in blocks of pixels, or one by one */
+        *is_cpu = p == 1 ? !own : own; /* rays are surveyed by blocks of pixels, or one by one */
         pair_use(pair, presets[p]);
-        if (p < 2) fall_back(pair);
+        if (p < 2) use_cocoon(pair);
         assert_int_equal(differences_of_file(pair, path, &left_out), 0);
         const struct glint_survey *survey = &pair->last;
-        if (p < 2) check_counted_faces(pair), check_ways(&pair->last, path);
-        if (p > 1 && survey->active_traced == 0) continue; /* its rays lie between pixels */
+        if (p < 2) check_counted_faces(pair), check_ray_paths(&pair->last, path);
+        if (p > 1 && survey->active_traced == 0) continue; /* its rays are between pixels */
         assert_true(survey->active_traced == survey->active_surveyed && survey->active_traced > 0);
         const uint32_t crossed = glint_survey_faces(survey, GLINT_SURVEY_CROSSED);
         assert_true(crossed > 0 && crossed <= 4 * survey->active_traced);
@@ -101,7 +102,7 @@ static void faces_that_no_ray_comes_to_are_left_out(void **state) {
     fixture_check_messages(pair->fixture);
 }
 
-/* Rough rays are marched through levels of the distances as they are. */
+/* Rough rays are marched through levels of the distances themselves. */
 static void read_levels(struct pair *pair) {
     struct glint_error err = {0};
     pair_check(glint_pipeline_set(pair->pipeline, "cubemap_trace.depth=captured", &err) &&
@@ -109,7 +110,7 @@ static void read_levels(struct pair *pair) {
                &err);
 }
 
-/* Catches: a chain that is made for nobody, and one that is left out though a parameter has it read. */
+/* Catches: a chain that is written without a reader, and one that is skipped although a parameter makes a pass read it. */
 static void a_chain_that_no_pass_reads_is_not_made(void **state) {
     struct pair *pair = pair_of(state);
     char path[256];
@@ -124,7 +125,7 @@ static void a_chain_that_no_pass_reads_is_not_made(void **state) {
     read_levels(pair);
     assert_int_equal(differences_of_file(pair, path, &left_out), 0);
     assert_int_equal(faces->filtered, whole);
-    pair_use(pair, "mafia3"); /* wrong on purpose: nothing is made of them */
+    pair_use(pair, "mafia3"); /* a wrong declaration on purpose: nothing reads them */
     read_levels(pair);
     struct glint_pipeline *right = pair->pipeline;
     pair->pipeline = NULL;
@@ -136,8 +137,8 @@ static void a_chain_that_no_pass_reads_is_not_made(void **state) {
     fixture_check_messages(pair->fixture);
 }
 
-/* Catches: a rule that drops what the picture depends on, history that a dropped pass would have left, arithmetic that
-   depends on what else is worked on. */
+/* Catches: a rule that drops what the image depends on, history that a dropped pass would have left, and arithmetic that depends on
+   what else runs. */
 static void the_picture_of_a_plan_is_the_whole_picture(void **state) {
     struct pair *pair = pair_of(state);
     struct fixture *fixture = pair->fixture;
@@ -176,7 +177,7 @@ static uint64_t sum(const uint64_t *values, size_t count) {
     return all;
 }
 
-/* Luminance as Rec. 709 has it. */
+/* Luminance by Rec. 709. */
 static void light_of(struct glint_capture *capture, double range[2]) {
     static const char *const names[] = {"R", "G", "B"};
     struct glint_error err = {0};
@@ -194,8 +195,8 @@ static void light_of(struct glint_capture *capture, double range[2]) {
     free(rgb);
 }
 
-/* Catches: pixels at the borders of blocks counted twice or not at all, bins that leave some out. The host counts by
-   itself, in another order. */
+/* Catches: pixels at the borders of blocks counted twice or not at all, and bins that miss values. The host counts independently, in
+   another order. */
 static void the_device_counts_as_the_host_does(void **state) {
     struct pair *pair = pair_of(state);
     struct glint_error err = {0};
@@ -220,7 +221,7 @@ static void the_device_counts_as_the_host_does(void **state) {
         assert_int_equal(sum(device->weight, GLINT_SURVEY_WEIGHTS), device->reflecting.count);
         assert_int_equal(sum(device->metalness, GLINT_SURVEY_BINS), device->surfaces.count);
         assert_true((device->water > 0) == device->has_water && (device->transparent > 0) == device->has_transparent);
-        double light[2]; /* three products and two sums of what is not negative, each rounded by 2^-24 */
+        double light[2]; /* three products and two sums of non-negative values, each rounded by 2^-24 */
         light_of(capture, light);
         for (int k = 0; k < 2; k++) assert_true(fabs(device->light[k] - light[k]) <= 4 * 0x1p-24 * light[k]);
         assert_true(light[1] > light[0]);
@@ -236,8 +237,7 @@ static void the_device_counts_as_the_host_does(void **state) {
 
 /* ---- A shot whose materials change from frame to frame ---- */
 
-/* Catches: history that a frame without some class of surfaces would have handed to one that has them. Every look follows
-   every other one. */
+/* Catches: history that a frame without some class of surfaces would have passed to one with them. Every look follows every other one. */
 static void a_plan_may_change_from_frame_to_frame(void **state) {
     struct pair *pair = pair_of(state);
     static const enum look shot[] = {MATTE, MIRROR, MATTE, GLOSSY, MATTE, ROUGH,  MATTE, MIXED, MIRROR, GLOSSY, MIRROR,
@@ -266,7 +266,7 @@ static void a_plan_may_change_from_frame_to_frame(void **state) {
     fixture_check_messages(pair->fixture);
 }
 
-/* Catches: a picture that is not lit where nothing reflects, of whatever light; water and panes that do not lie over it. */
+/* Catches: a composed image other than lit where nothing reflects, for any light; water and panes that are not composed over it. */
 static void where_nothing_reflects_the_picture_is_lit(void **state) {
     struct pair *pair = pair_of(state);
     static const enum look shot[] = {MATTE, MATTE, MIXED, MATTE};
@@ -305,7 +305,7 @@ static void bright(const double direction[3], float out[3]) {
     for (int k = 0; k < 3; k++) out[k] = 1;
 }
 
-/* One texel of each face: in every row and column of a square of three, as the survey has them. */
+/* One texel of each face: in every row and column of a square of three, as the survey reads them. */
 enum { SQUARES = 32, WIDE = 3 * SQUARES };
 static void one_texel_a_face(uint32_t number, const double direction[3], float out[5]) {
     pair_cube(number, direction, out);
@@ -316,7 +316,7 @@ static void one_texel_a_face(uint32_t number, const double direction[3], float o
     }
 }
 
-/* Catches: a sky that no distance and no pixel shows, but a cube map's alpha. */
+/* Catches: a sky that only a cube map's alpha shows, not a distance or a pixel. */
 static void alpha_alone_shows_the_sky(void **state) {
     struct pair *pair = pair_of(state);
     char path[256];
@@ -388,12 +388,12 @@ static void there_was_no_frame_before(struct glint_survey *s) {
     s->has_history = false;
 }
 
-/* Catches: a comparison that finds every plan right. */
+/* Catches: a comparison that accepts every plan. */
 static void a_wrong_rule_is_found(void **state) {
     struct pair *pair = pair_of(state);
     static const struct {
         const char *name, *scene, *preset;
-        void (*lie)(struct glint_survey *survey);
+        void (*falsify)(struct glint_survey *survey);
     } rules[] = {{"reflecting", "room", "mafia3", nothing_reflects},
                  {"reflecting", "street", "kf2", nothing_reflects},
                  {"reflecting", "lake", "gtav", nothing_reflects},
@@ -413,24 +413,24 @@ static void a_wrong_rule_is_found(void **state) {
         pair_use(pair, rules[i].preset);
         size_t left_out = 0;
         char path[256];
-        pair->lie = rules[i].lie;
+        pair->falsify = rules[i].falsify;
         if (rules[i].scene) sampled(pair->fixture, rules[i].scene, 1, path);
-        else mirror(pair->fixture, path), fall_back(pair);
+        else mirror(pair->fixture, path), use_cocoon(pair);
         if (differences_of_file(pair, path, &left_out) == 0)
             fail_msg("a wrong rule for '%s' changes nothing", rules[i].name);
     }
     fixture_check_messages(pair->fixture);
 }
 
-/* Replays painted frames with both, and returns in how many values the last of them differs. */
+/* Replays painted frames with both, and returns the number of different values in the last one. */
 static size_t last_difference(struct pair *pair, uint32_t frames, const float *fresnel,
-                              void (*lie)(struct glint_survey *survey)) {
+                              void (*falsify)(struct glint_survey *survey)) {
     size_t differ = 0, left_out = 0;
     pair_use(pair, "mafia3");
     for (uint32_t i = 1; i <= frames; i++) {
         struct glint_capture *capture =
             painted_capture(pair->fixture, &(struct painted){.look = MIXED, .number = i, .fresnel = fresnel});
-        pair->lie = i == frames ? lie : NULL;
+        pair->falsify = i == frames ? falsify : NULL;
         differ = pair_differences(pair, capture, &left_out);
         pair_check(glint_replay_load(pair->planned, NULL, NULL) && glint_replay_load(pair->whole, NULL, NULL), NULL);
         glint_capture_close(&capture);
@@ -438,7 +438,7 @@ static size_t last_difference(struct pair *pair, uint32_t frames, const float *f
     return differ;
 }
 
-/* Catches the same of rules about what no sample has, materials that say how they rise and histories that end. */
+/* Catches the same for rules about properties of no sample: materials with a Fresnel scale, and histories that end. */
 static void a_wrong_rule_about_made_frames_is_found(void **state) {
     struct pair *pair = pair_of(state);
     static const float flat = 0.1f;
@@ -449,7 +449,7 @@ static void a_wrong_rule_about_made_frames_is_found(void **state) {
     fixture_check_messages(pair->fixture);
 }
 
-/* Catches: a comparison that finds every list of transparent surfaces or water right. */
+/* Catches: a comparison that accepts every list of transparent surfaces or water. */
 static void a_wrong_list_of_layers_is_found(void **state) {
     struct pair *pair = pair_of(state);
     static const struct {

@@ -1,4 +1,4 @@
-/* Several rays a frame on a device under validation. */
+/* Several rays per frame on a device with validation. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -18,7 +18,7 @@ enum {
     SQUARES = 6 /* (0 + 1 + 4 + 9 + 16) / 5 */
 };
 
-static void make(struct made *made, uint32_t rays) {
+static void make_ray_passes(struct made *made, uint32_t rays) {
     char assignment[32];
     struct glint_error err = {0};
     MADE(made, &made_base, &made_cast, &made_catch, &made_tally);
@@ -26,7 +26,7 @@ static void make(struct made *made, uint32_t rays) {
     if (!glint_pipeline_set(&made->pipeline, assignment, &err)) fail_msg("%s", err.message);
 }
 
-/* Vulkan lets a division err by 2.5 units in the last place. */
+/* Vulkan allows a division to be off by 2.5 units in the last place. */
 static void check_tallied(struct fixture *fixture, double mean, float last) {
     float *tallied = made_read(fixture, "tallied");
     for (int i = 0; i < W * H; i++) {
@@ -38,29 +38,29 @@ static void check_tallied(struct fixture *fixture, double mean, float last) {
     free(tallied);
 }
 
-/* Catches: a mean over the wrong number of rays, of half values or of the last ray alone, readers in the loop that see
-   the mean and readers after it that do not, a ray's number that does not move on or is left behind. */
+/* Catches: a mean over the wrong number of rays, of half floats or of the last ray only, readers in the loop that get the mean and
+   readers after it that do not, and a ray number that does not advance or is not reset. */
 static void what_is_accumulated_becomes_the_mean(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     size_t count;
     struct made made;
-    make(&made, RAYS);
+    make_ray_passes(&made, RAYS);
     made_run(fixture, &made, &(struct glint_replay_options){.no_cache = true, .repeat = 2});
     check_tallied(fixture, SQUARES, RAYS - 1);
     const struct glint_pass_result *results = glint_replay_results(fixture->replay, &count);
     for (size_t i = 0; i < count; i++) assert_int_equal(results[i].time.n, 2);
     float *caught = made_read(fixture, "caught");
-    assert_true(caught[1] == 2); /* the rays' mean number */
+    assert_true(caught[1] == 2); /* the mean ray number */
     free(caught);
 }
 
-/* Catches: one set of random numbers for all rays of a frame. Means of 100 uniform numbers differ by pixel around 1/2
-   with a deviation of 1/sqrt(1200) = 0.029; over 400 pixels, 5 deviations are a chance of 1 in 4000. */
+/* Catches: the same random numbers for all rays of a frame. Means of 100 uniform numbers have a deviation of 1/sqrt(1200) = 0.029
+   around 1/2; among 400 pixels, 5 deviations have a probability of 1 in 4000. */
 static void each_ray_has_its_own_random_numbers(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct made made;
     double sum = 0, squares = 0;
-    make(&made, 100);
+    make_ray_passes(&made, 100);
     made_run(fixture, &made, &(struct glint_replay_options){.no_cache = true});
     float *caught = made_read(fixture, "caught");
     for (int i = 0; i < W * H; i++) {
@@ -74,23 +74,23 @@ static void each_ray_has_its_own_random_numbers(void **state) {
     assert_true(fabs(squares / (W * H) * 1200 - 1) < 5 * sqrt(2.0 / (W * H)));
 }
 
-/* Catches: one ray that goes through the sum, or is not the image as its pass made it. */
+/* Catches: a single ray that is accumulated, or differs from the image of its pass. */
 static void one_ray_is_left_as_it_is(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct made made;
-    make(&made, 1);
+    make_ray_passes(&made, 1);
     made_run(fixture, &made, &(struct glint_replay_options){.no_cache = true});
     check_tallied(fixture, 0, 0);
 }
 
-/* Catches: keys that forget the number of rays; a loop that runs in part, on what the last ray left; memory of what
-   the loop needs given away within it. */
+/* Catches: keys that omit the number of rays; a loop that runs partially on images of the last ray; memory that the loop needs aliased
+   within it. */
 static void rays_are_cached_and_share_memory_as_one_does(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     const char *const outputs[] = {"tallied", NULL};
     struct glint_error err = {0};
     struct made made;
-    make(&made, RAYS);
+    make_ray_passes(&made, RAYS);
     made_run(fixture, &made, &(struct glint_replay_options){.no_cache = true});
     made_run(fixture, &made, NULL);
     assert_true(fixture_result(fixture, "cast")->cached && fixture_result(fixture, "tally")->cached);
@@ -99,11 +99,11 @@ static void rays_are_cached_and_share_memory_as_one_does(void **state) {
     assert_true(fixture_result(fixture, "base")->cached);
     assert_false(fixture_result(fixture, "cast")->cached);
     check_tallied(fixture, 5.0 / 3, 2);
-    make(&made, RAYS);
+    make_ray_passes(&made, RAYS);
     made_run(fixture, &made, &(struct glint_replay_options){.outputs = outputs});
     check_tallied(fixture, SQUARES, RAYS - 1);
-    /* Another catch alone: cast has to run for it again. */
-    make(&made, RAYS);
+    /* Another catch alone: cast must run again for it. */
+    make_ray_passes(&made, RAYS);
     made_run(fixture, &made, &(struct glint_replay_options){.no_cache = true});
     static struct glint_pass other;
     static struct glint_row rows[8];
@@ -116,11 +116,11 @@ static void rays_are_cached_and_share_memory_as_one_does(void **state) {
     assert_true(fixture_result(fixture, "base")->cached);
     assert_false(fixture_result(fixture, "cast")->cached);
     float *caught = made_read(fixture, "caught");
-    assert_true(caught[1] == 4); /* twice the rays' mean number */
+    assert_true(caught[1] == 4); /* twice the mean ray number */
     free(caught);
 }
 
-/* Catches: a run that keeps one ray's images where the mean belongs, and a cut through the loop that passes. */
+/* Catches: a run folder with images of one ray instead of the mean, and a cut within the loop that is accepted. */
 static void cuts_around_the_loop_give_the_bits_of_the_whole(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     const char *const loop[] = {"cast", "catch", "tally", NULL}, *const inside[] = {"catch", "tally", NULL},
@@ -129,7 +129,7 @@ static void cuts_around_the_loop_give_the_bits_of_the_whole(void **state) {
     struct made made;
     struct snapshot whole, part;
     char folder[128];
-    make(&made, RAYS);
+    make_ray_passes(&made, RAYS);
     made_run(fixture, &made, &(struct glint_replay_options){.no_cache = true});
     snapshot_take(&whole, fixture->replay);
     fixture_write_run(fixture, "rays", folder);
@@ -145,7 +145,7 @@ static void cuts_around_the_loop_give_the_bits_of_the_whole(void **state) {
                                   &(struct glint_replay_options){.passes = inside, .inputs = folder}, NULL, NULL,
                                   &err));
     fixture_says(&err, "catch/made reads shot, which cast makes anew for each of 5 rays");
-    make(&made, 1);
+    make_ray_passes(&made, 1);
     made_check_cuts(fixture, &made, (struct glint_replay_options){0});
 }
 
@@ -176,7 +176,7 @@ static void the_number_of_rays_has_its_range(void **state) {
     struct made made;
     static const char *const wrong[] = {"pipeline.rays=0", "pipeline.rays=1025", "pipeline.rays=1.5",
                                         "pipeline.rays=many"};
-    make(&made, 1024);
+    make_ray_passes(&made, 1024);
     for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
         struct glint_error err = {0};
         assert_false(glint_pipeline_set(&made.pipeline, wrong[i], &err));

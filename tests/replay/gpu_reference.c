@@ -1,4 +1,4 @@
-/* The reference on a device under validation: its noise, its folder, what it refuses. */
+/* The reference on a device with validation: its noise, its folder, and errors. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -39,7 +39,7 @@ static struct glint_reference *need_reference(struct fixture *fixture, const cha
     return reference;
 }
 
-static void trace(struct glint_reference *reference, uint32_t rays, double noise) {
+static void trace_rays(struct glint_reference *reference, uint32_t rays, double noise) {
     struct glint_error err = {0};
     if (!glint_reference_trace(reference, rays, noise, NULL, NULL, &err)) fail_msg("%s", err.message);
 }
@@ -56,28 +56,28 @@ static double noise_of(const struct glint_reference *reference) {
     return glint_reference_state(reference)->noise[0].error;
 }
 
-/* Catches: halves that share random numbers, batches that repeat them, means that weigh batches unequally. */
+/* Catches: halves that share random numbers, batches that repeat them, means that weight batches unequally. */
 static void noise_falls_with_the_root_of_independent_rays(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct glint_reference *reference = need_reference(fixture, NULL, "downsample.pattern=white");
     struct glint_image_errors errors;
     struct glint_error err = {0};
-    trace(reference, 16, 0);
+    trace_rays(reference, 16, 0);
     const double few = noise_of(reference);
     struct glint_pixels early = pixels_of(reference, NULL);
-    trace(reference, 64, 0);
+    trace_rays(reference, 64, 0);
     const double many = noise_of(reference);
     float *error = NULL;
     struct glint_pixels late = pixels_of(reference, &error);
     uint8_t *surfaces = glint_study_surfaces(fixture->capture, &err);
     assert_non_null(surfaces);
-    /* A variance from 800 pixels of three channels, of which a few bright edges hold most, errs by some 10 %. */
+    /* A variance from 800 pixels of three channels, dominated by a few bright edges, has an error of about 10 %. */
     assert_true(few > 1e-4);
     assert_true(fabs(few / many / 2 - 1) < 0.15);
-    /* Of 64 rays the first 16 are a part: their means differ by σ² (1/16 - 1/64). */
+    /* The first 16 rays are part of the 64: their means differ by σ² (1/16 - 1/64). */
     assert_true(glint_study_image(&early, &late, 3, surfaces, error, &errors, &err));
     assert_true(fabs(errors.of[0].rmse / sqrt(few * few - many * many) - 1) < 0.15);
-    /* The pixels' errors add up to the whole's, but for rounding to float. */
+    /* The errors of the pixels sum up to that of the image, apart from rounding to float. */
     assert_true(fabs(errors.of[0].truth_noise / many - 1) < 1e-4);
     const struct glint_reference_noise *noise = glint_reference_state(reference)->noise;
     assert_true(fabs(noise[0].relative * noise[0].mean / many - 1) < 1e-9);
@@ -85,9 +85,9 @@ static void noise_falls_with_the_root_of_independent_rays(void **state) {
     assert_int_equal(noise[GLINT_SURFACE_MIRROR].pixels + noise[GLINT_SURFACE_GLOSSY].pixels +
                          noise[GLINT_SURFACE_ROUGH].pixels,
                      noise[0].pixels);
-    /* Rays that are spread well have less noise, and what they find differs from the others by both noises alone. */
+    /* Well-stratified rays have less noise, and their result differs from that of others only by both noises. */
     struct glint_reference *spread = need_reference(fixture, NULL, NULL);
-    trace(spread, 16, 0);
+    trace_rays(spread, 16, 0);
     struct glint_pixels other = pixels_of(spread, NULL);
     assert_true(noise_of(spread) < 0.9 * few);
     assert_true(glint_study_image(&other, &late, 3, surfaces, NULL, &errors, &err));
@@ -102,12 +102,12 @@ static void noise_falls_with_the_root_of_independent_rays(void **state) {
     fixture_check_messages(fixture);
 }
 
-/* One run of all rays of a half is that half's mean: batches neither overlap nor leave anything out. */
+/* One run of all rays of a half gives the mean of that half: batches neither overlap nor omit rays. */
 static void a_half_is_one_run_of_its_rays(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct glint_error err = {0};
     struct glint_reference *reference = need_reference(fixture, NULL, NULL);
-    trace(reference, 48, 0); /* a first batch, one between, a last one */
+    trace_rays(reference, 48, 0); /* a first batch, one in the middle, a last one */
     struct glint_pixels both = pixels_of(reference, NULL), half[2];
     struct glint_pipeline *pipeline = glint_pipeline_create("reference", &err);
     assert_non_null(pipeline);
@@ -124,7 +124,7 @@ static void a_half_is_one_run_of_its_rays(void **state) {
     for (size_t i = 0; i < (size_t)FIXTURE_WIDTH * FIXTURE_HEIGHT * 4; i++) {
         const double mean = 0.5 * ((double)half[0].values[i] + (double)half[1].values[i]);
         differ += half[0].values[i] != half[1].values[i];
-        /* Sums of 24 floats in another order. */
+        /* sums of 24 floats in another order */
         assert_true(fabs((double)both.values[i] - mean) <= 24 * 0x1p-24 * fabs(mean));
     }
     assert_true(differ > 500);
@@ -145,7 +145,7 @@ static void check_same(const struct glint_pixels *a, const struct glint_pixels *
     assert_memory_equal(a->values, b->values, (size_t)a->width * a->height * a->components * sizeof(float));
 }
 
-/* Interrupted again and again, each time in another process as far as the folder can tell. */
+/* Interrupted repeatedly, each time as if in another process. */
 static void an_interrupted_reference_goes_on_to_the_same_bits(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct glint_error err = {0};
@@ -153,11 +153,11 @@ static void an_interrupted_reference_goes_on_to_the_same_bits(void **state) {
     int rounds = 0, interrupted = 0;
     snprintf(folder, sizeof folder, "%s/resumed", fixture->folder);
     struct glint_reference *whole = need_reference(fixture, NULL, NULL);
-    trace(whole, 48, 0);
+    trace_rays(whole, 48, 0);
     for (uint32_t rays = 0; rays < 48; rounds++) {
         struct glint_reference *part = need_reference(fixture, folder, NULL);
         assert_int_equal(glint_reference_state(part)->rays, rays);
-        int left = rounds % 3 == 2 ? 1000000 : 150; /* in the midst of a round, or not */
+        int left = rounds % 3 == 2 ? 1000000 : 150; /* within a round, or not */
         err = (struct glint_error){0};
         if (!glint_reference_trace(part, rays + 32 < 48 ? rays + 32 : 48, 0, stop_late, &left, &err)) {
             assert_int_equal(err.code, GLINT_ERROR_INTERRUPTED);
@@ -169,7 +169,7 @@ static void an_interrupted_reference_goes_on_to_the_same_bits(void **state) {
     }
     assert_true(interrupted > 0);
     struct glint_reference *again = need_reference(fixture, folder, NULL);
-    trace(again, 48, 0);
+    trace_rays(again, 48, 0);
     float *errors[2];
     struct glint_pixels a = pixels_of(whole, &errors[0]), b = pixels_of(again, &errors[1]);
     check_same(&a, &b);
@@ -177,7 +177,7 @@ static void an_interrupted_reference_goes_on_to_the_same_bits(void **state) {
     assert_true(noise_of(whole) == noise_of(again));
     free(errors[1]);
     glint_pixels_finish(&b);
-    /* What others read of it. */
+    /* The run as others read it. */
     struct glint_run *run = glint_run_open(folder, &err);
     if (!run || !glint_study_run_reflection(run, &b, &err) || !glint_study_run_error(run, &errors[1], &err))
         fail_msg("%s", err.message);
@@ -193,15 +193,14 @@ static void an_interrupted_reference_goes_on_to_the_same_bits(void **state) {
     fixture_check_messages(fixture);
 }
 
-static void refused(struct fixture *fixture, const char *folder, const char *set, const char *why) {
+static void assert_refused(struct fixture *fixture, const char *folder, const char *set, const char *why) {
     struct glint_error err = {0};
     struct glint_reference *reference = open_reference(fixture, folder, set, false, &err);
     assert_null(reference);
     fixture_says(&err, why);
 }
 
-/* As with a picture so large that a round takes an hour: what it has of the first round is kept, and no folder is left that
-   holds nothing. */
+/* As with an image so large that a round takes an hour: the completed part of the first round is kept, and no empty folder is left. */
 static void a_round_goes_on_from_its_midst(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct glint_error err = {0};
@@ -211,7 +210,7 @@ static void a_round_goes_on_from_its_midst(void **state) {
     snprintf(file, sizeof file, "%s/unfinished.exr", folder);
     struct glint_reference *whole = open_at_once(fixture, NULL, NULL, false, 3, &err);
     assert_non_null(whole);
-    trace(whole, 32, 0);
+    trace_rays(whole, 32, 0);
     for (uint32_t rays = 0, begun = 0; rays < 32; calls++) {
         struct glint_reference *part = open_at_once(fixture, folder, NULL, false, 3, &err);
         if (!part) fail_msg("%s", err.message);
@@ -230,7 +229,7 @@ static void a_round_goes_on_from_its_midst(void **state) {
         assert_int_equal(access(file, F_OK) == 0, begun > 0);
         assert_true(done == (rays == 32) && calls < 32);
         glint_reference_destroy(&part);
-        if (calls == 0) refused(fixture, folder, "screen_trace.thickness=0.5", "screen_trace.values.thickness");
+        if (calls == 0) assert_refused(fixture, folder, "screen_trace.thickness=0.5", "screen_trace.values.thickness");
     }
     assert_true(calls > 3 && most > 8); /* into the second half's part of a round */
     struct glint_reference *again = open_at_once(fixture, folder, NULL, false, 3, &err);
@@ -240,9 +239,9 @@ static void a_round_goes_on_from_its_midst(void **state) {
     glint_pixels_finish(&a);
     glint_pixels_finish(&b);
     glint_reference_destroy(&again);
-    /* the mean of three, three and two is that of eight, but for rounding */
+    /* the mean of three, three and two equals that of eight, apart from rounding */
     struct glint_reference *eight = need_reference(fixture, NULL, NULL);
-    trace(eight, 32, 0);
+    trace_rays(eight, 32, 0);
     a = pixels_of(whole, NULL), b = pixels_of(eight, NULL);
     for (size_t i = 0; i < (size_t)a.width * a.height * 4; i++)
         assert_true(fabsf(a.values[i] - b.values[i]) <= 32 * 0x1p-24f * fabsf(b.values[i]));
@@ -256,15 +255,15 @@ static void a_round_goes_on_from_its_midst(void **state) {
 static void it_stops_at_the_noise_that_is_asked_for(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct glint_reference *reference = need_reference(fixture, NULL, NULL);
-    trace(reference, 16, 0);
+    trace_rays(reference, 16, 0);
     const double first = glint_reference_state(reference)->noise[0].relative;
-    trace(reference, 1024, first / 2);
+    trace_rays(reference, 1024, first / 2);
     const struct glint_reference_state *now = glint_reference_state(reference);
     assert_true(now->noise[0].relative <= first / 2);
-    assert_true(now->rays >= 32 && now->rays <= 160); /* 64, or fewer as they are spread well */
+    assert_true(now->rays >= 32 && now->rays <= 160); /* 64, or fewer as they are well stratified */
     const uint32_t rays = now->rays;
-    trace(reference, 1024, first / 2); /* reached: nothing more */
-    trace(reference, rays - 20, 0);
+    trace_rays(reference, 1024, first / 2); /* reached already, so nothing is traced */
+    trace_rays(reference, rays - 20, 0);
     assert_int_equal(glint_reference_state(reference)->rays, rays);
     glint_reference_destroy(&reference);
     fixture_check_messages(fixture);
@@ -276,23 +275,23 @@ static void a_folder_of_something_else_is_refused(void **state) {
     char folder[128], plain[128], file[256];
     snprintf(folder, sizeof folder, "%s/kept", fixture->folder);
     struct glint_reference *reference = need_reference(fixture, folder, NULL);
-    trace(reference, 16, 0);
+    trace_rays(reference, 16, 0);
     glint_reference_destroy(&reference);
-    refused(fixture, folder, "cubemap_trace.tolerance=0.03",
-            "cubemap_trace.values.tolerance is 0.02 there and 0.03 here");
+    assert_refused(fixture, folder, "cubemap_trace.tolerance=0.03",
+                   "cubemap_trace.values.tolerance is 0.02 there and 0.03 here");
     fixture_run(fixture, NULL);
     fixture_write_run(fixture, "plain", plain);
-    refused(fixture, plain, NULL, "not a reference");
-    /* Overwritten, with the other setting. */
+    assert_refused(fixture, plain, NULL, "not a reference");
+    /* overwritten with another setting */
     reference = open_reference(fixture, folder, "cubemap_trace.tolerance=0.03", true, &err);
     assert_non_null(reference);
-    trace(reference, 32, 0);
+    trace_rays(reference, 32, 0);
     glint_reference_destroy(&reference);
     snprintf(file, sizeof file, "%s/reference-16.exr", folder);
     assert_int_not_equal(access(file, F_OK), 0);
     snprintf(file, sizeof file, "%s/reference-32.exr", folder);
     assert_int_equal(unlink(file), 0);
-    refused(fixture, folder, "cubemap_trace.tolerance=0.03", "reference-32.exr");
+    assert_refused(fixture, folder, "cubemap_trace.tolerance=0.03", "reference-32.exr");
     fixture_check_messages(fixture);
 }
 
@@ -311,7 +310,7 @@ static void other_captures(struct fixture *fixture, const struct fixture_options
         fixture_says(&err, why);
     } else {
         assert_non_null(reference);
-        trace(reference, 16, 0);
+        trace_rays(reference, 16, 0);
         assert_true(glint_reference_state(reference)->noise[0].mean > 0);
     }
     glint_reference_destroy(&reference);
@@ -323,20 +322,20 @@ static void other_captures(struct fixture *fixture, const struct fixture_options
 static void captures_that_lack_something(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     other_captures(fixture, &(struct fixture_options){.matte = true}, "nothing in it reflects");
-    other_captures(fixture, &(struct fixture_options){.no_cubemaps = true}, NULL); /* the screen alone */
+    other_captures(fixture, &(struct fixture_options){.no_cubemaps = true}, NULL); /* only screen space */
     fixture_check_messages(fixture);
 }
 
-/* ---- A board before a wall, over a floor that mirrors both ---- */
+/* ---- A board in front of a wall, above a floor that reflects both ---- */
 
 enum { BOARD_WIDTH = 2, BOARD_HEIGHT = 240 };
 static const double board_m = 3, wall_m = 5, light_of_board = 3, light_of_wall = 1;
 
-/* Height over the horizon in a metre of depth, of a row's upper edge; the picture spans -1 to 1. */
+/* The elevation of a row's upper edge, as height per metre of depth; the image spans -1 to 1. */
 static double edge_of(double row) {
     return 1 - 2 * row / BOARD_HEIGHT;
 }
-/* The board's rows, and how many more on either side are as bright: a ray that comes over an edge may end on it. */
+/* The rows of the board, and how many rows next to it have the same light, because a ray over an edge may end on it. */
 enum { BOARD_TOP = 108, BOARD_END = 132, GLOW = 2 };
 
 static void put_up_board(const struct plain *plain, float *values) {
@@ -357,14 +356,14 @@ static double light_at(double height) {
     return row >= BOARD_TOP - GLOW && row < BOARD_END + GLOW ? light_of_board : light_of_wall;
 }
 
-/* What the floor mirrors that is seen `down` metres below the horizon in a metre of depth. Its ray keeps its column and, at
-   the depth z, is down - 2/z over the horizon. A surface of the depth d stops it as far as d · thickness behind itself. */
+/* The reflection in a floor point `down` metres below the horizon per metre of depth. Its ray stays in its column and is at down - 2/z
+   over the horizon at the depth z. A surface at depth d blocks it up to d · thickness behind it. */
 static double mirrored(double down, double thickness) {
     const double top = edge_of(BOARD_TOP), bottom = edge_of(BOARD_END);
     const double at_board = down - 2 / board_m, at_wall = down - 2 / wall_m;
     if (at_board > bottom && at_board < top) return light_of_board;
     if (at_wall < bottom || at_board > top) return light_at(at_wall);
-    if (2 / (down - bottom) <= board_m * (1 + thickness)) return light_of_board; /* comes in behind its lower edge */
+    if (2 / (down - bottom) <= board_m * (1 + thickness)) return light_of_board; /* passes behind the lower edge */
     if (at_wall > top) return light_at(at_wall);
     const bool comes_out = down > top && 2 / (down - top) <= wall_m * (1 + thickness);
     return comes_out ? light_at(top) : 0;
@@ -377,7 +376,7 @@ static struct change expected(double thickness, double other) {
     double sum = 0, squares = 0, count = 0;
     for (int row = BOARD_HEIGHT / 2; row < BOARD_HEIGHT; row++) {
         const double down = -edge_of(row + 0.5);
-        if (down * wall_m <= 1) continue; /* the wall is before the floor */
+        if (down * wall_m <= 1) continue; /* the wall is in front of the floor */
         const double change = mirrored(down, other) - mirrored(down, thickness);
         sum += change, squares += change * change, count++;
     }
@@ -391,7 +390,7 @@ static void check_change(const struct glint_reference_assumption *row, double tr
     print_message("# thickness %g: mean change %+.5f, expected %+.5f; RMSE %.5f, expected %.5f\n", tried, found->mean,
                   truth.mean, found->rmse, truth.rmse);
     assert_true(truth.rmse > 0.1);
-    /* The same rows change by whole lights: nothing but rounding is left. */
+    /* The same rows change by whole lights: only rounding remains. */
     assert_true(fabs(found->mean - truth.mean) < 1e-4 && fabs(found->rmse - truth.rmse) < 1e-4);
     assert_true(found->noise < 1e-6); /* mirror rays */
     assert_true(row->of[0].rmse == found->rmse);
@@ -410,7 +409,7 @@ static void the_share_decided_by_thickness_is_reported(void **state) {
     assert_non_null(capture);
     assert_true(glint_replay_load(fixture->replay, capture, &err));
     struct glint_pipeline *pipeline = glint_pipeline_create("reference", &err);
-    /* Objects that take no room, and edges without a seam: the thickness alone decides. */
+    /* Objects without depth and edges without seams: only the thickness decides. */
     static const char *const settings[] = {"screen_trace.thickness=0.1", "screen_trace.solid=0", "screen_trace.seam=0",
                                            "resolve.filter_color=false"};
     for (size_t i = 0; i < sizeof settings / sizeof settings[0]; i++)
@@ -418,20 +417,20 @@ static void the_share_decided_by_thickness_is_reported(void **state) {
     struct glint_reference *reference = glint_reference_create(
         fixture->replay, capture, pipeline, &(struct glint_reference_options){.folder = folder}, &err);
     struct glint_reference_sensitivity found;
-    trace(reference, 16, 0);
+    trace_rays(reference, 16, 0);
     if (!glint_reference_sensitivity(reference, 1, NULL, NULL, &found, &err)) fail_msg("%s", err.message);
     assert_int_equal(found.rays, GLINT_REFERENCE_ROUND);
     size_t checked = 0, idle = 0;
     for (size_t i = 0; i < found.count; i++) {
         const struct glint_reference_assumption *row = &found.rows[i];
         if (!strcmp(row->row->name, "thickness")) check_change(row, checked++ ? 0.2 : 0.05);
-        else if (row->ran) assert_true(row->of[0].rmse < 1e-6); /* no cube maps; nothing to join */
+        else if (row->ran) assert_true(row->of[0].rmse < 1e-6); /* no cube maps, nothing to join */
         else idle += strcmp(row->reason, "it is 0") == 0;
     }
     assert_int_equal(checked, 2);
     assert_int_equal(idle, 2); /* solid, thickness_m */
-    /* It stays in the folder while rays are added. */
-    trace(reference, 32, 0);
+    /* It is kept in the folder while rays are added. */
+    trace_rays(reference, 32, 0);
     glint_reference_destroy(&reference);
     struct glint_run *run = glint_run_open(folder, &err);
     assert_non_null(run);

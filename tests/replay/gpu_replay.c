@@ -1,4 +1,4 @@
-/* Whole runs on a device under validation: the same bits however a run is cut, repeated or watched. */
+/* Whole runs on a device with validation: the same bits for partial, repeated and diagnostic runs. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -56,7 +56,7 @@ static void the_picture_is_finite_and_reflects(void **state) {
             for (int c = 0; c < 4; c++) assert_true(isfinite(composed[y][x][c]));
             reflecting += reflection[y][x][0] > 0;
         }
-    assert_true(reflecting > FIXTURE_WIDTH * FIXTURE_HEIGHT / 4); /* about half of the picture is floor */
+    assert_true(reflecting > FIXTURE_WIDTH * FIXTURE_HEIGHT / 4); /* about half of the image is floor */
     fixture_check_messages(fixture);
 }
 
@@ -87,7 +87,7 @@ static void diagnostics_change_no_bit(void **state) {
     fixture_check_messages(fixture);
 }
 
-/* Every suffix of the pipeline, and every pass alone, on the images of the whole run. */
+/* Every suffix of the pipeline, and every single pass, starting from the images of the whole run. */
 static void every_cut_gives_the_bits_of_the_whole(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct snapshot whole, part;
@@ -177,7 +177,7 @@ static void float_precision_widens_every_half_image(void **state) {
     fixture_check_messages(fixture);
 }
 
-/* The last run's picture is in its folder, though no pass made it. */
+/* The final image of the last run is in its folder, although no pass wrote it. */
 static void check_written(struct fixture *fixture) {
     struct glint_error err = {0};
     static float composed[2][FIXTURE_HEIGHT][FIXTURE_WIDTH][4];
@@ -194,9 +194,9 @@ static void check_written(struct fixture *fixture) {
     glint_run_close(&run);
 }
 
-/* Where nothing reflects, composed is lit: under both names, and under each alone where only that is asked for. */
-static void check_instead(struct fixture *fixture) {
-    struct snapshot whole, instead;
+/* Where nothing reflects, composed equals lit: under both names, and under each alone if only that is requested. */
+static void check_composed_is_lit(struct fixture *fixture) {
+    struct snapshot whole, substituted;
     const char *const composed[] = {"composed", NULL}, *const other[] = {"depth_half", NULL};
     fixture_run(fixture, &(struct glint_replay_options){.all = true, .outputs = composed});
     assert_true(fixture_result(fixture, "compose")->ran);
@@ -209,9 +209,9 @@ static void check_instead(struct fixture *fixture) {
         assert_true((lit != NULL) == captured && (!lit || !lit->pass));
         assert_string_equal(glint_replay_find_image(fixture->replay, "composed")->pass->slot, "compose");
         if (captured) continue; /* a snapshot is of passes' images */
-        snapshot_take(&instead, fixture->replay);
-        assert_int_equal(snapshot_compare(&instead, &whole), 1);
-        snapshot_free(&instead);
+        snapshot_take(&substituted, fixture->replay);
+        assert_int_equal(snapshot_compare(&substituted, &whole), 1);
+        snapshot_free(&substituted);
     }
     snapshot_free(&whole);
     check_written(fixture);
@@ -220,7 +220,7 @@ static void check_instead(struct fixture *fixture) {
     assert_int_equal(glint_replay_image_count(fixture->replay), 0);
 }
 
-/* Frames that call for less, each through its own replay. */
+/* Frames that need less, each with a replay of its own. */
 static void check_frame(struct fixture *fixture, const struct fixture_options *frame, const char *dropped,
                         const char *reason) {
     struct glint_error err = {0};
@@ -239,7 +239,7 @@ static void check_frame(struct fixture *fixture, const struct fixture_options *f
                                         GLINT_F32, composed, &err));
     for (int y = 0; y < FIXTURE_HEIGHT; y++)
         for (int x = 0; x < FIXTURE_WIDTH; x++) assert_true(isfinite(composed[y][x][0]));
-    if (frame->matte) check_instead(fixture);
+    if (frame->matte) check_composed_is_lit(fixture);
     assert_true(glint_replay_load(fixture->replay, fixture->capture, &err));
     glint_capture_close(&capture);
     fixture_check_messages(fixture);
@@ -256,11 +256,6 @@ static void a_frame_without_cube_maps_still_runs(void **state) {
                 "0 cube maps");
 }
 
-static bool stop_late(void *user, const char *what, double done) {
-    (void)user, (void)done;
-    return strcmp(what, "resolve") != 0;
-}
-
 static void an_interrupted_run_can_be_taken_up_again(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct glint_error err = {0};
@@ -269,7 +264,7 @@ static void an_interrupted_run_can_be_taken_up_again(void **state) {
     fixture_run(fixture, &(struct glint_replay_options){.no_cache = true});
     snapshot_take(&whole, fixture->replay);
     assert_false(glint_replay_run(fixture->replay, fixture->pipeline, &(struct glint_replay_options){.no_cache = true},
-                                  stop_late, NULL, &err));
+                                  fixture_stop_at_resolve, NULL, &err));
     assert_int_equal(err.code, GLINT_ERROR_INTERRUPTED);
     glint_replay_results(fixture->replay, &count);
     assert_int_equal(count, 0);
@@ -325,7 +320,7 @@ static void devices_are_listed_and_chosen_by_index_or_name(void **state) {
     glint_device_destroy(&device);
 }
 
-/* A room's walls, ceiling open, in a colour a face: whatever texels they stand in, they are the same. */
+/* The walls of a room without ceiling, with one colour per face: equal for any size of the faces. */
 static float *cubemap_texels(uint32_t face, float light) {
     float *texels = malloc(6 * (size_t)face * face * 5 * sizeof *texels), *to = texels;
     assert_non_null(texels);
@@ -339,7 +334,7 @@ static float *cubemap_texels(uint32_t face, float light) {
     return texels;
 }
 
-/* Of a capture whose cube maps have these sizes. */
+/* Replays a capture whose cube maps have these sizes. */
 static void replay_cubemaps(struct fixture *fixture, const uint32_t sizes[3], float light, struct snapshot *snapshot) {
     static const char *const channel_names[] = {"R", "G", "B", "A", "distance.Z"};
     static const char *const names[] = {"cubemap.000", "cubemap.001", "cubemap.002"};
@@ -375,8 +370,8 @@ static void replay_cubemaps(struct fixture *fixture, const uint32_t sizes[3], fl
     for (int i = 0; i < 3; i++) free(texels[i]);
 }
 
-/* Texels of a picture (half floats) that are another by more than a part of 1/256. */
-static size_t others(const struct snapshot *a, const struct snapshot *b, const char *image) {
+/* Counts texels of an image of half floats that differ by more than 1/256. */
+static size_t count_other_texels(const struct snapshot *a, const struct snapshot *b, const char *image) {
     size_t i = 0, count = 0;
     while (i < a->count && strcmp(a->images[i].name, image) != 0) i++;
     assert_true(i < a->count && b->count == a->count && b->images[i].bytes == a->images[i].bytes);
@@ -394,9 +389,9 @@ static void cube_maps_of_different_sizes_are_taken_at_the_largest(void **state) 
     struct snapshot mixed, alike, darker;
     replay_cubemaps(fixture, (const uint32_t[]){8, 24, 10}, 0.1F, &mixed);
     replay_cubemaps(fixture, (const uint32_t[]){24, 24, 24}, 0.1F, &alike);
-    replay_cubemaps(fixture, (const uint32_t[]){24, 24, 24}, 0.05F, &darker); /* and they are looked at */
-    assert_int_equal(others(&mixed, &alike, "composed"), 0);
-    assert_true(others(&alike, &darker, "composed") > 100);
+    replay_cubemaps(fixture, (const uint32_t[]){24, 24, 24}, 0.05F, &darker); /* and cube maps have an effect */
+    assert_int_equal(count_other_texels(&mixed, &alike, "composed"), 0);
+    assert_true(count_other_texels(&alike, &darker, "composed") > 100);
     snapshot_free(&mixed), snapshot_free(&alike), snapshot_free(&darker);
     fixture_check_messages(fixture);
 }

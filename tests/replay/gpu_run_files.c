@@ -1,4 +1,4 @@
-/* What goes into a run and comes out of it as files: run folders, the engine's images, users' shaders. */
+/* Files of a run: run folders, the engine's images, and users' shaders. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -15,7 +15,7 @@
 #include "fixture.h"
 #include "need.h"
 
-/* Composes with the engine's own reflection in the capture, which the replay then holds; to be closed. */
+/* Composes with the engine's own reflection in the capture, which the replay then refers to; the caller closes it. */
 static struct glint_capture *compose_engines(struct fixture *fixture,
                                              float reflection[FIXTURE_HEIGHT][FIXTURE_WIDTH][4]) {
     static const char *const names[] = {"R", "G", "B", "A"};
@@ -41,8 +41,8 @@ static struct glint_capture *compose_engines(struct fixture *fixture,
     return capture;
 }
 
-/* The engine's own intermediate in the capture replaces the pass that would make it. */
-static void an_engines_image_stands_in_for_a_pass(void **state) {
+/* The engine's intermediate in the capture replaces the pass that would write it. */
+static void an_engines_image_replaces_a_pass(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct glint_error err = {0};
     static float reflection[FIXTURE_HEIGHT][FIXTURE_WIDTH][4], composed[2][FIXTURE_HEIGHT][FIXTURE_WIDTH][4];
@@ -60,7 +60,7 @@ static void an_engines_image_stands_in_for_a_pass(void **state) {
     fixture_check_messages(fixture);
 }
 
-/* NaN and light beyond half are counted, in memory and in run.json, with the first of them and who made it. */
+/* NaN and values beyond half floats are counted, in memory and in run.json, with the first one and the pass that wrote it. */
 static void bad_values_are_counted_and_placed(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct glint_error err = {0};
@@ -96,7 +96,7 @@ static void bad_values_are_counted_and_placed(void **state) {
     fixture_check_messages(fixture);
 }
 
-/* What oiiotool says of a channel of a part: its least and greatest finite value. */
+/* The minimum and maximum finite value of a channel that oiiotool reports. */
 static void foreign_range(const char *file, const char *channel, int subimage, double range[2]) {
     char command[512], line[4096];
     snprintf(command, sizeof command, "oiiotool '%s' --subimage %d --ch '%s' --printstats 2>&1", file, subimage,
@@ -119,7 +119,7 @@ static void foreign_tools_read_the_same_values(void **state) {
     for (size_t i = 0; i < 3; i++) need_program(programs[i]);
     fixture_run(fixture, &(struct glint_replay_options){.diagnostics = true});
     fixture_write_run(fixture, "foreign", folder);
-    /* exrinfo 3.1.5 ends with a status that it never sets: its messages tell. */
+    /* exrinfo 3.1.5 never sets its exit status, so its messages are checked */
     snprintf(command, sizeof command,
              "exrheader %s/*.exr >/dev/null && test -z \"$(exrinfo %s/*.exr 2>&1 >/dev/null)\"", folder, folder);
     assert_int_equal(system(command), 0);
@@ -139,14 +139,14 @@ static void foreign_tools_read_the_same_values(void **state) {
             if (!isfinite(value)) continue;
             low = fmin(low, value), high = fmax(high, value);
         }
-        /* The part's place in the file is that of the row among the pass's images. */
+        /* The part's index in the file is that of the row among the pass's images. */
         int subimage = 0;
         for (size_t r = 0; r < image->pass->row_count && &image->pass->rows[r] != image->row; r++)
             subimage +=
                 image->pass->rows[r].kind == GLINT_ROW_WRITE || image->pass->rows[r].kind == GLINT_ROW_DIAGNOSTIC;
         snprintf(file, sizeof file, "%s/%s", folder, images[i][1]);
         foreign_range(file, images[i][2], subimage, range);
-        /* It prints six decimals. */
+        /* it prints six decimals */
         assert_true(fabs(range[0] - low) <= 1e-6 * (1 + fabs(low)));
         assert_true(fabs(range[1] - high) <= 1e-6 * (1 + fabs(high)));
         free(pixels);
@@ -190,11 +190,6 @@ static bool exists(const char *folder, const char *name) {
     char path[256];
     snprintf(path, sizeof path, "%s/%s", folder, name);
     return access(path, F_OK) == 0;
-}
-
-static bool stop_late(void *user, const char *what, double done) {
-    (void)user, (void)done;
-    return strcmp(what, "resolve") != 0;
 }
 
 static void a_run_does_not_replace_its_own_inputs(void **state) {
@@ -242,10 +237,10 @@ static void an_interrupted_write_never_looks_complete(void **state) {
     fixture_write_run(fixture, "interrupted", folder);
     assert_true(exists(folder, "run.json"));
     assert_true(exists(folder, "08-compose.exr"));
-    assert_false(glint_replay_write(fixture->replay, folder, stop_late, NULL, &err));
+    assert_false(glint_replay_write(fixture->replay, folder, fixture_stop_at_resolve, NULL, &err));
     assert_int_equal(err.code, GLINT_ERROR_INTERRUPTED);
     assert_false(exists(folder, "run.json"));
-    assert_false(exists(folder, "08-compose.exr")); /* nothing of the run before it is left */
+    assert_false(exists(folder, "08-compose.exr")); /* nothing is left of the previous run */
     assert_null(glint_run_open(folder, &err));
     fixture_write_run(fixture, "interrupted", folder);
     assert_true(exists(folder, "run.json"));
@@ -274,7 +269,7 @@ static void a_users_shader_replaces_the_pass(void **state) {
     if (!glint_replay_run(fixture->replay, pipeline, &options, NULL, NULL, &err)) fail_msg("%s", err.message);
     snapshot_take(&copied, fixture->replay);
     snapshot_compare(&copied, &built_in);
-    /* An edited file runs again, and only what follows it does. */
+    /* An edited file runs again, and only the passes after it do. */
     write_text(path,
                "#version 460\n#extension GL_GOOGLE_include_directive : require\n#include \"shared/bindings.glsl\"\n"
                "#include \"hit.pass.h\"\n#include \"shared/push_begin.glsl\"\n#include \"hit.pass.h\"\n};\n"
@@ -311,7 +306,7 @@ static void a_users_shader_with_foreign_bindings_is_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(an_engines_image_stands_in_for_a_pass),
+        cmocka_unit_test(an_engines_image_replaces_a_pass),
         cmocka_unit_test(bad_values_are_counted_and_placed),
         cmocka_unit_test(a_run_folder_reads_back_as_it_was),
         cmocka_unit_test(foreign_tools_read_the_same_values),

@@ -1,4 +1,4 @@
-/* Lists of tiles leave nothing out that the picture, a kernel or the next frame reads; wrong lists are found. */
+/* Lists of tiles cover everything that the image, a kernel or the next frame reads; wrong lists are detected. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -12,16 +12,16 @@
 #include "pair.h"
 #include "plain_capture.h"
 
-enum { FACE = 16, TILED_WIDTH = 75, TILED_HEIGHT = 53, TILED_FRAMES = 3, SHIFT = 6 /* pixels, from frame to frame */ };
+enum { FACE = 16, TILED_WIDTH = 75, TILED_HEIGHT = 53, TILED_FRAMES = 3, SHIFT = 6 /* SHIFT: pixels per frame */ };
 
-/* Patches of 8 x 8 pixels of every material, others in every frame, and sky; what they show moves from tile to tile. */
+/* Patches of 8 x 8 pixels of every material, different in every frame, and sky; reflections move from tile to tile. */
 static void paint_tiles(const struct plain *plain, float *values) {
     const size_t pixels = (size_t)plain->width * plain->height;
     static const float roughness[] = {0.5f, 0, 0.09f, 0.6f, 0.3f, 0.5f};
     for (size_t i = 0; i < pixels; i++) {
         const size_t x = i % plain->width / 8, y = i / plain->width / 8;
         const size_t drawn = (x * 5 + y * 7 + plain->frame * 3) * (x + 11 * (y / 2) + 1) / 3 % 9;
-        const size_t patch = y / 2 == plain->frame % 3 ? 0 : drawn; /* sixteen rows that show nothing at all */
+        const size_t patch = y / 2 == plain->frame % 3 ? 0 : drawn; /* sixteen rows without any reflection */
         if (patch == 8) values[PLAIN_DEPTH * pixels + i] = INFINITY;
         values[PLAIN_ROUGHNESS * pixels + i] = patch < 6 ? roughness[patch] : 0;
         values[PLAIN_METALNESS * pixels + i] = 0;
@@ -50,7 +50,7 @@ static struct glint_capture *tiled(const struct fixture *fixture, uint32_t numbe
     return capture;
 }
 
-/* All frames of the shot; *worked: texels of tiles that passes ran over, of all that there are of them. */
+/* Sums up the differences in all frames of the shot; *worked: the fraction of texels in tiles that passes processed. */
 static size_t differences_of_tiles(struct pair *pair, double *worked) {
     size_t differ = 0, left_out = 0, passes;
     for (uint32_t frame = 1; frame <= TILED_FRAMES; frame++) {
@@ -70,8 +70,8 @@ static size_t differences_of_tiles(struct pair *pair, double *worked) {
     return differ;
 }
 
-/* Catches: tiles left out that a kernel or the next frame's history reads, tiles of the wrong class, texels that neither part
-   of the list writes. */
+/* Catches: missing tiles that a kernel or the next frame's history reads, tiles of the wrong class, and texels that neither part of the
+   list writes. */
 static void tiles_leave_nothing_out(void **state) {
     struct pair *pair = pair_of(state);
     static const char *const presets[] = {"mafia3", "mafia_de", "mafia3_shipped"};
@@ -84,7 +84,7 @@ static void tiles_leave_nothing_out(void **state) {
     fixture_check_messages(pair->fixture);
 }
 
-/* Catches: a comparison that finds every list right. */
+/* Catches: a comparison that accepts every list. */
 static void a_wrong_list_is_found(void **state) {
     struct pair *pair = pair_of(state);
     static const struct {

@@ -1,4 +1,4 @@
-/* Passes made up for tests. Their declarations are read as those of passes/ are. */
+/* Passes for tests. Their declarations are read like those of passes/. */
 #include "made.h"
 
 #include <math.h>

@@ -22,7 +22,7 @@ def plane(width, height, value):
 
 
 def convolved(image, kernel):
-    """`kernel` maps (dx, dy) to weights of a square; past an edge the nearest pixel repeats."""
+    """`kernel` maps (dx, dy) to the weights of a square; the nearest pixel is repeated beyond edges."""
     height, width = len(image), len(image[0])
     radius = max(dx for dx, _ in kernel)
     reach = range(-radius, radius + 1)
@@ -146,7 +146,7 @@ def seen(image, ppd):
 
 
 def flip(found, truth, ppd):
-    """Of linear colors in [0, 1]."""
+    """For linear colours in [0, 1]."""
     largest = hyab(hunt((0, 1, 0)), hunt((0, 0, 1))) ** 0.7
 
     def color(p, q):
@@ -168,7 +168,7 @@ def aces(x):
 
 
 def shown_as(level):
-    """The radiance that the curve takes to `level`, by bisection."""
+    """The radiance that the curve maps to `level`, by bisection."""
     low, high = 0.0, 100.0
     for _ in range(200):
         middle = (low + high) / 2
@@ -263,7 +263,7 @@ def library(tool, folder, found, truth, ppd, exposure, start=0.0, stop=0.0):
 
 
 def rounded(image):
-    """To floats, which is what the library reads."""
+    """Rounds to floats, which the library reads."""
     return zipped(lambda c: tuple(array.array("f", c)), image)
 
 
@@ -296,7 +296,7 @@ def main(tool):
                 start, stop, count = exposures(truth)
                 checks.near(f"{name}: start exposure", told["start"], start, 1e-5)
                 checks.near(f"{name}: stop exposure", told["stop"], stop, 1e-5)
-            else:  # the median is that of what is not black
+            else:  # the median is that of all values that are not black
                 rest = [[c for c in flat(truth) if any(v > 0 for v in c)]]
                 start, stop, count = exposures(rest)
                 checks.near(f"{name}: stop exposure", told["stop"], stop, 1e-5)

@@ -6,7 +6,7 @@
 
 #include "plain_capture.h"
 
-/* What half cannot hold, and what is next to that. */
+/* Values beyond half floats, and adjacent ones. */
 static void spoil_light(const struct plain *plain, float *values) {
     static const float bad[] = {INFINITY, -INFINITY, 1e9f,   -1e9f, 65504,  65519.99f,
                                 65520,    1e-8f,     -1e-7f, -0.0f, 1e-40f, NAN};
@@ -28,7 +28,7 @@ static void paint(const struct plain *plain, float *values) {
     if (painted->bad_light) spoil_light(plain, values);
 }
 
-/* Over the left third, but for each third row. */
+/* Over the left third, except every third row. */
 static void layer(uint32_t x, uint32_t y, float out[9]) {
     static const float there[9] = {0.1f, 0.2f, 0.3f, 0.5f, 0, 0.6f, 0.8f, 3, 0.2f}, none[9] = {[7] = INFINITY};
     memcpy(out, x < 16 && y % 3 != 0 ? there : none, sizeof there);

@@ -18,7 +18,7 @@ struct pair *pair_of(void **state) {
     struct pair *pair = *state;
     void *fixture = pair->fixture;
     fixture_need_device(&fixture);
-    pair->lie = NULL;
+    pair->falsify = NULL;
     return pair;
 }
 
@@ -28,13 +28,13 @@ void pair_use(struct pair *pair, const char *preset) {
     glint_pipeline_destroy(&pair->other);
     pair->pipeline = glint_pipeline_create(preset, &err);
     pair_check(pair->pipeline != NULL, &err);
-    if (strcmp(preset, "reference") != 0) /* a list of tiles, however little it leaves out */
+    if (strcmp(preset, "reference") != 0) /* passes run over a list of tiles, however many it contains */
         pair_check(glint_pipeline_set(pair->pipeline, "classify_tiles.max_coverage=1", &err), &err);
     if (glint_pipeline_rays(pair->pipeline) > 1)
         pair_check(glint_pipeline_set(pair->pipeline, "pipeline.rays=2", &err), &err);
 }
 
-/* Whether the text had what is right, and not what is wrong, in it. */
+/* Writes `text` with `right` replaced by `wrong`; false if it does not contain `right`. */
 static bool write_wrong(const struct pair *pair, const char *path, const char *text, const char *right,
                         const char *wrong) {
     char full[400];
@@ -53,7 +53,7 @@ void pair_spoil(struct pair *pair, const char *slot, const char *variant, const 
     struct glint_error err = {0};
     char path[300], assignment[400];
     snprintf(path, sizeof path, "%s/shared", pair->fixture->folder);
-    (void)mkdir(path, 0777); /* it may be there */
+    (void)mkdir(path, 0777); /* it may exist */
     bool found = write_wrong(pair, maker, glint_pass_text(maker), right, wrong);
     snprintf(path, sizeof path, "%s/%s.comp", glint_pass_find(slot, variant)->folder, variant);
     found |= write_wrong(pair, "wrong.comp", glint_pass_text(path), right, wrong);
@@ -87,7 +87,7 @@ int pair_tear_down(void **state) {
     return fixture_teardown(&fixture);
 }
 
-/* The last picture that the pipeline makes; of halves, which become floats without loss, or of floats. */
+/* The final image of the pipeline: of halves, which convert to floats without loss, or of floats. */
 static uint32_t *picture_of(struct glint_replay *replay, size_t *count) {
     static const char *const pictures[] = {"composed_transparent", "composed_water", "composed"};
     struct glint_error err = {0};
@@ -101,8 +101,8 @@ static uint32_t *picture_of(struct glint_replay *replay, size_t *count) {
     return bits;
 }
 
-/* Which of the NaNs a device stores is its own affair. */
-static bool same(uint32_t a, uint32_t b) {
+/* Which NaN a device stores is not specified. */
+static bool same_bits(uint32_t a, uint32_t b) {
     return a == b || ((a & 0x7FFFFFFF) > 0x7F800000 && (b & 0x7FFFFFFF) > 0x7F800000);
 }
 
@@ -110,11 +110,11 @@ size_t pair_differences(struct pair *pair, struct glint_capture *capture, size_t
     struct glint_error err = {0};
     pair_check(glint_replay_load(pair->planned, capture, &err), &err);
     pair_check(glint_replay_load(pair->whole, capture, &err), &err);
-    if (pair->lie) {
+    if (pair->falsify) {
         const struct glint_plan_entry *entries;
         size_t count;
         pair_check(glint_replay_plan(pair->planned, pair->pipeline, NULL, &entries, &count, &err), &err);
-        pair->lie(&pair->planned->planner.survey.figures);
+        pair->falsify(&pair->planned->planner.survey.figures);
     }
     struct glint_replay_options options = {.float_precision = pair->float_precision};
     pair_check(glint_replay_run(pair->planned, pair->pipeline, &options, NULL, NULL, &err), &err);
@@ -127,7 +127,7 @@ size_t pair_differences(struct pair *pair, struct glint_capture *capture, size_t
     for (size_t i = 0; i < passes; i++) *left_out += !results[i].ran;
     uint32_t *bits[] = {picture_of(pair->planned, &counts[0]), picture_of(pair->whole, &counts[1])};
     assert_int_equal(counts[0], counts[1]);
-    for (size_t i = 0; i < counts[0]; i++) differ += !same(bits[0][i], bits[1][i]);
+    for (size_t i = 0; i < counts[0]; i++) differ += !same_bits(bits[0][i], bits[1][i]);
     free(bits[0]), free(bits[1]);
     return differ;
 }

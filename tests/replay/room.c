@@ -1,4 +1,4 @@
-/* A program of one room and those below it: that it links is the test. */
+/* A program that links one room with only those below it: that it links is the test. */
 int main(void) {
     return 0;
 }

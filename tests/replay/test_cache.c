@@ -1,4 +1,4 @@
-/* The cache folder: what comes back from it, what does not, and how much stays. */
+/* The cache folder: what it returns, what it does not, and how much it keeps. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -28,7 +28,7 @@ static void begin(struct place *place) {
     snprintf(place->back, sizeof place->back, "%s/back", place->top);
 }
 
-static void end(const struct place *place) {
+static void remove_place(const struct place *place) {
     char command[128];
     snprintf(command, sizeof command, "rm -r '%s'", place->top);
     assert_int_equal(system(command), 0);
@@ -67,7 +67,7 @@ static void what_was_stored_comes_back(void **state) {
     assert_false(cache_find(place.folder, keys[0], path, sizeof path)); /* no folder yet */
     write_text(place.file, "first");
     cache_store(place.folder, keys[0], place.file, UINT64_MAX);
-    write_text(place.file, "changed"); /* in place: the entry is a copy */
+    write_text(place.file, "changed"); /* modified in place, but the entry is a copy */
     assert_true(cache_copy(place.folder, keys[0], place.back));
     expect_text(place.back, "first");
     write_text(place.back, "changed");
@@ -78,11 +78,11 @@ static void what_was_stored_comes_back(void **state) {
     cache_store(place.folder, keys[0], place.file, UINT64_MAX);
     assert_true(cache_copy(place.folder, keys[0], place.back));
     expect_text(place.back, "second");
-    assert_int_equal(count_files(place.folder), 1); /* nothing half written, nothing old */
-    end(&place);
+    assert_int_equal(count_files(place.folder), 1); /* no incomplete or old files */
+    remove_place(&place);
 }
 
-/* Catches: bytes that went bad handed out as if they were the stored ones. */
+/* Catches: damaged data that is returned as if it were the stored one. */
 static void a_damaged_entry_is_none(void **state) {
     struct place place;
     char path[256];
@@ -97,10 +97,10 @@ static void a_damaged_entry_is_none(void **state) {
         else assert_false(cache_find(place.folder, keys[0], path, sizeof path));
         assert_int_equal(access(place.back, F_OK), -1);
     }
-    end(&place);
+    remove_place(&place);
 }
 
-/* Catches: a bound that does not hold, or one that drops what was used last. */
+/* Catches: a limit that is exceeded, or that evicts recently used entries. */
 static void what_was_not_used_for_longest_goes(void **state) {
     struct place place;
     char path[256];
@@ -109,7 +109,7 @@ static void what_was_not_used_for_longest_goes(void **state) {
     write_text(place.file, "ten bytes.");
     for (int i = 0; i < 2; i++) {
         cache_store(place.folder, keys[i], place.file, 25);
-        usleep(20000); /* times of files come in ticks */
+        usleep(20000); /* times of files have a limited resolution */
     }
     assert_true(cache_find(place.folder, keys[0], path, sizeof path));
     usleep(20000);
@@ -117,21 +117,21 @@ static void what_was_not_used_for_longest_goes(void **state) {
     assert_true(cache_find(place.folder, keys[0], path, sizeof path));
     assert_false(cache_find(place.folder, keys[1], path, sizeof path));
     assert_true(cache_find(place.folder, keys[2], path, sizeof path));
-    end(&place);
+    remove_place(&place);
 }
 
-/* Catches: a cache that makes its user fail. */
+/* Catches: a cache whose failure makes its user fail. */
 static void a_folder_that_cannot_be_written_keeps_nothing(void **state) {
     struct place place;
     char path[256];
     (void)state;
     begin(&place);
     write_text(place.file, "first");
-    cache_store(place.file, keys[0], place.file, UINT64_MAX); /* a file is there already */
+    cache_store(place.file, keys[0], place.file, UINT64_MAX); /* a file exists at that path */
     assert_false(cache_find(place.file, keys[0], path, sizeof path));
     assert_false(cache_copy(place.file, keys[0], place.back));
     expect_text(place.file, "first");
-    end(&place);
+    remove_place(&place);
 }
 
 int main(void) {

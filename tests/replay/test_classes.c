@@ -1,4 +1,4 @@
-/* Classes of pixels, against the geometry that the fixture's G-buffer was made from. */
+/* Classes of pixels, compared with the geometry of the fixture's G-buffer. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,13 +15,13 @@
 
 enum { W = FIXTURE_WIDTH, H = FIXTURE_HEIGHT };
 
-/* Places in `names` of the classes: the first whose limit is not exceeded. */
+/* The index of the class in `names`: the first whose limit is not exceeded. */
 static unsigned bin(double value, double a, double b, double c) {
     return value <= a ? 1 : value <= b ? 2 : value <= c ? 3 : 4;
 }
 
-/* The camera stands 1.5 m over the floor, 6 m before the wall: the cosine is the height over the distance, or those 6 m. All of it is
-   `scale` times as far in the frame that is looked at. */
+/* The camera is 1.5 m above the floor and 6 m in front of the wall: the cosine is the height or 6 m over the distance. Everything is
+   scaled by `scale` in this frame. */
 static void check_room(const struct fixture *fixture, uint32_t number, double scale, const unsigned *distances) {
     struct glint_classes sets[GLINT_CAPTURE_CLASSES];
     struct glint_error err = {0};
@@ -89,7 +89,7 @@ static void hits_are_binned_and_know_the_sky(void **state) {
     glint_capture_close(&capture);
 }
 
-/* A truth of the left half alone; what it holds elsewhere is nothing. */
+/* A truth that is known in the left half only. */
 static void pixels_of_which_the_truth_knows_nothing_are_not_compared(void **state) {
     const struct fixture *fixture = *state;
     static float truth[H][W][5];
@@ -118,7 +118,7 @@ static void pixels_of_which_the_truth_knows_nothing_are_not_compared(void **stat
         const struct glint_pixels found = {W, H, 3, three};
         assert_true(glint_study_image(&found, &answer, 3, NULL, error, &errors, &err));
         assert_int_equal(errors.of[0].pixels, H * (W / 2));
-        assert_true(errors.of[0].mean == 1); /* where nothing is known 3 */
+        assert_true(errors.of[0].mean == 1); /* 3 where the truth is unknown */
         free(error);
         glint_pixels_finish(&answer);
         glint_capture_close(&capture);

@@ -1,4 +1,4 @@
-/* Comparisons by class and channel, what is no number, and intervals, against closed forms and simulated truth. */
+/* Comparisons by class and channel, non-finite values, and intervals, compared with closed forms and simulated truth. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "glint/metrics.h"
+#include "uniform.h"
 
 static void assert_near(double found, double expected, double tolerance) {
     if (!(fabs(found - expected) <= tolerance)) fail_msg("%.17g is not %.17g ± %g", found, expected, tolerance);
@@ -84,7 +85,7 @@ static void invalid_pixels_are_counted_in_both_and_named(void **state) {
     uint8_t mask[12] = {0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
     struct glint_metric_options o = {.mask = mask, .metrics = GLINT_METRICS_ALL};
     struct glint_error err = {0};
-    found[0] = NAN; /* not looked at */
+    found[0] = NAN; /* excluded */
     struct glint_metric_table table = compared(&f, &t, &o);
     assert_true(glint_metrics_valid(&table, "x", &err));
     assert_int_equal(table.rows[0].pixels, 11);
@@ -105,8 +106,8 @@ static void invalid_pixels_are_counted_in_both_and_named(void **state) {
     glint_metric_table_finish(&table);
 }
 
-/* What a display shows of a grey radiance, by the formulas of docs/metrics.md. */
-static double shown(double x) {
+/* The displayed value of a grey radiance, by the formulas of docs/metrics.md. */
+static double displayed(double x) {
     x *= 0.6;
     double y = fmin(1, (x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14));
     return y <= 0.0031308 ? 12.92 * y : 1.055 * pow(y, 1 / 2.4) - 0.055;
@@ -124,11 +125,11 @@ static void flat_images_have_closed_forms(void **state) {
     struct glint_metric_options o = {.metrics = GLINT_METRICS_ALL};
     struct glint_metric_table table = compared(&f, &t, &o);
     const struct glint_figure *of = table.rows[0].of;
-    double a = shown(0.25), b = shown(0.5);
+    double a = displayed(0.25), b = displayed(0.5);
     assert_near(table.peak, 0.5, 0);
     assert_near(of[GLINT_METRIC_PSNR].value, 20 * log10(2), 1e-12);
     assert_near(of[GLINT_METRIC_RELATIVE_MSE].value, 0.0625 / 0.26, 1e-12);
-    /* no variance is left but float's rounding: 1e-7 beside C2 of 9e-4 */
+    /* only the rounding of float remains in the variance: 1e-7 next to C2 of 9e-4 */
     assert_near(of[GLINT_METRIC_SSIM].value, (2 * a * b + 1e-4) / (a * a + b * b + 1e-4), 3e-4);
     glint_metric_table_finish(&table);
     o.exposure = 1;
@@ -136,7 +137,7 @@ static void flat_images_have_closed_forms(void **state) {
     o.epsilon = 0.0625;
     table = compared(&f, &t, &o);
     of = table.rows[0].of;
-    a = shown(0.5), b = shown(1);
+    a = displayed(0.5), b = displayed(1);
     assert_near(of[GLINT_METRIC_PSNR].value, 20 * log10(4), 1e-12);
     assert_near(of[GLINT_METRIC_RELATIVE_MSE].value, 0.2, 1e-12);
     assert_near(of[GLINT_METRIC_SSIM].value, (2 * a * b + 1e-4) / (a * a + b * b + 1e-4), 3e-4);
@@ -153,13 +154,8 @@ static void flat_images_have_closed_forms(void **state) {
     glint_metric_table_finish(&table);
 }
 
-static double uniform(uint64_t *state) {
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*state >> 11) / 9007199254740992.0;
-}
-
-/* Errors that are alike within patches, as those of a wrong reflection are: intervals that took pixels for independent would be a
-   quarter as wide as they must be, and hold the mean four times in ten. */
+/* Errors are equal within patches, as those of wrong reflections are: intervals for independent pixels would be a quarter as wide as
+   required, and contain the mean four times in ten. */
 static void intervals_hold_the_mean_as_often_as_they_say(void **state) {
     (void)state;
     enum { SIZE = 192, PATCH = 4, IMAGES = 300 };
@@ -181,7 +177,7 @@ static void intervals_hold_the_mean_as_often_as_they_say(void **state) {
         glint_metric_table_finish(&table);
     }
     print_message("# 95 %% intervals held the mean in %.1f %%\n", 100.0 * held / IMAGES);
-    /* Tiles of 13 pixels cut patches apart and see 0.83 of the variance: 92.5 %, and 300 draws of that scatter by 1.5 %. */
+    /* Tiles of 13 pixels cut patches and see 0.83 of the variance: 92.5 %, with a deviation of 1.5 % for 300 samples. */
     assert_in_range(held, IMAGES * 88 / 100, IMAGES * 97 / 100);
 }
 
@@ -204,7 +200,8 @@ static void the_same_seed_gives_the_same_interval(void **state) {
     glint_metric_table_finish(&b);
 }
 
-/* Two pictures err alike but for one that errs by 0.02 more: the intervals of both overlap, that of the difference is narrow and holds it. */
+/* Two images have equal errors except for a difference of 0.02: both intervals overlap, while that of the difference is narrow and
+   contains it. */
 static void a_difference_is_surer_than_its_parts(void **state) {
     (void)state;
     enum { SIZE = 128 };
@@ -237,7 +234,7 @@ static void a_difference_is_surer_than_its_parts(void **state) {
     glint_metric_table_finish(&b);
 }
 
-/* What is left out is black for those metrics that look at neighbours, whatever it holds. */
+/* Excluded pixels are black for metrics with neighbourhoods, whatever their values are. */
 static void what_is_left_out_leaks_into_no_neighbour(void **state) {
     (void)state;
     enum { SIZE = 24, PIXELS = SIZE * SIZE };

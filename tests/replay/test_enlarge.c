@@ -1,4 +1,4 @@
-/* Cube maps brought to another size, against closed forms: planes stay planes, edges stay where they are. */
+/* Cube maps resampled to another size, compared with closed forms: planes stay planes, and edges stay in place. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -12,7 +12,7 @@
 
 enum { CHANNELS = 3 }; /* a colour, a constant, a distance */
 
-/* What a texel at (a, b) of a face of [-1, 1]² shows. */
+/* The contents of a texel at (a, b) on a face of [-1, 1]². */
 typedef void (*shows)(int face, double a, double b, float out[CHANNELS]);
 
 static float *texels(uint32_t size, shows shows) {
@@ -33,7 +33,7 @@ static float *enlarged(uint32_t own, uint32_t face, shows shows) {
     return channels.data;
 }
 
-/* Planes 2 m away, a different way aslant behind each face; a ramp of colour. */
+/* Planes at 2 m, tilted differently behind each face; a gradient of colour. */
 static void planes(int face, double a, double b, float out[CHANNELS]) {
     const double along = 2 / (1 + 0.05 * face * a - 0.1 * b);
     out[0] = (float)(2 + a - b), out[1] = 7, out[2] = (float)(along * sqrt(1 + a * a + b * b));
@@ -50,7 +50,7 @@ static void planes_stay_planes_and_ramps_ramps(void **state) {
             const double a = (2.0 * (double)(i % face) + 1) / face - 1,
                          b = (2.0 * (double)(i / face % face) + 1) / face - 1;
             const bool border = fmax(fabs(a), fabs(b)) > 1 - 1.0 / own;
-            /* a few roundings of float, which the differences beyond the borders double */
+            /* a few roundings of float, doubled by the differences beyond the borders */
             assert_true(fabs(f[2] / w[2] - 1.0) < 1e-6);
             assert_true(border || fabs(f[0] - w[0]) < 1e-6 * 4);
             assert_true(f[1] == 7);
@@ -59,7 +59,7 @@ static void planes_stay_planes_and_ramps_ramps(void **state) {
     }
 }
 
-/* A wall that ends before another, and before the sky. */
+/* A wall that ends in front of another one, and of the sky. */
 static void edges(int face, double a, double b, float out[CHANNELS]) {
     out[0] = out[1] = 1;
     out[2] = a + 0.3 * b < 0.1 ? 1 : face % 2 ? 3 : INFINITY;
@@ -73,8 +73,8 @@ static void nothing_is_seen_between_two_surfaces(void **state) {
     for (size_t i = 0; i < 6 * FACE * FACE; i++) {
         const size_t x = (2 * (i % FACE) + 1) * OWN / (2 * FACE), y = (2 * (i / FACE) + 1) * OWN / (2 * FACE);
         const float nearest = own[CHANNELS * (y * OWN + x) + 2], f = found[CHANNELS * i + 2];
-        /* equal distances are no plane: beyond the outermost texels' middles a line is off by 3/8 of the square of a texel's width,
-           on either axis */
+        /* equal distances are not a plane: beyond the centres of the outermost texels a line is off by 3/8 of the square of a texel's
+           width, on either axis */
         assert_true(isinf(nearest) ? isinf(f) : fabsf(f / nearest - 1) < 2 * 3 / 8.0F / 36);
         near += nearest == 1;
     }
@@ -82,7 +82,7 @@ static void nothing_is_seen_between_two_surfaces(void **state) {
     free(found), free(own);
 }
 
-/* Two metres along each face's axis, or sky. */
+/* Two metres along the axis of each face, or sky. */
 static void walls(int face, double a, double b, float out[CHANNELS]) {
     out[0] = out[1] = 1, out[2] = face == 2 ? INFINITY : (float)(2 * sqrt(1 + a * a + b * b));
 }

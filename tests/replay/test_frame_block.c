@@ -1,4 +1,4 @@
-/* The uniform block against plain matrix products in double: random cameras, mirrored ones, both clip conventions. */
+/* The uniform block compared with matrix products in double: random cameras, mirrored ones, both clip conventions. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -10,11 +10,7 @@
 #include <cmocka.h>
 
 #include "frame_block.h"
-
-static double uniform(uint64_t *state) {
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*state >> 11) / 9007199254740992.0;
-}
+#include "uniform.h"
 
 static void transform(const double m[16], const double in[4], double out[4]) {
     for (int r = 0; r < 4; r++)
@@ -28,7 +24,7 @@ static void apply(const mat4 *m, const double in[4], double out[4]) {
     }
 }
 
-/* A rotation from a random quaternion, one axis mirrored if asked, about a random eye. */
+/* A rotation from a random quaternion, optionally with a mirrored axis, and a random eye. */
 static void random_camera(uint64_t *state, bool mirror, double front, double far_from_origin,
                           struct glint_camera *camera, double eye[3]) {
     double q[4], length = 0;
@@ -53,12 +49,12 @@ static void random_camera(uint64_t *state, bool mirror, double front, double far
     camera->view_to_clip[10] = front, camera->view_to_clip[11] = -0.1, camera->view_to_clip[14] = front;
 }
 
-static void fill(struct frame_block *block, const struct glint_frame *frame) {
+static void fill_block(struct frame_block *block, const struct glint_frame *frame) {
     const struct frame_sizes sizes = {.full = {100, 50}, .half = {50, 25}, .active = 3, .chain = 2, .cube_face = 16};
     frame_block_fill(block, frame, &sizes);
 }
 
-/* uv by the capture's own definition: clip = view_to_clip · world_to_view · world. */
+/* uv by the definition of captures: clip = view_to_clip · world_to_view · world. */
 static bool project(const struct glint_camera *camera, enum glint_clip_y clip_y, const double world[3], double uv[2]) {
     const double point[4] = {world[0], world[1], world[2], 1};
     double view[4], clip[4];
@@ -83,7 +79,7 @@ static void the_mirror_projects_as_its_camera_says(void **unused) {
         random_camera(&state, n & 4, n & 8 ? 1 : -1, 0, &frame.camera, eye);
         random_camera(&state, n & 4, n & 8 ? 1 : -1, 0, &planar.camera, mirrored);
         planar.plane[3] = -3 * eye[1] - 4 * eye[2] + 10; /* two units from the eye */
-        fill(&block, &frame);
+        fill_block(&block, &frame);
         assert_true(block.mirror_plane.x == 0 && block.mirror_uv_from_world.column[3][3] == 0);
         frame_block_mirror(&block, &frame, &planar);
         assert_true(fabs((double)block.mirror_plane.w - 2 * frame.metres_per_unit) < 1e-5 &&
@@ -97,7 +93,7 @@ static void the_mirror_projects_as_its_camera_says(void **unused) {
         apply(&block.mirror_uv_from_world, relative, clip);
         transform(planar.camera.world_to_view, point, view);
         const double depth = fabs(view[2]) * frame.metres_per_unit;
-        /* floats of coordinates below 100, over the depth */
+        /* floats of coordinates below 100, divided by depth */
         assert_true(fabs(clip[3] - depth) < 1e-5 && clip[2] == clip[3]);
         assert_true(fabs(clip[0] / clip[3] - uv[0]) < 1e-5 * (1 + fabs(uv[0])) / fmin(1, depth));
         assert_true(fabs(clip[1] / clip[3] - uv[1]) < 1e-5 * (1 + fabs(uv[1])) / fmin(1, depth));
@@ -119,7 +115,7 @@ static void points_project_as_the_matrices_say(void **unused) {
         const double distance = n & 16 ? 1e6 : 0;
         random_camera(&state, n & 4, n & 8 ? 1 : -1, distance, &frame.camera, eye);
         random_camera(&state, n & 4, n & 8 ? 1 : -1, distance, &frame.previous, previous_eye);
-        fill(&block, &frame);
+        fill_block(&block, &frame);
         for (int i = 0; i < 3; i++) world[i] = eye[i] + 8 * (uniform(&state) - 0.5);
         const double relative[4] = {(world[0] - eye[0]) * frame.metres_per_unit,
                                     (world[1] - eye[1]) * frame.metres_per_unit,
@@ -127,7 +123,7 @@ static void points_project_as_the_matrices_say(void **unused) {
         double view[4], back[4];
         apply(&block.view_from_world, relative, view);
         apply(&block.world_from_view, view, back);
-        /* 1e-5: the block's floats hold 6e-8, lengths and coordinates here stay below 100 */
+        /* floats of the block have a precision of 6e-8, and lengths and coordinates here are below 100 */
         for (int i = 0; i < 3; i++) assert_true(fabs(back[i] - relative[i]) < 1e-5);
         if (project(&frame.camera, frame.clip_y, world, uv)) {
             const double depth = view[2] * (double)block.depth_range.z;
@@ -178,7 +174,7 @@ static void the_depth_range_is_that_of_the_projection(void **unused) {
             frame.camera.view_to_clip[10] = cases[i].a * front;
             frame.camera.view_to_clip[11] = cases[i].b;
             frame.camera.view_to_clip[14] = front;
-            fill(&block, &frame);
+            fill_block(&block, &frame);
             assert_true(fabs((double)block.depth_range.x - cases[i].near / 2) < 1e-6);
             if (isinf(cases[i].far)) assert_true(isinf(block.depth_range.y));
             else assert_true(fabs((double)block.depth_range.y - cases[i].far / 2) < 1e-3);
@@ -198,14 +194,15 @@ static void a_frame_far_from_the_origin_has_the_same_block(void **unused) {
     random_camera(&one, false, -1, 0, &near.camera, eye), random_camera(&one, false, -1, 0, &near.previous, eye);
     random_camera(&other, false, -1, 1e6, &far.camera, eye), random_camera(&other, false, -1, 1e6, &far.previous, eye);
     far.fog.base += 1e6;
-    fill(&a, &near), fill(&b, &far);
+    fill_block(&a, &near), fill_block(&b, &far);
     const float *x = (const float *)&a, *y = (const float *)&b;
     for (size_t i = 0; i < offsetof(struct frame_block, size) / sizeof(float); i++)
-        if (x[i] != y[i]) assert_true(fabsf(x[i] - y[i]) <= 1e-6f * (1 + fabsf(x[i]))); /* 1e6 in double: 1e-10 */
+        if (x[i] != y[i])
+            assert_true(fabsf(x[i] - y[i]) <= 1e-6f * (1 + fabsf(x[i]))); /* 1e6 in double has a precision of 1e-10 */
 }
 
-/* An engine's matrices with rotations of floats, which are orthonormal to 1e-7 alone: where a still point was in the
-   previous picture is what those matrices say, though the world is 1,000 km wide. */
+/* An engine's matrices with rotations in floats, which are orthonormal to 1e-7 only: the previous position of a static point follows
+   from these matrices, although the world is 1,000 km wide. */
 static void rotations_in_floats_do_not_move_the_camera(void **unused) {
     (void)unused;
     uint64_t state = 9;
@@ -225,13 +222,13 @@ static void rotations_in_floats_do_not_move_the_camera(void **unused) {
                 for (int k = 0; k < 3; k++) row[3] -= row[k] * (c ? previous_eye : eye)[k];
             }
         struct frame_block block;
-        fill(&block, &frame);
+        fill_block(&block, &frame);
         for (int p = 0; p < 20; p++) {
             const double relative[4] = {8 * uniform(&state) - 4, 8 * uniform(&state) - 4, 8 * uniform(&state) - 4, 1};
             const double world[4] = {relative[0] + eye[0], relative[1] + eye[1], relative[2] + eye[2], 1};
             transform(frame.previous.world_to_view, world, exact);
             apply(&block.previous_view_from_world, relative, view);
-            /* 4e-6 m: lengths below 8 m in floats. A camera moved by 12 mm is off by that much. */
+            /* lengths below 8 m in floats; a camera moved by 12 mm is off by that much */
             for (int i = 0; i < 3; i++) assert_true(fabs(view[i] - exact[i]) < 4e-6);
         }
     }
@@ -245,16 +242,16 @@ static void fog_and_up_are_in_metres(void **unused) {
                                 .fog = {.color = {1, 2, 3}, .density = 0.0002, .base = 100, .scale_height = 5000}};
     struct frame_block block;
     frame.camera.world_to_view[0] = frame.camera.world_to_view[5] = frame.camera.world_to_view[10] = 1;
-    frame.camera.world_to_view[11] = 700; /* the eye is at z = -700, which is 700 up */
+    frame.camera.world_to_view[11] = 700; /* the eye is at z = -700, at a height of 700 */
     frame.camera.view_to_clip[0] = frame.camera.view_to_clip[5] = frame.camera.view_to_clip[14] = 1;
-    fill(&block, &frame);
+    fill_block(&block, &frame);
     assert_true(block.up.z == -1 && block.up.x == 0 && block.up.y == 0);
     assert_true(fabsf(block.fog_color.w - 0.02f) < 1e-7f);
     assert_true(fabsf(block.fog_height.x - 6) < 1e-5f);
     assert_true(fabsf(block.fog_height.y - 50) < 1e-4f);
 }
 
-/* std140 as the shader sees it: offsets of a block that holds only 16-byte members. */
+/* std140 as in the shader: offsets in a block of 16-byte members. */
 static void the_layout_is_std140(void **unused) {
     (void)unused;
     assert_int_equal(offsetof(struct frame_block, world_from_view), 64);

@@ -1,4 +1,4 @@
-/* Linking, ordering, dropping and faults, on passes made up here. */
+/* Linking, ordering, dropping and errors with passes that are defined here. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -29,7 +29,7 @@
                                             .rows = name_##_rows,                                                      \
                                             .row_count = sizeof name_##_rows / sizeof name_##_rows[0]}
 
-/* zeta → alpha → mid, though their names sort otherwise; side hangs beside. */
+/* The order is zeta → alpha → mid, unlike that of their names; side is independent. */
 DEFINE_PASS(zeta, "v", READS("lit"), WRITES("z"));
 DEFINE_PASS(alpha, "v", READS("z"), WRITES("a"), DIAGNOSES("why"));
 DEFINE_PASS(mid, "v", READS("a"), WRITES("m"), NEEDED("yes"));
@@ -40,14 +40,14 @@ struct pipeline {
     struct glint_pipeline pipeline;
 };
 
-static void make(struct pipeline *made, const struct glint_pass *const *passes, size_t count) {
+static void make_pipeline(struct pipeline *made, const struct glint_pass *const *passes, size_t count) {
     *made = (struct pipeline){.pipeline = {.name = "made", .passes = made->passes, .count = count}};
     made->pipeline.passes = made->passes;
     for (size_t i = 0; i < count; i++) made->passes[i].pass = passes[i];
 }
 #define MAKE(made, ...)                                                                                                \
-    make(made, (const struct glint_pass *const[]){__VA_ARGS__},                                                        \
-         sizeof((const struct glint_pass *const[]){__VA_ARGS__}) / sizeof(void *))
+    make_pipeline(made, (const struct glint_pass *const[]){__VA_ARGS__},                                               \
+                  sizeof((const struct glint_pass *const[]){__VA_ARGS__}) / sizeof(void *))
 
 static enum fact_about about(const char *fact) {
     return strcmp(fact, "yes") == 0 || strcmp(fact, "no") == 0 ? FACT_PIXELS : FACT_UNKNOWN;
@@ -81,7 +81,8 @@ static void passes_run_in_the_order_of_their_images(void **state) {
     struct glint_error err;
     MAKE(&made, &alpha, &mid, &side, &zeta);
     assert_true(build(state, &graph, &made, (struct glint_replay_options){0}, &err));
-    const char *const order[] = {"zeta", "alpha", "mid", "side"}; /* side could come earlier: ties go by name */
+    const char *const order[] = {"zeta", "alpha", "mid",
+                                 "side"}; /* side could run earlier: ties are resolved by name */
     for (size_t i = 0; i < 4; i++) assert_string_equal(graph.passes[i].pass->slot, order[i]);
     graph_finish(&graph);
 }
@@ -120,7 +121,7 @@ static void readers_of_a_dropped_pass_get_nothing(void **state) {
     graph_finish(&graph);
 }
 
-/* A pass that makes an image like the capture's, and one that reads it. */
+/* A pass that writes an image like the capture's, and one that reads it. */
 static void what_a_dropped_pass_would_have_passed_on_is_the_captures(void **state) {
     static const struct glint_row last[] = {
         READS("lit"), WRITES("l"), NEEDED("no"), {.kind = GLINT_ROW_ALIAS, .name = "lit", .image = "l"}};
@@ -152,7 +153,7 @@ static void what_a_dropped_pass_would_have_passed_on_is_the_captures(void **stat
     assert_null(graph_find(&graph, "l"));
     graph_finish(&graph);
     assert_true(build(state, &graph, &made, (struct glint_replay_options){.skip = skip}, &err));
-    assert_int_equal(graph_find(&graph, "l")->source, SOURCE_FALLBACK); /* that is no fact of the frame's */
+    assert_int_equal(graph_find(&graph, "l")->source, SOURCE_FALLBACK); /* which is independent of the frame */
     graph_finish(&graph);
     char shader[] = "own.comp";
     made.passes[0].shader = shader;
@@ -192,7 +193,7 @@ static void diagnostic_images_exist_only_on_request(void **state) {
     const char *const outputs[] = {"why", NULL};
     assert_false(build(state, &graph, &made, (struct glint_replay_options){.outputs = outputs}, &err));
     fixture_says(&err, "why is a diagnostic image");
-    /* nobody has to name them one by one, but what makes them has to run */
+    /* they need not be listed, but the passes that write them must run */
     const char *const others[] = {"a", NULL}, *const before[] = {"z", NULL};
     assert_true(
         build(state, &graph, &made, (struct glint_replay_options){.outputs = others, .diagnostics = true}, &err));
@@ -285,7 +286,7 @@ static void what_is_assumed_is_a_number_of_the_pass(void **state) {
     assert_null(strstr(err.message, "there"));
 }
 
-/* Every pipeline that the table allows has to link: the real declarations agree with one another. */
+/* Every pipeline of the table links, so the declarations of all passes are consistent. */
 static void the_real_passes_link(void **state) {
     const struct fixture *fixture = *state;
     struct graph graph;
@@ -303,7 +304,7 @@ static void the_real_passes_link(void **state) {
     graph_finish(&graph);
 }
 
-/* Catches: a fact that leaves out the limit itself, pixels that reflect nothing, values that are none. */
+/* Catches: a fact that omits the limit itself, pixels that do not reflect, and invalid values. */
 static void smooth_and_rough_pixels_are_facts(void **state) {
     const struct fixture *fixture = *state;
     struct glint_survey survey;
@@ -334,7 +335,7 @@ static void smooth_and_rough_pixels_are_facts(void **state) {
     assert_true(fabsf(survey.reflecting.roughness[1] - 0.3f) < 0.3f / 2048); /* half precision */
 }
 
-/* Catches: passes for each ray that are not together, or that one of the others interrupts though it could wait. */
+/* Catches: passes of the ray loop that are not consecutive, or that another pass interrupts although it could wait. */
 static void passes_for_each_ray_stand_together(void **state) {
     DEFINE_PASS(a_late, "v", READS("r2"), WRITES("l"));
     DEFINE_PASS(b_ray, "v", READS("e"), WRITES("r1"), {.kind = GLINT_ROW_PER_RAY, .name = ""});

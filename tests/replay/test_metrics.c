@@ -1,4 +1,4 @@
-/* Metrics of images and distances against sums done by hand, and against errors that were put in. */
+/* Metrics of images and distances compared with sums by hand, and with errors that are added. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -10,6 +10,7 @@
 #include <cmocka.h>
 
 #include "glint/study.h"
+#include "uniform.h"
 
 enum { NONE = GLINT_SURFACE_NONE, MIRROR = GLINT_SURFACE_MIRROR, GLOSSY = GLINT_SURFACE_GLOSSY };
 
@@ -25,7 +26,7 @@ static void figures_are_those_of_a_sum_by_hand(void **state) {
     struct glint_image_errors e;
     struct glint_error err = {0};
     assert_true(glint_study_image(&f, &t, 2, surfaces, NULL, &e, &err));
-    /* differences 0, 1, 0, -1 of truths 1, 1, 0, 2; and 2, 2 of 3, 3; sums in double of whole numbers are exact */
+    /* differences 0, 1, 0, -1 of truths 1, 1, 0, 2; and 2, 2 of 3, 3; sums of integers in double are exact */
     assert_int_equal(e.of[MIRROR].pixels, 2);
     assert_near(e.of[MIRROR].truth_mean, 1, 0);
     assert_near(e.of[MIRROR].mean, 0, 0);
@@ -66,13 +67,7 @@ static void images_of_two_sizes_are_refused(void **state) {
     assert_false(glint_study_image(&a, &a, 2, NULL, NULL, &e, &err));
 }
 
-/* An independent uniform random number in [0, 1). */
-static double uniform(uint64_t *state) {
-    *state = *state * 6364136223846793005u + 1442695040888963407u;
-    return (double)(*state >> 11) / 9007199254740992.0;
-}
-
-/* The found image is wrong by a constant, the truth is noisy by a known amount: without that noise the constant is left. */
+/* The image has a constant error and the truth has known noise: after subtracting the noise, the constant remains. */
 static void the_truths_noise_is_taken_off(void **state) {
     (void)state;
     enum { SIZE = 512 };
@@ -84,7 +79,7 @@ static void the_truths_noise_is_taken_off(void **state) {
     assert_true(f.values && t.values && error);
     for (size_t i = 0; i < SIZE * SIZE; i++) {
         double real = 0.5 + uniform(&seed);
-        /* a sum of uniform numbers has the variance of their count over 12 */
+        /* the variance of a sum of uniform numbers is their count over 12 */
         double normal = -6;
         for (int k = 0; k < 12; k++) normal += uniform(&seed);
         f.values[i] = (float)(real + off);
@@ -94,8 +89,8 @@ static void the_truths_noise_is_taken_off(void **state) {
     struct glint_image_errors e;
     struct glint_error err = {0};
     assert_true(glint_study_image(&f, &t, 1, NULL, error, &e, &err));
-    /* E[t²σ²] is 1 + σ² of the noise, because the noisy truth stands for the real one: 4 % of 0.0433; the rest is the
-       spread of 262,144 draws, 0.3 % */
+    /* E[t²σ²] is 1 + σ² of the noise, because the noisy truth replaces the real one: 4 % of 0.0433; the rest is the deviation of
+       262,144 samples, 0.3 % */
     assert_near(e.of[0].truth_noise, noise * sqrt(1.0833 * 1.04), 0.003);
     assert_near(e.of[0].rmse, sqrt(off * off + noise * noise * 1.0833), 0.003);
     assert_near(e.of[0].clean_rmse, sqrt(off * off - 0.04 * noise * noise * 1.0833), 0.01);
@@ -116,7 +111,7 @@ static void distances_know_the_sky(void **state) {
     assert_int_equal(e.of[MIRROR].rays, 4);
     assert_int_equal(e.of[MIRROR].invalid, 1);
     assert_near(e.of[MIRROR].right, 0.5, 0);
-    assert_near(e.of[MIRROR].median, 1, 0); /* of 0, 0.04, 1, ∞ the upper middle */
+    assert_near(e.of[MIRROR].median, 1, 0); /* of 0, 0.04, 1, ∞ the upper middle one */
     assert_true(isinf(e.of[MIRROR].p95));
     assert_near(e.of[GLOSSY].right, 1.0 / 3, 1e-15);
     assert_int_equal(e.of[GLINT_SURFACE_ROUGH].rays, 0);
@@ -132,7 +127,7 @@ static void classes_meet_at_their_thresholds(void **state) {
     assert_string_equal(glint_surface_name(GLINT_SURFACE_MIRROR), "mirror-like");
 }
 
-/* Millions of equal differences: sums in double lose 6e6 · 2^-53 of themselves at most, those in float a hundredth. */
+/* Millions of equal differences: sums in double lose at most 6e6 · 2^-53 of their value, those in float a hundredth. */
 static void a_full_picture_keeps_its_digits(void **state) {
     (void)state;
     enum { PIXELS = 1920 * 1080 };

@@ -1,4 +1,4 @@
-/* Pipelines are checked against the declarations; errors name what is known and what range holds. */
+/* Pipelines are checked against the declarations; errors list known names and ranges. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -95,7 +95,7 @@ static void a_switch_is_set_in_every_pass_that_has_it(void **state) {
     assert_true(value_of(pipeline, "resolve", "fog") == 1 && value_of(pipeline, "transparent_resolve", "fog") == 1);
     assert_true(glint_pipeline_set(pipeline, "pipeline.fog=false", &err));
     assert_true(value_of(pipeline, "resolve", "fog") == 0 && value_of(pipeline, "transparent_resolve", "fog") == 0);
-    assert_true(glint_pipeline_set(without, "pipeline.fog=false", &err)); /* none of its passes has fog */
+    assert_true(glint_pipeline_set(without, "pipeline.fog=false", &err)); /* its passes have no fog */
     assert_false(glint_pipeline_set(without, "pipeline.fogs=false", &err));
     assert_says(&err, "pipeline has no parameter 'fogs'; known: rays, first_ray");
     assert_false(glint_pipeline_set(pipeline, "pipeline.fog=perhaps", &err));
@@ -133,7 +133,7 @@ static void a_host_pass_has_no_shader_to_replace(void **state) {
     glint_pipeline_destroy(&pipeline);
 }
 
-/* Writes `text` as a preset, and returns the error that reading it gives. */
+/* Writes `text` as a preset, and returns the error of reading it. */
 static struct glint_error read_preset(const char *text) {
     char path[] = "/tmp/glint-preset-XXXXXX.json";
     int file = mkstemps(path, 5);

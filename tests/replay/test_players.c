@@ -1,4 +1,4 @@
-/* Which slots are exchanged for their references together, and the pipelines between. */
+/* Which slots are replaced by their references together, and the pipelines of coalitions. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -44,7 +44,7 @@ static struct glint_pipeline *exchanged(const struct glint_players *players, uin
 static const char *const presets[] = {"mafia3", "mafia3_shipped", "mafia_de", "kf2", "gtav"};
 enum { PRESETS = sizeof presets / sizeof *presets };
 
-/* What passes declare as their slots' references is what the preset holds. */
+/* The references that passes declare equal those of the preset. */
 static void declarations_are_the_preset(void **state) {
     (void)state;
     struct glint_pipeline *reference = preset("reference");
@@ -64,7 +64,7 @@ static void declarations_are_the_preset(void **state) {
     glint_pipeline_destroy(&reference);
 }
 
-/* Chains that a pipeline does not make stand for no cones: rays are placed apart from cube maps being asked. */
+/* Chains that no pass writes cannot provide cones: the player of rays is separate from that of cube maps. */
 static void what_is_not_there_joins_nothing(void **state) {
     (void)state;
     struct glint_pipeline *kf2 = preset("kf2"), *mafia3 = preset("mafia3");
@@ -117,7 +117,7 @@ static void players_run_from_the_last_to_the_first(void **state) {
     for (size_t p = 0; p < glint_players_count(players); p++)
         assert_string_equal(glint_player_name(players, p), names[p]);
     assert_string_equal(glint_player_change(players, 6), "pipeline.rays 1 → 32");
-    /* Told by images: the trace reads a pyramid that the reference does not make. By declarations: the others. */
+    /* Joined because of images: the trace reads a pyramid that the reference does not write. The others by declarations. */
     assert_non_null(strstr(glint_player_why(players, 4), "screen_trace/hiz reads hiz, which only hiz/nearest makes"));
     assert_non_null(strstr(glint_player_change(players, 5), "lit_mips cone left out"));
     assert_non_null(strstr(glint_player_why(players, 5), "lit_mips: its levels represent the cones"));
@@ -126,7 +126,7 @@ static void players_run_from_the_last_to_the_first(void **state) {
     glint_pipeline_destroy(&pipeline);
 }
 
-/* A slot whose images only one variant of another makes cannot be exchanged alone. */
+/* A slot that reads images which only one variant of another slot writes cannot be replaced alone. */
 static void shared_images_join_slots(void **state) {
     (void)state;
     struct glint_pipeline *pipeline = preset("mafia_de");
@@ -149,7 +149,7 @@ static bool holds(void *user, const char *fact, char *reason, size_t size, struc
     return true;
 }
 
-/* Catches: a coalition in which a pass reads what nothing makes, or two make the same. */
+/* Catches: a coalition in which a pass reads an image that none writes, or two write the same one. */
 static void every_coalition_is_a_pipeline(void **state) {
     const struct fixture *fixture = *state;
     for (size_t i = 0; i < PRESETS; i++) {
@@ -172,7 +172,7 @@ static void every_coalition_is_a_pipeline(void **state) {
     }
 }
 
-/* Every pass of `made` but compose is as in `model`, and none is missing that the reflection depends on. */
+/* Every pass of `made` except compose equals that of `model`, and none that the reflection depends on is missing. */
 static void assert_same(const struct glint_pipeline *made, const struct glint_pipeline *model) {
     for (size_t i = 0; i < made->count; i++) {
         const struct pipeline_pass *theirs = pipeline_find(model, made->passes[i].pass->slot);
@@ -202,7 +202,7 @@ static void ends_are_the_preset_and_its_reference(void **state) {
                               *all = exchanged(players, (1u << glint_players_count(players)) - 1);
         assert_same(none, pipeline);
         assert_same(all, reference);
-        assert_int_not_equal(all->first_ray, reference->first_ray); /* no ray of its own is compared with itself */
+        assert_int_not_equal(all->first_ray, reference->first_ray); /* no ray is compared with itself */
         glint_pipeline_destroy(&none);
         glint_pipeline_destroy(&all);
         glint_players_destroy(&players);
@@ -220,7 +220,7 @@ static double value(const struct glint_pipeline *pipeline, const char *slot, con
     return 0;
 }
 
-/* How distances are joined is cubemap_trace's matter, whichever variant makes the chain. */
+/* How distances are filtered is a parameter of cubemap_trace's player, whichever variant writes the chain. */
 static void values_go_with_their_owners(void **state) {
     (void)state;
     struct glint_pipeline *pipeline = preset("mafia3");

@@ -1,4 +1,4 @@
-/* What needs no device: surveys, plans, and run folders from strangers. */
+/* Tests without a device: surveys, plans, and untrusted run folders. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,7 +14,7 @@
 #include "fixture.h"
 #include "glint/exr.h"
 
-/* The fixture's floor is metal in columns 0, 11, …, dielectric elsewhere; its wall is metal in those columns only. */
+/* The fixture's floor is metal in columns 0, 11, … and dielectric elsewhere; its wall is metal in those columns only. */
 static void the_survey_counts_what_the_frame_holds(void **state) {
     const struct fixture *fixture = *state;
     struct glint_error err = {0};
@@ -72,7 +72,7 @@ static void a_plan_needs_no_device(void **state) {
     "\", \"part\": \"p\", \"channels\": \"X Y\", \"format\": \"RG32F\", " size "}"
 #define RUN(images) "{\"format\": 1, \"passes\": [{\"slot\": \"s\", \"variant\": \"v\", \"images\": [" images "]}]}"
 
-/* A run folder with this run.json and one EXR, a.exr, of 3 × 2. */
+/* Creates a run folder with this run.json and one EXR file, a.exr, of 3 × 2. */
 static const char *make_run(const struct fixture *fixture, const char *json) {
     static char folder[128];
     static const float values[2][3][2] = {{{1, 2}, {3, 4}, {5, 6}}, {{7, 8}, {9, 10}, {11, 12}}};
@@ -157,7 +157,7 @@ static void what_the_json_promises_is_checked_when_read(void **state) {
     }
 }
 
-/* run.json cut after every byte: an error or a run, never a crash. */
+/* run.json truncated after every byte: an error or a run, but no crash. */
 static void a_cut_run_json_is_an_error(void **state) {
     char json[512];
     snprintf(json, sizeof json, "%s", RUN(IMAGE("i", "a.exr", "\"width\": 3, \"height\": 2")));

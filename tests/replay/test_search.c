@@ -1,4 +1,4 @@
-/* The search on functions whose best points are known. */
+/* The search on functions with known optima. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -11,8 +11,8 @@
 
 #include "glint/search.h"
 
-/* A march: errors fall with the inverse of two counts, time grows with them; one number has its best value inside, a switch
-   costs, one of three choices is better, one number matters to nothing. */
+/* A model of a march: errors fall with the inverse of two counts, and time grows with them; one number has its optimum inside its
+   range, a switch costs time, one of three choices is better, and one number has no effect. */
 enum { STEPS, CELLS, WIDTH, EXTRA, KIND, IDLE, AXES };
 static const struct glint_search_axis axes[AXES] = {
     [STEPS] = {.lowest = 1, .highest = 1024, .start = 24, .whole = true, .scale = GLINT_SEARCH_DOUBLING},
@@ -56,8 +56,8 @@ static bool try_march(void *user, const double *v, struct glint_search_figures *
     return true;
 }
 
-/* The least error within the limit, by looking at everything. */
-static double truly_least(double limit) {
+/* The smallest error within the limit, by exhaustive search. */
+static double exhaustive_minimum(double limit) {
     double least = INFINITY;
     for (int extra = 0; extra < 2; extra++)
         for (double steps = 1; steps <= 1024; steps++) {
@@ -78,23 +78,23 @@ static struct glint_search_result search(double limit, uint32_t tries, uint64_t 
     return result;
 }
 
-/* Catches: a limit that is broken, fractions of steps, choices that are not tried, a search that stays where it begins. */
+/* Catches: a limit that is exceeded, fractional steps, choices that are not tried, and a search that stays at its start. */
 static void the_best_point_within_a_limit_is_found(void **state) {
     (void)state;
-    static const double limits[] = {160, 76, 38, 12}; /* all of the start, a half, a fourth, nearly nothing */
+    static const double limits[] = {160, 76, 38, 12}; /* all of the start's cost, a half, a fourth, nearly nothing */
     for (int i = 0; i < 4; i++) {
         struct calls calls = {0};
         struct glint_search_result result = search(limits[i], 250, 1, &calls);
         const struct glint_search_point *best = &result.points[result.best];
-        const double least = truly_least(limits[i]);
+        const double least = exhaustive_minimum(limits[i]);
         assert_true(result.feasible && best->figures.constraint <= limits[i]);
         assert_true(best->figures.objective == error_at(best->values) &&
                     best->figures.constraint == cost_at(best->values));
-        assert_true(best->figures.objective >= least - 1e-3); /* the width's own best lies between two grid values */
+        assert_true(best->figures.objective >= least - 1e-3); /* the optimum of the width is between two grid values */
         assert_true(best->figures.objective < 1.02 * least);
         assert_int_equal((int)best->values[KIND], 1);
         assert_true(result.matters[STEPS] && result.matters[WIDTH] && result.matters[KIND] && !result.matters[IDLE]);
-        assert_true(best->values[IDLE] == 0.5); /* left alone */
+        assert_true(best->values[IDLE] == 0.5); /* not changed */
         glint_search_result_finish(&result);
     }
 }
@@ -124,8 +124,8 @@ static void what_was_found_before_an_error_is_kept(void **state) {
     glint_search_result_finish(&result);
 }
 
-/* Catches: an impossible limit that ends in something else than the least there is. */
-static void what_no_point_reaches_is_said(void **state) {
+/* Catches: an impossible limit whose result is not the lowest possible cost. */
+static void an_unreachable_limit_is_reported(void **state) {
     (void)state;
     struct calls calls = {0};
     struct glint_search_result result = search(1, 300, 1, &calls);
@@ -135,7 +135,7 @@ static void what_no_point_reaches_is_said(void **state) {
     glint_search_result_finish(&result);
 }
 
-/* Known points come right after the start, and nothing worse than the best of them is the answer. */
+/* Known points follow the start, and the result is never worse than the best of them. */
 static void known_points_are_never_lost(void **state) {
     (void)state;
     struct calls calls = {0};
@@ -158,12 +158,12 @@ static void noise_moves_the_answer_little(void **state) {
     struct glint_search_result result = search(76, 300, 1, &calls);
     const struct glint_search_point *best = &result.points[result.best];
     assert_true(cost_at(best->values) < 76 * 1.03);
-    assert_true(error_at(best->values) < 1.05 * truly_least(76));
+    assert_true(error_at(best->values) < 1.05 * exhaustive_minimum(76));
     assert_false(result.matters[IDLE]);
     glint_search_result_finish(&result);
 }
 
-/* One number counts only under the other choice: it is tuned there although it changes nothing around the start. */
+/* A number that has an effect only with the other choice is tuned there, although it has none around the start. */
 static bool try_hidden(void *user, const double *v, struct glint_search_figures *figures, struct glint_error *err) {
     (void)user, (void)err;
     *figures = (struct glint_search_figures){v[0] == 0 ? 10 : 8 + fabs(v[1] - 40) / 10, v[0] == 0 ? 5 : 4};
@@ -184,7 +184,7 @@ static void what_matters_under_another_choice_is_found(void **state) {
     }
 }
 
-/* Many counts: errors a/x, costs c·x. By Lagrange the least error at a cost of T is (Σ √(a·c))²/T. */
+/* Many counts: errors a/x, costs c·x. By Lagrange multipliers the smallest error at a cost of T is (Σ √(a·c))²/T. */
 enum { MANY = 20 };
 static double weight_of(int i) {
     return exp2((i * 7) % MANY * 0.25);
@@ -219,8 +219,8 @@ static void twenty_numbers_take_some_hundred_tries(void **state) {
     glint_search_result_finish(&result);
 }
 
-/* Sixty axes, of which three late ones matter, and forty tries: no two for each. One of the three is best further up, one is a
-   choice, and half of the cost goes with the third. */
+/* Sixty axes, of which three late ones matter, and forty tries, fewer than one per axis. One of the three has its optimum higher up,
+   one is a choice, and the third causes half of the cost. */
 enum { SIXTY = 60, UP = 41, CHOICE = 47, COSTLY = 58, FORTY = 40 };
 struct touched {
     bool axis[SIXTY];
@@ -233,7 +233,7 @@ static bool try_sixty(void *user, const double *v, struct glint_search_figures *
     touched->count++;
     *figures = (struct glint_search_figures){1 + 8 / v[UP] + (v[CHOICE] > 0 ? 0 : 0.5) + 0.4 / v[COSTLY],
                                              20 + v[UP] + 4 * v[COSTLY]};
-    for (int a = 0; a < SIXTY; a++) { /* the others change a little each */
+    for (int a = 0; a < SIXTY; a++) { /* the others have a small effect each */
         if (a == UP || a == CHOICE || a == COSTLY) continue;
         figures->objective += 1e-4 * (8 - v[a]);
         figures->constraint += 1e-3 * v[a];
@@ -255,7 +255,8 @@ static void few_tries_are_spent_on_what_matters(void **state) {
     assert_true(touched.count <= FORTY);
     for (int a = 0; a < SIXTY; a++) assert_true(touched.axis[a] && result.matters[a]);
     const struct glint_search_point *best = &result.points[result.best];
-    /* The start errs 2.55 at 60.5; of these three alone, 32 and 2 with the choice taken are within the limit and err 1.45. */
+    /* The start has an error of 2.55 at 60.5; with the choice taken, 32 and 2 of these three alone are within the limit and have an
+       error of 1.45. */
     assert_true(result.feasible && best->values[CHOICE] == 1);
     assert_true(best->figures.objective < 1.6);
     glint_search_result_finish(&result);
@@ -285,7 +286,7 @@ static void odd_searches_end(void **state) {
     glint_search_result_finish(&result);
     struct calls calls = {0};
     result = search(76, 1, 1, &calls);
-    assert_true(result.count == 1 && !result.feasible && result.matters[IDLE]); /* not known */
+    assert_true(result.count == 1 && !result.feasible && result.matters[IDLE]); /* unknown */
     glint_search_result_finish(&result);
     err = (struct glint_error){0};
     assert_true(glint_search(axes, 0, &options, no_figures, NULL, &result, &err) || err.code == GLINT_ERROR_USAGE);
@@ -297,7 +298,7 @@ int main(void) {
         cmocka_unit_test(the_best_point_within_a_limit_is_found),
         cmocka_unit_test(a_seed_gives_the_same_points_again),
         cmocka_unit_test(what_was_found_before_an_error_is_kept),
-        cmocka_unit_test(what_no_point_reaches_is_said),
+        cmocka_unit_test(an_unreachable_limit_is_reported),
         cmocka_unit_test(known_points_are_never_lost),
         cmocka_unit_test(noise_moves_the_answer_little),
         cmocka_unit_test(what_matters_under_another_choice_is_found),

@@ -1,4 +1,4 @@
-/* Users' shaders: includes are found, and errors carry the user's file and line. */
+/* Users' shaders: includes are found, and errors have the user's file and line. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -42,7 +42,7 @@ static bool compile(char *path, struct spirv *spirv, struct glint_error *err) {
     "#include \"hit.pass.h\"\n"                                                                                        \
     "};\n"
 
-/* Copies a module without what only tells of its source. */
+/* Copies a module without debug information about its source. */
 static size_t without_source(const uint32_t *words, size_t bytes, uint32_t *out) {
     enum { OP_SOURCE = 3, OP_SOURCE_EXTENSION = 4 };
     size_t n = 0, count = bytes / sizeof *words;
@@ -56,7 +56,7 @@ static size_t without_source(const uint32_t *words, size_t bytes, uint32_t *out)
     return n;
 }
 
-/* Each pass's own file, compiled here, must be the shader that was built in: same bindings, same constants. */
+/* Each pass's file, compiled here, must equal the embedded shader: the same bindings and constants. */
 static void every_pass_compiles_to_what_is_built_in(void **state) {
     size_t count;
     const struct glint_pass *passes = glint_passes(&count);
@@ -105,7 +105,7 @@ static void lines_after_an_include_keep_their_numbers(void **state) {
     fixture_says(&err, "/mine.comp:11: 'oops'");
 }
 
-/* Rows take their numbers from #line, so what follows an include must go on from there. */
+/* Rows take their numbers from #line, so code after an include must continue with the right number. */
 static void lines_after_a_directive_and_an_include_keep_its_numbers(void **state) {
     struct spirv spirv;
     struct glint_error err;
@@ -168,8 +168,8 @@ static void foreign_bindings_are_refused(void **state) {
     }
 }
 
-/* Catches: a pass that is not run again though what it reads of the frame changed, and one that is run in every frame
-   for words it does not read. */
+/* Catches: a pass that does not run again although a field of the frame that it reads changed, and one that runs in every frame because
+   of fields that it does not read. */
 static void the_words_of_the_frame_that_a_shader_reads_are_known(void **state) {
     const size_t size = offsetof(struct frame_block, size) / 4, counts = offsetof(struct frame_block, counts) / 4,
                  view = offsetof(struct frame_block, view_from_world) / 4;
@@ -195,7 +195,7 @@ static void the_words_of_the_frame_that_a_shader_reads_are_known(void **state) {
     }
 }
 
-static bool find(struct spirv *spirv, struct shaders *from, const char *variant, struct glint_error *err) {
+static bool find_variant(struct spirv *spirv, struct shaders *from, const char *variant, struct glint_error *err) {
     const struct pipeline_pass pass = {.pass = glint_pass_find("resolve", variant)};
     *err = (struct glint_error){0};
     return spirv_find(spirv, from, &pass, err);
@@ -212,8 +212,8 @@ static void file_in(const char *folder, const char *below, const char *name, con
     fclose(file);
 }
 
-/* Catches: an edit of a shared file that no pass sees, one that other passes see, and one that is not seen again. */
-static void files_of_a_folder_stand_in_for_those_built_in(void **state) {
+/* Catches: an edit of a shared file that a pass misses, one that unrelated passes see, and one that is not noticed again. */
+static void files_of_a_folder_replace_embedded_ones(void **state) {
     const struct fixture *fixture = *state;
     struct shaders from;
     struct glint_error err = {0};
@@ -227,17 +227,17 @@ static void files_of_a_folder_stand_in_for_those_built_in(void **state) {
     if (!shaders_init(&from, folder, &err)) fail_msg("%s", err.message);
     file_in(folder, "reflection/resolve", "hit.comp",
             START "void main() { imageStore(reflection_half, ivec2(0), vec4(1)); }\n");
-    assert_true(find(&hit, &from, "hit", &err) && find(&previous, &from, "previous", &err));
+    assert_true(find_variant(&hit, &from, "hit", &err) && find_variant(&previous, &from, "previous", &err));
     assert_non_null(hit.from);
     assert_null(previous.from);
     assert_ptr_equal(previous.words, glint_pass_find("resolve", "previous")->spirv);
     file_in(folder, "reflection/resolve", "hit.comp",
             START "void main() { imageStore(reflection_half, ivec2(0), vec4(2)); }\n");
-    assert_true(find(&changed, &from, "hit", &err));
+    assert_true(find_variant(&changed, &from, "hit", &err));
     assert_int_not_equal(changed.hash, hit.hash);
     file_in(folder, "shared", "camera.glsl", "\n#error seen\n");
-    assert_true(find(&hit, &from, "hit", &err)); /* which includes nothing of it */
-    assert_false(find(&previous, &from, "previous", &err));
+    assert_true(find_variant(&hit, &from, "hit", &err)); /* it includes none of these files */
+    assert_false(find_variant(&previous, &from, "previous", &err));
     fixture_says(&err, "shared/camera.glsl:2: '#error' : seen");
     shaders_finish(&from);
     assert_false(shaders_init(&from, "/nowhere/passes", &err));
@@ -261,7 +261,7 @@ int main(void) {
         cmocka_unit_test(what_is_no_shader_is_an_error),
         cmocka_unit_test(foreign_bindings_are_refused),
         cmocka_unit_test(the_words_of_the_frame_that_a_shader_reads_are_known),
-        cmocka_unit_test(files_of_a_folder_stand_in_for_those_built_in),
+        cmocka_unit_test(files_of_a_folder_replace_embedded_ones),
     };
     return cmocka_run_group_tests(tests, fixture_setup_host, teardown);
 }

@@ -1,4 +1,4 @@
-/* Shapley values against closed forms, exact and drawn. */
+/* Shapley values, exact and sampled, compared with closed forms. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -13,7 +13,7 @@
 
 enum { PLAYERS = 9, AIRPORT = 0, GLOVES, SQUARE, GAMES };
 
-/* Runways that planes need: a coalition pays for its longest. Values below 0 take part, too. */
+/* Runways that planes need: a coalition pays for its longest one. Values below 0 are included, too. */
 static const double runway[PLAYERS] = {-4, 1, 1.5, 2, 3.25, 5, 5, 8, 13};
 
 struct record {
@@ -34,20 +34,20 @@ static bool play(void *user, uint32_t coalition, double *values, struct glint_er
     record->asked_twice += record->seen[coalition];
     record->seen[coalition] = true;
     if (++record->asked == record->fail_at) return glint_fail(err, GLINT_ERROR_INTERRUPTED, "stopped");
-    values[AIRPORT] = coalition ? longest + 4 : 0; /* as if the shortest were 0 long */
+    values[AIRPORT] = coalition ? longest + 4 : 0; /* as if the shortest had length 0 */
     values[GLOVES] = fmin(left, right);            /* pairs of 3 left gloves and 6 right ones */
-    values[SQUARE] = 7 + sum * sum;                /* every two players interact alike: φ = own · sum */
+    values[SQUARE] = 7 + sum * sum;                /* all pairs of players interact equally: φ = own · sum */
     return true;
 }
 
-/* Each stretch of runway is shared by those who need it. */
-static double airport(size_t player) {
+/* Each section of the runway is shared by those who need it. */
+static double airport_share(size_t player) {
     double share = 0;
     for (size_t k = 1; k <= player; k++) share += (runway[k] - runway[k - 1]) / (double)(PLAYERS - k);
     return share;
 }
 
-/* By the definition: the mean over all orders, which for this game are told by how many of each kind came before. */
+/* By definition: the mean over all orders, which for this game depend only on how many of each kind come before. */
 static double binomial(int n, int k) {
     double b = 1;
     for (int i = 1; i <= k; i++) b *= (double)(n - k + i) / i;
@@ -57,7 +57,7 @@ static double glove(bool of_left) {
     const int own = of_left ? 3 : 6, other = PLAYERS - own;
     double share = 0;
     for (int a = 0; a < own; a++)
-        for (int b = 0; b <= other; b++) /* a of the others of the own kind, b of the other kind before it */
+        for (int b = 0; b <= other; b++) /* a others of the own kind and b of the other kind before it */
             if (a < b) share += binomial(own - 1, a) * binomial(other, b) / binomial(PLAYERS - 1, a + b) / PLAYERS;
     return share;
 }
@@ -65,7 +65,7 @@ static double glove(bool of_left) {
 static double expected(size_t player, size_t game) {
     double sum = 0;
     for (size_t i = 0; i < PLAYERS; i++) sum += runway[i];
-    return game == AIRPORT ? airport(player) : game == GLOVES ? glove(player < 3) : runway[player] * sum;
+    return game == AIRPORT ? airport_share(player) : game == GLOVES ? glove(player < 3) : runway[player] * sum;
 }
 
 static struct glint_shapley solve(struct record *record, struct glint_shapley_options options) {
@@ -86,7 +86,7 @@ static void assert_sums(const struct glint_shapley *found) {
             sum += found->share[i * GAMES + v];
             size += fabs(found->share[i * GAMES + v]);
         }
-        /* Some hundred additions of doubles. */
+        /* some hundred additions of doubles */
         assert_true(fabs(sum - (found->all[v] - found->none[v])) < 1e-12 * size);
     }
 }
@@ -106,7 +106,7 @@ static void all_coalitions_give_the_closed_forms(void **state) {
     glint_shapley_finish(&found);
 }
 
-/* Alone and last, by the games' own definitions. */
+/* Alone and last, by the definitions of the games. */
 static void ends_are_those_of_one_exchange(void **state) {
     (void)state;
     struct record record;
@@ -128,7 +128,7 @@ static void ends_are_those_of_one_exchange(void **state) {
     }
 }
 
-/* Of 200 seeds, how often the closed form is within the interval: 95 % of 9 players each, and chance. */
+/* How often the interval of 200 seeds contains the closed form: 95 % of 9 players each, apart from chance. */
 static void intervals_hold_what_they_say(void **state) {
     (void)state;
     struct record record;
@@ -142,11 +142,11 @@ static void intervals_hold_what_they_say(void **state) {
             inside += fabs(found.share[i * GAMES + AIRPORT] - expected(i, AIRPORT)) <= found.half[i * GAMES + AIRPORT];
         glint_shapley_finish(&found);
     }
-    /* 30 pairs by the normal distribution: a little under 95 %; shares of one seed depend on each other. */
+    /* 30 pairs with the normal distribution: a little under 95 %; shares of one seed are correlated. */
     assert_true((double)inside > 0.88 * (double)all && (double)inside < 0.99 * (double)all);
 }
 
-/* Interactions of two players alone: an order and its opposite together have no spread at all. */
+/* Interactions of pairs only: an order and its reverse together have no variance. */
 static void opposite_orders_cancel(void **state) {
     (void)state;
     struct record record;
@@ -186,7 +186,7 @@ static void the_same_seed_draws_the_same(void **state) {
     glint_shapley_finish(&c);
 }
 
-/* What is known while the game goes on: first what players change alone, later shares. */
+/* Intermediate results during the evaluation: first the effects of single players, later the shares. */
 struct watch {
     struct record record;
     struct glint_shapley found;
@@ -196,7 +196,7 @@ struct watch {
 static bool play_watched(void *user, uint32_t coalition, double *values, struct glint_error *err) {
     return play(&((struct watch *)user)->record, coalition, values, err);
 }
-static bool look(void *user, struct glint_error *err) {
+static bool watch_progress(void *user, struct glint_error *err) {
     struct watch *watch = user;
     const struct glint_shapley *found = &watch->found;
     if (++watch->news == watch->stop_at) return glint_fail(err, GLINT_ERROR_INTERRUPTED, "stopped");
@@ -218,7 +218,7 @@ static void known_values_are_returned_at_once(void **state) {
         for (size_t stop = 0; stop < 3; stop++) {
             struct watch watch = {.stop_at = stop};
             const struct glint_game game = {
-                .players = PLAYERS, .values = GAMES, .play = play_watched, .update = look, .user = &watch};
+                .players = PLAYERS, .values = GAMES, .play = play_watched, .update = watch_progress, .user = &watch};
             const struct glint_shapley_options options = {.exact = exact, .permutations = 20};
             const bool done = glint_shapley(&game, &options, &watch.found, &err);
             assert_int_equal(done, stop == 0);
@@ -242,7 +242,7 @@ static void failures_end_the_game(void **state) {
             assert_false(glint_shapley(&game, &options, &found, &err));
             assert_int_equal(err.code, GLINT_ERROR_INTERRUPTED);
             assert_int_equal(record.asked, at);
-            /* alone and last are known after 2 · 9 + 2 coalitions, and stay */
+            /* alone and last are known after 2 · 9 + 2 coalitions, and do not change */
             assert_int_equal(found.share != NULL, at > 2 * PLAYERS + 2);
             assert_true(!found.exact);
             glint_shapley_finish(&found);

@@ -1,4 +1,4 @@
-/* Spaces of pipelines: grids, Latin hypercubes, their order; fronts against brute force. */
+/* Spaces of pipelines: grids, Latin hypercubes and their order; fronts compared with brute force. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -47,9 +47,9 @@ static void ranges_and_lists_are_what_they_say(void **state) {
     assert_values("screen_trace.steps=4..128:log", "4 8 16 32 64 128");
     assert_values("screen_trace.steps=4..100:log", "4 8 16 32 64 100");
     assert_values("screen_trace.steps=4..128:log3", "4 23 128");
-    assert_values("screen_trace.steps=1..4:log9", "1 2 3 4"); /* whole numbers, each once */
+    assert_values("screen_trace.steps=1..4:log9", "1 2 3 4"); /* integers, each once */
     assert_values("screen_trace.thickness=0..0.2", "0 0.05 0.1 0.15 0.2");
-    assert_values("screen_trace.thickness=0.1..0.3:0.1", "0.1 0.2 0.3"); /* the end is not lost to rounding */
+    assert_values("screen_trace.thickness=0.1..0.3:0.1", "0.1 0.2 0.3"); /* rounding does not omit the end */
     assert_values("cubemap_trace.fallback=black,lookup", "black lookup");
     assert_values("screen_trace.dither=false,true", "false true");
     assert_values("screen_trace=linear,hiz,none", "linear hiz none");
@@ -65,7 +65,7 @@ static double value_of(const struct glint_pipeline *pipeline, const char *slot, 
     return NAN;
 }
 
-/* Every combination once, the pipelines have the values, and one value goes to all the names that share it. */
+/* Every combination occurs once, the pipelines have the values, and one value is set for all names of an axis. */
 static void a_grid_has_every_combination_once(void **state) {
     (void)state;
     struct glint_space *space = grid(AXES("cubemap_trace.steps_hq+cubemap_trace.steps_lq=3..5",
@@ -88,7 +88,7 @@ static void a_grid_has_every_combination_once(void **state) {
     glint_space_destroy(&space);
 }
 
-/* `steps` is the linear march's alone. */
+/* Only the linear march has `steps`. */
 static void values_without_a_use_make_no_points(void **state) {
     (void)state;
     struct glint_space *space = grid(AXES("screen_trace.steps=8,16,32", "screen_trace=dda,linear"));
@@ -115,15 +115,15 @@ static void late_slots_vary_fastest(void **state) {
         for (size_t a = 0; a < 3; a++)
             changes[a] += strcmp(glint_space_value(space, i, a), glint_space_value(space, i - 1, a)) != 0;
     assert_int_equal(changes[1], 1);                           /* the screen's once */
-    assert_int_equal(changes[2], 5);                           /* the cube maps' two times three, less one */
-    assert_int_equal(changes[0], 11);                          /* resolve's with each point: forth, and back */
+    assert_int_equal(changes[2], 5);                           /* the cube maps' two times three, minus one */
+    assert_int_equal(changes[0], 11);                          /* resolve's at each point: forth, and back */
     assert_string_equal(glint_space_value(space, 0, 1), "32"); /* a list keeps its order */
     glint_space_destroy(&space);
 }
 
 enum { N = 40 };
 
-/* Catches: strata that are hit twice or never, and points that a seed does not repeat. */
+/* Catches: strata that are hit twice or never, and points that differ for the same seed. */
 static void a_hypercube_hits_each_stratum_once(void **state) {
     (void)state;
     struct glint_error err = {0};
@@ -156,7 +156,7 @@ static void a_hypercube_hits_each_stratum_once(void **state) {
     glint_pipeline_destroy(&pipeline);
 }
 
-static void refused(const char *const *axes, const char *says) {
+static void assert_refused(const char *const *axes, const char *says) {
     struct glint_error err = {0};
     struct glint_pipeline *pipeline = plain();
     struct glint_space *space = glint_space_create(pipeline, axes, &err);
@@ -167,43 +167,44 @@ static void refused(const char *const *axes, const char *says) {
 
 static void what_is_wrong_is_named(void **state) {
     (void)state;
-    refused((const char *const[]){NULL}, "an axis to vary");
-    refused(AXES("screen_trace.steps"), "expected SLOT.PARAMETER=A..B");
-    refused(AXES("=4"), "expected SLOT.PARAMETER=A..B");
-    refused(AXES("screen_trace.steps="), "found 'screen_trace.steps='");
-    refused(AXES("screen_trace.steps+=4"), "with + between them");
-    refused(AXES("screen_trace.steps+resolve=4"), "with + between them");
-    refused(AXES("screen_trace.steps=4..2000:log"), "expected 1 to 1024 (samples), found 2000");
-    refused(AXES("screen_trace.steps=0,4"), "expected 1 to 1024 (samples), found 0");
-    refused(AXES("screen_trace.steps=8..4"), "a range that rises, found 8 to 4");
-    refused(AXES("screen_trace.steps=4..x"), "expected A..B, A..B:STEP");
-    refused(AXES("screen_trace.steps=4..8:0"), "STEP above 0 or :log");
-    refused(AXES("screen_trace.steps=4..8:-1"), "STEP above 0 or :log");
-    refused(AXES("screen_trace.steps=4..8:log1"), "N from 2");
-    refused(AXES("screen_trace.steps=4..8:logx"), "N from 2");
-    refused(AXES("screen_trace.steps=4.5..8"), "expected whole numbers");
-    refused(AXES("screen_trace.steps=4..nan"), "expected A..B");
-    refused(AXES("screen_trace.steps=4..inf"), "expected A..B");
-    refused(AXES("screen_trace.thickness=0..1:1e-9"), "at most 10000 values");
-    refused(AXES("screen_trace.thickness=0..1:log"), "begins above 0, found 0");
-    refused(AXES("screen_trace.steps=4,,8"), "values with commas");
-    refused(AXES("screen_trace.stepps=4,8"), "no parameter 'stepps'");
-    refused(AXES("screen_trac.steps=4,8"), "unknown slot 'screen_trac'");
-    refused(AXES("screen_trace=linear,hizz"), "no variant 'hizz'");
-    refused(AXES("cubemap_trace.fallback=0..1"), "a list of choices such as black,lookup");
-    refused(AXES("cubemap_trace.fallback=black,white"), "expected one of black, lookup, cocoon, found 'white'");
-    refused(AXES("screen_trace.steps=4,8", "screen_trace.steps=16"), "varied twice");
-    refused(AXES("pipeline.rays=0..4"), "whole number from 1 to 1024");
-    refused(AXES("pipeline.ray=1..4"), "no parameter 'ray'");
-    refused(AXES("screen_trace.thickness=0..1:0.001", "cubemap_trace.steps_hq=1..1024"), "found a grid of 1025024");
+    assert_refused((const char *const[]){NULL}, "an axis to vary");
+    assert_refused(AXES("screen_trace.steps"), "expected SLOT.PARAMETER=A..B");
+    assert_refused(AXES("=4"), "expected SLOT.PARAMETER=A..B");
+    assert_refused(AXES("screen_trace.steps="), "found 'screen_trace.steps='");
+    assert_refused(AXES("screen_trace.steps+=4"), "with + between them");
+    assert_refused(AXES("screen_trace.steps+resolve=4"), "with + between them");
+    assert_refused(AXES("screen_trace.steps=4..2000:log"), "expected 1 to 1024 (samples), found 2000");
+    assert_refused(AXES("screen_trace.steps=0,4"), "expected 1 to 1024 (samples), found 0");
+    assert_refused(AXES("screen_trace.steps=8..4"), "a range that rises, found 8 to 4");
+    assert_refused(AXES("screen_trace.steps=4..x"), "expected A..B, A..B:STEP");
+    assert_refused(AXES("screen_trace.steps=4..8:0"), "STEP above 0 or :log");
+    assert_refused(AXES("screen_trace.steps=4..8:-1"), "STEP above 0 or :log");
+    assert_refused(AXES("screen_trace.steps=4..8:log1"), "N from 2");
+    assert_refused(AXES("screen_trace.steps=4..8:logx"), "N from 2");
+    assert_refused(AXES("screen_trace.steps=4.5..8"), "expected whole numbers");
+    assert_refused(AXES("screen_trace.steps=4..nan"), "expected A..B");
+    assert_refused(AXES("screen_trace.steps=4..inf"), "expected A..B");
+    assert_refused(AXES("screen_trace.thickness=0..1:1e-9"), "at most 10000 values");
+    assert_refused(AXES("screen_trace.thickness=0..1:log"), "begins above 0, found 0");
+    assert_refused(AXES("screen_trace.steps=4,,8"), "values with commas");
+    assert_refused(AXES("screen_trace.stepps=4,8"), "no parameter 'stepps'");
+    assert_refused(AXES("screen_trac.steps=4,8"), "unknown slot 'screen_trac'");
+    assert_refused(AXES("screen_trace=linear,hizz"), "no variant 'hizz'");
+    assert_refused(AXES("cubemap_trace.fallback=0..1"), "a list of choices such as black,lookup");
+    assert_refused(AXES("cubemap_trace.fallback=black,white"), "expected one of black, lookup, cocoon, found 'white'");
+    assert_refused(AXES("screen_trace.steps=4,8", "screen_trace.steps=16"), "varied twice");
+    assert_refused(AXES("pipeline.rays=0..4"), "whole number from 1 to 1024");
+    assert_refused(AXES("pipeline.ray=1..4"), "no parameter 'ray'");
+    assert_refused(AXES("screen_trace.thickness=0..1:0.001", "cubemap_trace.steps_hq=1..1024"),
+                   "found a grid of 1025024");
     struct glint_error err = {0};
     struct glint_pipeline *pipeline = plain();
     assert_null(glint_space_create_hypercube(pipeline, AXES("screen_trace.steps=4..8"), 0, 1, &err));
     glint_pipeline_destroy(&pipeline);
 }
 
-/* Against the definition, with many equal places. */
-static void a_front_is_what_nothing_beats(void **state) {
+/* Compared with the definition, with many equal coordinates. */
+static void a_front_is_not_dominated(void **state) {
     (void)state;
     enum { M = 300 };
     double x[M] = {0}, y[M] = {0};
@@ -230,10 +231,13 @@ static void a_front_is_what_nothing_beats(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(ranges_and_lists_are_what_they_say),  cmocka_unit_test(a_grid_has_every_combination_once),
-        cmocka_unit_test(values_without_a_use_make_no_points), cmocka_unit_test(late_slots_vary_fastest),
-        cmocka_unit_test(a_hypercube_hits_each_stratum_once),  cmocka_unit_test(what_is_wrong_is_named),
-        cmocka_unit_test(a_front_is_what_nothing_beats),
+        cmocka_unit_test(ranges_and_lists_are_what_they_say),
+        cmocka_unit_test(a_grid_has_every_combination_once),
+        cmocka_unit_test(values_without_a_use_make_no_points),
+        cmocka_unit_test(late_slots_vary_fastest),
+        cmocka_unit_test(a_hypercube_hits_each_stratum_once),
+        cmocka_unit_test(what_is_wrong_is_named),
+        cmocka_unit_test(a_front_is_not_dominated),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,4 @@
-/* Written from the format's words and Vulkan's table, not from the code under test. */
+/* Based on the text of the format and on Vulkan's table, not on the tested code. */
 #define _XOPEN_SOURCE 700
 #include "support.h"
 
@@ -92,7 +92,7 @@ void camera_project(const struct glint_camera *camera, const double point[3], do
     uv[1] = 0.5 - 0.5 * clip[1] / clip[3];
 }
 
-/* Vulkan, "Cube Map Face Selection": by the major axis and its sign, which axis (1 x, 2 y, 3 z) sc and tc are. */
+/* Vulkan, "Cube Map Face Selection": by the major axis and its sign, the axes (1 x, 2 y, 3 z) of sc and tc. */
 static const int table[6][3] = {{1, -3, -2}, {-1, 3, -2}, {2, 1, 3}, {-2, 1, -3}, {3, 1, -2}, {-3, -1, -2}};
 
 void vulkan_texel(uint32_t face, uint32_t x, uint32_t y, uint32_t size, double direction[3]) {

@@ -1,4 +1,4 @@
-/* Cube maps say what they should where they should: orientation, imperfection, and which ones are near. */
+/* The contents of cube maps: orientation, imperfections, and which ones are near. */
 #include "support.h"
 
 #include <math.h>
@@ -20,9 +20,8 @@ struct counts {
     size_t unoccluded, agree;
 };
 
-/* One G-buffer point in one cube map. The texel's centre looks past the point by up to half a texel, so its distance is
-   compared with where that direction meets the point's own tangent plane; a point counts when a ray of our own sees
-   both it and that place from the cube map's centre. */
+/* Compares a G-buffer point with a cube map. The texel's centre may be off the point by up to half a texel, so its distance is compared
+   with the intersection of its direction and the point's tangent plane. A point counts if a ray from the cube map's centre reaches both. */
 static void compare_point(const struct world *world, const double center[3], const double point[3],
                           const double normal[3], const float *distances, uint32_t size, struct counts *counts) {
     double to[3], d[3], facing = 0, above = 0, place[3], way[3];
@@ -30,7 +29,7 @@ static void compare_point(const struct world *world, const double center[3], con
         to[i] = point[i] - center[i];
         above -= to[i] * normal[i];
     }
-    if (above <= 0) return; /* seen from behind */
+    if (above <= 0) return; /* a back face */
     uint32_t face, x, y;
     vulkan_select(to, size, &face, &x, &y);
     vulkan_texel(face, x, y, size, d);
@@ -40,13 +39,13 @@ static void compare_point(const struct world *world, const double center[3], con
         facing -= d[i] * normal[i];
     }
     double expected = above / facing;
-    if (facing <= 0.05) return; /* grazing: one texel spans metres */
+    if (facing <= 0.05) return; /* grazing: a texel spans metres */
     for (int i = 0; i < 3; i++) {
         place[i] = center[i] + expected * d[i];
         way[i] = to[i] * (1 - 2e-3);
     }
     if (world_blocked(world, as_floats(center), as_floats(way), 1)) return;
-    /* past the edge of its surface there is no such place */
+    /* beyond the edge of the surface there is no such point */
     vec3 inwards = scale(as_floats(normal), -1), over = add(as_floats(place), scale(inwards, -0.01f));
     if (!world_blocked(world, over, inwards, 0.02f)) return;
     for (int i = 0; i < 3; i++) way[i] = (place[i] - center[i]) * (1 - 2e-3);
@@ -102,7 +101,7 @@ static void test_points_of_the_street_are_where_its_cubemaps_say(void **state) {
     glint_capture_close(&capture);
 }
 
-/* Texels of one map whose distance differs by more than 1 %. */
+/* The number of texels of a cube map whose distances differ by more than 1 %. */
 static size_t differing(const char *a, const char *b, const char *map, size_t texels) {
     struct glint_capture *captures[2] = {open_capture(a), open_capture(b)};
     float *d[2] = {read_part(captures[0], map, "distance.Z", NULL, NULL),
@@ -125,7 +124,7 @@ static void test_imperfect_maps_lack_the_moving_car(void **state) {
     write_sample("street", perfect, &o);
     o.probes = GLINT_PROBES_IMPERFECT;
     write_sample("street", imperfect, &o);
-    /* The car's box at frame 1, from the fourth map's centre (0.6, 2.2, -13.5): its middle lies at (1.7, 0.6, -10.2). */
+    /* The bounding box of the car at frame 1 seen from the fourth map's centre (0.6, 2.2, -13.5); its centre is (1.7, 0.6, -10.2). */
     struct glint_capture *captures[2] = {open_capture(perfect), open_capture(imperfect)};
     const double towards[3] = {1.7 - 0.6, 0.8 - 2.2, -10.2 + 13.5};
     uint32_t face, x, y;
@@ -143,8 +142,8 @@ static void test_imperfect_maps_lack_the_moving_car(void **state) {
     assert_true(different > all / 200 && different < all / 4); /* simplified, but the same street */
 }
 
-/* What the scene is for: by distances in which the part along up counts four times the nearest eight are on the player's
-   floor, none outdoors; by plain distances some are behind the floor. */
+/* The purpose of the scene: with height weighted four times, the nearest eight cube maps are on the player's floor and none is
+   outdoors; by plain distance some are below the floor. */
 static void test_hotels_nearest_eight_are_indoors(void **state) {
     struct glint_sample_options o = {.width = 16, .height = 9, .cube_size = 4, .light_samples = 1};
     const char *path = in_folder(state, "hotel.exr");
@@ -181,7 +180,7 @@ static void test_hotels_nearest_eight_are_indoors(void **state) {
     glint_capture_close(&capture);
 }
 
-/* Inner volumes promise to be empty: no ray from the centre ends inside. */
+/* Inner volumes are empty: no ray from the centre hits anything inside. */
 static void test_inner_volumes_are_empty(void **state) {
     static void (*const builders[])(struct scene *) = {build_mirror_box, build_street, build_room, build_hotel};
     (void)state;
@@ -221,7 +220,7 @@ static void test_inner_volumes_are_empty(void **state) {
         world_destroy(&world);
         scene_finish(&scene);
     }
-    for (int kind = 0; kind < 4; kind++) assert_true(kinds[kind] > 0); /* every kind appears */
+    for (int kind = 0; kind < 4; kind++) assert_true(kinds[kind] > 0); /* every kind occurs */
 }
 
 int main(void) {

@@ -1,4 +1,4 @@
-/* The finished picture of opaque surfaces against closed forms and a quadrature. */
+/* The final image of opaque surfaces compared with closed forms and a quadrature. */
 #include "support.h"
 
 #include <math.h>
@@ -9,14 +9,14 @@
 
 enum { W = 96, H = 54 };
 
-/* What the walls of mirror_box send out: the formula of samples/scenes/mirror_box.c. */
+/* The light of the walls of mirror_box: the formula of samples/scenes/mirror_box.c. */
 static double wall(const double p[3], int channel) {
     const double waves[3] = {1.3 * p[0] + 0.7 * p[1], 1.1 * p[1] + 0.9 * p[2], 1.2 * p[2] - 0.8 * p[0]};
     return (channel == 1 ? 0.5 : 0.55) + 0.35 * sin(waves[channel]);
 }
 
-/* Where a ray from inside meets the box 8 × 4 × 6; the floor is left out. */
-static void meet(const double from[3], const double ray[3], double at[3]) {
+/* The intersection of a ray from inside with the box 8 × 4 × 6, without the floor. */
+static void intersect_box(const double from[3], const double ray[3], double at[3]) {
     const double high[3] = {8, 4, 6};
     double t = INFINITY;
     for (int k = 0; k < 3; k++) {
@@ -49,8 +49,8 @@ static void test_a_mirror_shows_the_walls(void **state) {
         double cosine = -ray[1] / sqrt(ray[0] * ray[0] + ray[1] * ray[1] + ray[2] * ray[2]);
         for (int k = 0; k < 3; k++) at[k] = eye[k] - eye[1] / ray[1] * ray[k];
         ray[1] = -ray[1];
-        meet(at, ray, end);
-        /* metal of albedo 0.95, in 8 bits 242/255 where the G-buffer holds it; the picture is in half floats */
+        intersect_box(at, ray, end);
+        /* metal with albedo 0.95, which is 242/255 in the 8 bits of the G-buffer; the image is in half floats */
         double schlick = 0.95 + 0.05 * pow(1 - cosine, 5);
         for (int c = 0; c < 3; c++)
             assert_true(fabs((double)scene[3 * i + (uint32_t)c] - schlick * wall(end, c)) < 1e-3);
@@ -69,8 +69,8 @@ static double masking(double alpha, double cosine) {
     return (sqrt(1 + alpha * alpha * (1 / (cosine * cosine) - 1)) - 1) / 2;
 }
 
-/* Share of even light that a white GGX surface sends towards this cosine: a midpoint rule over all directions, all terms of
-   the BRDF in the open, D too, which the drawn estimate never sees. */
+/* The fraction of uniform light that a white GGX surface reflects towards this cosine: a midpoint rule over all directions with all
+   terms of the BRDF including D, which importance sampling cancels. */
 static double quadrature(double roughness, double out) {
     enum { RINGS = 400, PIECES = 200 };
     double alpha = roughness * roughness, sum = 0, side = sqrt(1 - out * out);
@@ -114,9 +114,9 @@ static void test_a_white_surface_under_an_even_sky(void **state) {
                 sum += (double)picture[y * W + x].x;
                 expected += quadrature((double)roughness, (double)-ray.y);
             }
-            /* 6,144 draws, each between 0 and 1 */
+            /* 6,144 samples, each between 0 and 1 */
             assert_true(fabs(sum - expected) / W < 0.01);
-            assert_true(expected / W < 0.99); /* masked: not white any more */
+            assert_true(expected / W < 0.99); /* masked, so not white */
         }
         world_destroy(&world);
         scene_finish(&scene);
@@ -125,7 +125,7 @@ static void test_a_white_surface_under_an_even_sky(void **state) {
     }
 }
 
-/* What surfaces without specular reflect is nothing; a scene with water has a picture of its own. */
+/* Surfaces without specular reflect nothing; a scene with water has its own final image. */
 static void test_who_has_none(void **state) {
     const struct glint_sample_options o = {
         .width = W, .height = H, .cube_size = 8, .light_samples = 4, .finished_samples = 1};

@@ -1,4 +1,4 @@
-/* What stands before the camera hides the world from it, and changes nothing else. */
+/* The foreground occludes the world for the camera, and changes nothing else. */
 #include "support.h"
 
 #include <math.h>
@@ -67,7 +67,7 @@ static void test_the_world_stays_as_it_was(void **state) {
     }
 }
 
-/* A camera that moves takes it along: on screen it stands still. */
+/* It moves with the camera, so that it is static on screen. */
 static void test_it_moves_with_the_camera(void **state) {
     struct glint_sample_options o = base;
     o.foreground = o.travel_given = true;

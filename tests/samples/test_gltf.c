@@ -1,4 +1,4 @@
-/* glTF files written here: geometry, materials and camera arrive; files that lie about themselves are refused. */
+/* glTF files that are written here: geometry, materials and camera are loaded, and inconsistent files are refused. */
 #include "support.h"
 
 #include <math.h>
@@ -7,7 +7,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* A square of 4 x 4 m around the origin, facing +Y, in its own space: four positions, then six 16-bit indices. */
+/* A square of 4 x 4 m around the origin that faces +Y, in its own space: four positions, then six 16-bit indices. */
 static void write_bin(const char *path) {
     static const float positions[12] = {-2, 0, -2, 2, 0, -2, 2, 0, 2, -2, 0, 2};
     static const uint16_t indices[6] = {0, 2, 1, 0, 3, 2};
@@ -18,7 +18,7 @@ static void write_bin(const char *path) {
     fclose(file);
 }
 
-/* The file's text; `marks` in it may be replaced to make it hostile. */
+/* The JSON of the file; parts of it are replaced to make it invalid. */
 static const char text[] =
     "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0,1]}],"
     "\"nodes\":[{\"mesh\":0,\"matrix\":[2,0,0,0, 0,0.8,0.6,0, 0,-1.8,2.4,0, 0,0,0,1]},"
@@ -59,8 +59,7 @@ static void test_square_arrives(void **state) {
     camera_eye(camera, eye);
     assert_true(fabs(eye[0] - 0.5) < 1e-6 && fabs(eye[1] - 1) < 1e-6 && fabs(eye[2] - 6) < 1e-6);
     assert_true(fabs(1 / camera->view_to_clip[5] - tan(0.4)) < 1e-5); /* yfov */
-    /* The matrix scales x by 2, y by 1 and z by 3, then turns about x by the angle of (0.8, 0.6): the plane's normal is
-       (0, 0.8, 0.6). */
+    /* The matrix scales x by 2, y by 1 and z by 3, then rotates about x by the angle of (0.8, 0.6): the plane's normal is (0, 0.8, 0.6). */
     const double normal[3] = {0, 0.8, 0.6};
     float *g =
         read_part(capture, "gbuffer",
@@ -79,7 +78,7 @@ static void test_square_arrives(void **state) {
             }
             double t = above / along_ray;
             for (int i = 0; i < 3; i++) at[i] = eye[i] + t * ray[i];
-            /* back to the square: x/2, and z/3 along (0, -0.6, 0.8) */
+            /* in the square's space: x/2, and z/3 along (0, -0.6, 0.8) */
             double u = fabs(at[0] / 2), v = fabs((-0.6 * at[1] + 0.8 * at[2]) / 3);
             if (t > 0 && u < 1.99 && v < 1.99) {
                 on_square++;
@@ -128,7 +127,7 @@ static void test_given_camera_wins(void **state) {
     camera_eye(&glint_capture_frame(capture)->camera, eye);
     camera_project(&glint_capture_frame(capture)->camera, origin, uv);
     assert_true(fabs(eye[1] - 9) < 1e-9 && fabs(eye[2] - 0.5) < 1e-9);
-    /* the point looked at is in the middle, but for the jitter of half a pixel at most */
+    /* the target is at the centre, apart from jitter of up to half a pixel */
     assert_true(fabs(uv[0] - 0.5) <= 0.5 / W + 1e-6 && fabs(uv[1] - 0.5) <= 0.5 / H + 1e-6);
     glint_capture_close(&capture);
 }
@@ -187,7 +186,7 @@ static void test_files_that_lie_are_refused(void **state) {
     }
 }
 
-/* The square with its corner 2 moved by a sparse accessor, from a file in a folder below. */
+/* The square with its corner 2 moved by a sparse accessor, from a file in a subfolder. */
 static void write_sparse(void **state, const char *path, uint16_t index, const char *from, const char *to) {
     static const float moved[3] = {2, 0, 5};
     static char sparse[4096];
@@ -223,7 +222,7 @@ static void test_sparse_values_arrive(void **state) {
     write_sample(path, in_folder(state, "sparse.exr"), &o);
     struct glint_capture *capture = open_capture(in_folder(state, "sparse.exr"));
     float *depth = read_part(capture, "gbuffer", "depth.Z", NULL, NULL);
-    /* near the corner (2, 0, 5), which was (2, 0, 2): the matrix makes (2x, -1.8z, 2.4z) of it */
+    /* near the corner (2, 0, 5), which was (2, 0, 2): the matrix transforms it to (2x, -1.8z, 2.4z) */
     const double points[2][2] = {{1.8, 4.2}, {-1.8, 4.2}};
     for (int i = 0; i < 2; i++) {
         double at[3] = {2 * points[i][0], -1.8 * points[i][1], 2.4 * points[i][1]}, uv[2];
@@ -251,7 +250,7 @@ static void test_sparse_lies_are_refused(void **state) {
         write_sparse(state, path, 2, lies[i][0], lies[i][1]);
         refuse(state, path, GLINT_ERROR_FORMAT);
     }
-    write_sparse(state, path, 60000, NULL, NULL); /* the importer would write there */
+    write_sparse(state, path, 60000, NULL, NULL); /* the importer would write out of bounds */
     refuse(state, path, GLINT_ERROR_FORMAT);
 }
 
@@ -293,7 +292,7 @@ static void test_truncated_binary_files_are_refused(void **state) {
         if (length < total) refuse(state, path, GLINT_ERROR_FORMAT);
     }
     struct glint_sample_options o = options();
-    write_sample(path, in_folder(state, "whole.exr"), &o); /* uncut it is fine */
+    write_sample(path, in_folder(state, "whole.exr"), &o); /* untruncated it is valid */
 }
 
 static void test_other_files_are_no_scenes(void **state) {

@@ -1,5 +1,5 @@
-/* mirror_box against its closed forms: the empty box 0..8 x 0..4 x 0..6 m, floor a mirror, walls that emit
-   (0.55 + 0.35 sin(1.3x + 0.7y), 0.50 + 0.35 sin(1.1y + 0.9z), 0.55 + 0.35 sin(1.2z - 0.8x)). */
+/* mirror_box compared with its closed forms: the empty box 0..8 x 0..4 x 0..6 m with a mirror as floor and walls that emit (0.55 + 0.35
+   sin(1.3x + 0.7y), 0.50 + 0.35 sin(1.1y + 0.9z), 0.55 + 0.35 sin(1.2z - 0.8x)). */
 #include "support.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@
 
 static const double box[3] = {8, 4, 6};
 
-/* Where a ray from inside leaves the box: its parameter, and which axis the wall stands on. */
+/* The parameter at which a ray from inside leaves the box, and the axis of the wall. */
 static double leaves(const double from[3], const double direction[3], int *wall) {
     double nearest = INFINITY;
     for (int i = 0; i < 3; i++) {
@@ -35,7 +35,8 @@ struct seen {
     bool floor;
 };
 
-static struct seen look(const struct glint_camera *camera, uint32_t x, uint32_t y, uint32_t width, uint32_t height) {
+static struct seen trace_pixel(const struct glint_camera *camera, uint32_t x, uint32_t y, uint32_t width,
+                               uint32_t height) {
     struct seen s = {0};
     double eye[3], length = 0;
     camera_eye(camera, eye);
@@ -70,7 +71,7 @@ static struct glint_capture *box_capture(void **state) {
     return open_capture(path);
 }
 
-/* Positions are floats below 8: half a unit in the last place is 2.4e-7, and a handful of operations follow. */
+/* Positions are floats below 8: half a unit in the last place is 2.4e-7, and a few operations follow. */
 static const double float_m = 5e-6;
 
 static void test_depth_and_normal_of_every_pixel(void **state) {
@@ -78,7 +79,7 @@ static void test_depth_and_normal_of_every_pixel(void **state) {
     float *g = read_part(capture, "gbuffer", "depth.Z normal.X normal.Y normal.Z", NULL, NULL);
     for (uint32_t y = 0; y < H; y++)
         for (uint32_t x = 0; x < W; x++) {
-            struct seen s = look(&glint_capture_frame(capture)->camera, x, y, W, H);
+            struct seen s = trace_pixel(&glint_capture_frame(capture)->camera, x, y, W, H);
             const float *p = g + 4 * (y * W + x);
             double eye[3], forward;
             camera_eye(&glint_capture_frame(capture)->camera, eye);
@@ -103,7 +104,7 @@ static void test_lit_is_the_pattern_and_the_floor_is_black(void **state) {
     float *lit = read_part(capture, "lit", "R G B", NULL, NULL);
     for (uint32_t y = 0; y < H; y++)
         for (uint32_t x = 0; x < W; x++) {
-            struct seen s = look(&glint_capture_frame(capture)->camera, x, y, W, H);
+            struct seen s = trace_pixel(&glint_capture_frame(capture)->camera, x, y, W, H);
             double color[3];
             pattern(s.point, color);
             for (int i = 0; i < 3; i++) /* stored as half floats: 11 bits below 1 */
@@ -119,9 +120,9 @@ static void test_mirror_distance_of_every_pixel(void **state) {
     float *mirror = read_part(capture, "truth.mirror", "distance.Z visible", NULL, NULL);
     for (uint32_t y = 0; y < H; y++)
         for (uint32_t x = 0; x < W; x++) {
-            struct seen s = look(camera, x, y, W, H);
+            struct seen s = trace_pixel(camera, x, y, W, H);
             double length = sqrt(s.ray[0] * s.ray[0] + s.ray[1] * s.ray[1] + s.ray[2] * s.ray[2]), uv[2], eye[3];
-            /* the ray starts up to 0.05 mm off the wall, and meets the next wall at this cosine */
+            /* the ray starts up to 0.05 mm off the wall and hits the next wall with this cosine */
             double bound = 1e-4 / (fabs(s.ray[s.hit_wall]) / length) + float_m;
             assert_true(fabs((double)mirror[2 * (y * W + x)] - s.distance) <= bound);
             camera_project(camera, s.hit, uv);
@@ -144,13 +145,14 @@ static void test_truth_of_the_mirror_is_what_the_hit_emits(void **state) {
         float *truth = read_part(capture, lobes[lobe], "R G B weight", NULL, NULL);
         for (uint32_t y = 0; y < H; y++)
             for (uint32_t x = 0; x < W; x++) {
-                struct seen s = look(&glint_capture_frame(capture)->camera, x, y, W, H);
+                struct seen s = trace_pixel(&glint_capture_frame(capture)->camera, x, y, W, H);
                 const float *p = truth + 4 * (y * W + x);
                 double color[3];
                 if (!s.floor) continue;
                 floor_pixels++;
                 pattern(s.hit, color);
-                for (int i = 0; i < 3; i++) /* the pattern's slope is below 0.6 a metre; the hit moves by under 1 mm */
+                for (int i = 0; i < 3;
+                     i++) /* the pattern's slope is below 0.6 per metre; the hit moves by less than 1 mm */
                     assert_true(fabs((double)p[i] - color[i]) <= 6e-4);
                 assert_true(p[3] == 1);
             }
@@ -195,7 +197,7 @@ static void test_motion_leads_to_the_previous_frame(void **state) {
     double largest = 0, nearer = 0;
     for (uint32_t y = 0; y < H; y++)
         for (uint32_t x = 0; x < W; x++) {
-            struct seen s = look(&frame->camera, x, y, W, H);
+            struct seen s = trace_pixel(&frame->camera, x, y, W, H);
             double uv[2], now[2] = {(x + 0.5) / W, (y + 0.5) / H};
             camera_project(&frame->previous, s.point, uv);
             for (int i = 0; i < 2; i++) {

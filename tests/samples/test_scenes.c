@@ -1,5 +1,4 @@
-/* What holds for every scene: its captures keep all rules of the format, under every encoding, and the same options
-   give the same bytes. */
+/* Properties of every scene: its captures are valid in every encoding, and the same options give the same bytes. */
 #include "support.h"
 
 #include <math.h>
@@ -42,7 +41,7 @@ static void test_every_scene_is_valid(void **state) {
     }
 }
 
-/* Largest difference of decoded values; infinities must agree. */
+/* The largest difference of decoded values; infinities must be equal. */
 static double apart(const float *a, const float *b, size_t count) {
     double largest = 0;
     for (size_t i = 0; i < count; i++) {
@@ -52,13 +51,13 @@ static double apart(const float *a, const float *b, size_t count) {
     return largest;
 }
 
-/* Steps of the storage formats, worst case for values of this scene, relative above 1:
-   normals R10G10B10A2 half a step of 2/1023 before they are made unit again; roughness R8 half a step of 1/255;
-   motion half floats of pixels; colour half floats after the sRGB curve, whose slope reaches 2.4 above 1. */
+/* Steps of the storage formats, the worst case for values of this scene, relative above 1: normals R10G10B10A2 half a step of 2/1023
+   before normalisation; roughness R8 half a step of 1/255; motion half floats of pixels; colour half floats after the sRGB curve, whose
+   slope is at most 2.4 above 1. */
 static const double depth_bound = 2e-3, normal_bound = 2e-3, roughness_bound = 2.1e-3, motion_bound = 1e-4,
                     color_bound = 3e-3;
 
-static void compare(const char *path, const float *const plain[4]) {
+static void compare_decoded(const char *path, const float *const plain[4]) {
     static const char *const channels[4] = {"depth.Z",
                                             "normal.X normal.Y normal.Z vertexNormal.X vertexNormal.Y vertexNormal.Z",
                                             "material.roughness motion.X motion.Y motion.Z", "R G B"};
@@ -68,7 +67,7 @@ static void compare(const char *path, const float *const plain[4]) {
     float *depth = read_part(capture, "gbuffer", "depth.Z", NULL, NULL);
     for (int k = 0; k < 4; k++) {
         float *values = read_part(capture, k == 3 ? "lit" : "gbuffer", channels[k], NULL, NULL);
-        for (size_t i = 0; i < (size_t)W * H; i++) { /* under sky only depth and colour mean something */
+        for (size_t i = 0; i < (size_t)W * H; i++) { /* for sky only depth and colour are defined */
             if ((k == 1 || k == 2) && isinf(depth[i])) continue;
             double error = apart(values + i * counts[k], plain[k] + i * counts[k], counts[k]);
             if (error > bounds[k]) fail_msg("%s: %s differs by %g", path, channels[k], error);
@@ -90,7 +89,7 @@ static void test_every_encoding_decodes_to_the_same_scene(void **state) {
                        read_part(capture, "gbuffer", "material.roughness motion.X motion.Y motion.Z", NULL, NULL),
                        read_part(capture, "lit", "R G B", NULL, NULL)};
     glint_capture_close(&capture);
-    for (int i = 1; i < 6; i++) { /* every value of every enum appears */
+    for (int i = 1; i < 6; i++) { /* every value of every enum occurs */
         char name[32];
         o.encodings = (struct glint_encodings){.depth = (enum glint_depth_encoding)i,
                                                .normal = (enum glint_normal_encoding)(i % 3),
@@ -104,7 +103,7 @@ static void test_every_encoding_decodes_to_the_same_scene(void **state) {
         path = in_folder(state, name);
         write_sample("matte", path, &o);
         assert_valid(path);
-        compare(path, (const float *const *)plain);
+        compare_decoded(path, (const float *const *)plain);
     }
     for (int i = 0; i < 4; i++) free(plain[i]);
 }
@@ -138,7 +137,7 @@ static void test_offset_moves_the_doubles_and_no_pixel(void **state) {
         camera_eye(&frames[i]->camera, eyes[i]);
         camera_eye(&frames[i]->previous, previous[i]);
     }
-    for (int k = 0; k < 3; k++) { /* doubles at 1e6 have steps of 1e-10 */
+    for (int k = 0; k < 3; k++) { /* doubles near 1e6 have a precision of 1e-10 */
         assert_true(fabs(eyes[1][k] - eyes[0][k] - o.offset[k]) < 1e-8);
         assert_true(fabs(previous[1][k] - previous[0][k] - o.offset[k]) < 1e-8);
         assert_true(fabs(frames[1]->player[k] - frames[0]->player[k] - o.offset[k]) < 1e-8);
@@ -170,7 +169,7 @@ static void test_a_shot_shares_its_cubemaps(void **state) {
     assert_non_null(map);
     assert_string_equal(map->sibling, "shot.cubemaps.exr");
     float *shared = read_part(second, "cubemap.003", "R G B A distance.Z", NULL, NULL);
-    /* The single capture of the same frame holds the same cube map, and the same previous frame. */
+    /* The single capture of the same frame has the same cube map and the same previous frame. */
     o.frames = 1;
     o.first_frame = 2;
     write_sample("matte", in_folder(state, "single.exr"), &o);
@@ -190,7 +189,7 @@ static void test_a_shot_shares_its_cubemaps(void **state) {
     assert_valid(in_folder(state, "shot.0003.exr"));
 }
 
-/* The car of the street drives 0.16 m a frame along -Z: its motion is the camera's and its own. */
+/* The car of the street drives 0.16 m per frame along -Z: its motion is that of the camera and its own. */
 static void test_motion_of_what_moves(void **state) {
     enum { WIDE = 160, HIGH = 90 };
     struct glint_sample_options o = options();
@@ -211,7 +210,7 @@ static void test_motion_of_what_moves(void **state) {
             camera_ray(&frame->camera, x, y, WIDE, HIGH, ray);
             for (int moved = 0; moved < 2; moved++) {
                 for (int i = 0; i < 3; i++) point[i] = eye[i] + (double)p[0] * ray[i];
-                if (moved) point[2] += 0.16; /* where it was a frame ago */
+                if (moved) point[2] += 0.16; /* its previous position */
                 camera_project(&frame->previous, point, expected[moved]);
             }
             double off[2] = {0};
@@ -255,7 +254,7 @@ static void test_interrupted_work_leaves_complete_files_only(void **state) {
         assert_valid(in_folder(state, name));
     }
     assert_true(complete >= 1 && complete < 4);
-    write_sample("matte", in_folder(state, "cut.exr"), &o); /* running it again goes to the end */
+    write_sample("matte", in_folder(state, "cut.exr"), &o); /* a second call completes the shot */
     assert_valid(in_folder(state, "cut.0004.exr"));
 }
 
@@ -267,7 +266,7 @@ static void test_wrong_options_are_errors(void **state) {
     assert_false(glint_sample_write("matte", path, &o, NULL, NULL, &err));
     assert_int_equal(err.code, GLINT_ERROR_USAGE);
     o = options();
-    o.camera_given = true; /* eye and target are the same point */
+    o.camera_given = true; /* eye and target coincide */
     assert_false(glint_sample_write("matte", path, &o, NULL, NULL, &err));
     assert_int_equal(err.code, GLINT_ERROR_USAGE);
     o = options();

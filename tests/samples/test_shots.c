@@ -1,4 +1,4 @@
-/* A shot that was interrupted is completed; what is there already, made the same way, is not made again. */
+/* An interrupted shot is completed; existing frames with the same settings are not rendered again. */
 #include "support.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@ static struct glint_sample_options options(void) {
     return (struct glint_sample_options){.width = 16, .height = 12, .cube_size = 8, .light_samples = 2, .frames = 3};
 }
 
-/* Files are written under a temporary name: a file made again is another inode, or a later one. */
+/* Files are written to a temporary file first: a new file has another inode or a later time. */
 static struct stat status_of(void **state, const char *name) {
     struct stat status;
     assert_int_equal(stat(in_folder(state, name), &status), 0);
@@ -47,7 +47,7 @@ static void test_missing_frames_are_made(void **state) {
         struct stat after = status_of(state, files[i]);
         assert_int_equal(same_file(&before[i], &after), i != 2);
     }
-    assert_true(whole == hash_of(state, "s.0002.exr")); /* as if it had never been interrupted */
+    assert_true(whole == hash_of(state, "s.0002.exr")); /* as if it had not been interrupted */
 }
 
 static void test_a_damaged_frame_is_made_again(void **state) {
@@ -73,7 +73,7 @@ static void test_other_settings_make_all_of_it_again(void **state) {
     }
 }
 
-/* Frames belong to their cube maps. */
+/* Frames depend on their cube maps. */
 static void test_lost_cube_maps_come_back(void **state) {
     struct glint_sample_options o = options();
     write_sample("mirror_box", in_folder(state, "s.exr"), &o);
@@ -83,10 +83,10 @@ static void test_lost_cube_maps_come_back(void **state) {
     write_sample("mirror_box", in_folder(state, "s.exr"), &o);
     assert_true(whole == hash_of(state, files[0]));
     struct stat after = status_of(state, files[1]);
-    assert_true(same_file(&before, &after)); /* the same cube maps: the frames still hold */
+    assert_true(same_file(&before, &after)); /* the cube maps are the same, so the frames are still valid */
 }
 
-/* What a shot of a given camera sees. */
+/* Options of a shot with an explicit camera. */
 static struct glint_sample_options given_camera(void) {
     struct glint_sample_options o = options();
     o.camera_given = true;
@@ -97,7 +97,7 @@ static struct glint_sample_options given_camera(void) {
 }
 
 static void test_a_given_camera_stands_still_or_travels(void **state) {
-    for (int i = 0; i < 3; i++) { /* the last: centres of pixels */
+    for (int i = 0; i < 3; i++) { /* the last one: without jitter */
         struct glint_sample_options o = given_camera();
         const double travel[3] = {0.5, -0.25, 0.125};
         o.travel_given = i == 1;
@@ -119,7 +119,7 @@ static void test_a_given_camera_stands_still_or_travels(void **state) {
     }
 }
 
-/* The truth of pixels is the mean of what a still camera's sixteen frames have as theirs. */
+/* The truth of pixels is the mean of the truths in sixteen frames of a static camera. */
 static void test_truth_of_pixels_is_the_mean_over_the_jitter(void **state) {
     enum { FRAMES = 16, PIXELS = 16 * 12 };
     struct glint_sample_options o = given_camera();

@@ -1,4 +1,4 @@
-/* Textures of glTF files written here, images by libpng and libjpeg: what a pixel shows is what the image holds there. */
+/* Textures of glTF files that are written here, encoded by libpng and libjpeg: pixels show the colours of the image. */
 #include "support.h"
 
 #include <stdio.h> /* jpeglib.h needs FILE */
@@ -12,7 +12,7 @@
 
 enum { W = 64, H = 48, SIDE = 32 };
 
-/* A square of 4 x 4 m in the plane z = 0, seen from (0, 0, 4); u to the right, v downwards. */
+/* A square of 4 x 4 m in the plane z = 0, seen from (0, 0, 4); u points right, v downwards. */
 static const float geometry[4 * (3 + 2 + 4)] = {
     -2, 2, 0, 2, 2, 0, 2, -2, 0, -2, -2, 0,            /* positions, at 0 */
     0,  0, 1, 0, 1, 1, 0, 1,                           /* texture coordinates, at 48 */
@@ -22,7 +22,7 @@ static const uint16_t indices[6] = {0, 3, 2, 0, 2, 1}; /* at 144 */
 
 struct file {
     const char *material, *attributes, *uri, *sampler;
-    const uint8_t *image; /* behind the geometry, in a .glb */
+    const uint8_t *image; /* after the geometry, in a .glb */
     size_t image_bytes;
 };
 
@@ -64,7 +64,7 @@ static void write_glb(const char *path, const struct file *f) {
     fclose(out);
 }
 
-/* SIDE² texels of RGBA, as a PNG; for free(). */
+/* SIDE² texels of RGBA as a PNG; release with free(). */
 static uint8_t *encode_png(const uint8_t *rgba, size_t *bytes) {
     png_image image = {.version = PNG_IMAGE_VERSION, .width = SIDE, .height = SIDE, .format = PNG_FORMAT_RGBA};
     png_alloc_size_t size = 0;
@@ -100,7 +100,7 @@ static uint8_t *encode_jpeg(const uint8_t *rgba, size_t *bytes) {
     return out;
 }
 
-/* Quarters: red over green at the left, blue over grey at the right. */
+/* Quadrants: red over green on the left, blue over grey on the right. */
 static const uint8_t quarters[4][4] = {{220, 10, 10, 255}, {10, 10, 200, 255}, {20, 180, 20, 255}, {128, 128, 128, 0}};
 
 static void paint_quarters(uint8_t *rgba) {
@@ -118,7 +118,7 @@ static struct glint_sample_options options(void) {
 #define CHANNELS "depth.Z albedo.R albedo.G albedo.B material.roughness material.metalness normal.X normal.Y normal.Z"
 enum { DEPTH, ALBEDO, ROUGHNESS = 4, METALNESS, NORMAL, COUNT = 9 };
 
-/* The G-buffer's pixel that shows a point of the square. */
+/* The G-buffer pixel of a point of the square. */
 static const float *pixel_at(struct glint_capture *capture, const float *g, double x, double y) {
     double point[3] = {x, y, 0}, uv[2];
     camera_project(&glint_capture_frame(capture)->camera, point, uv);
@@ -140,7 +140,7 @@ static double linear(int code) {
     return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
 }
 
-/* A point in the middle of each quarter, far from the others for the MIP level chosen. */
+/* A point at the centre of each quadrant, far from the others at the chosen MIP level. */
 static const double middles[4][2] = {{-0.7, 0.7}, {0.7, 0.7}, {-0.7, -0.7}, {0.7, -0.7}};
 
 static void expect_quarters(struct glint_capture *capture, const float *g, double tolerance) {
@@ -179,7 +179,7 @@ static void test_jpeg_in_a_folder_below(void **state) {
     fwrite(jpeg, bytes, 1, out);
     fclose(out);
     float *g = render(state, &f, &capture);
-    expect_quarters(capture, g, 0.03); /* a JPEG of quality 100 is off by up to 3 codes, at a slope of up to 2.3 */
+    expect_quarters(capture, g, 0.03); /* a JPEG of quality 100 is off by up to 3 codes, with a slope of up to 2.3 */
     free(g);
     free(jpeg);
     glint_capture_close(&capture);
@@ -196,7 +196,8 @@ static void test_factors_colours_and_surface(void **state) {
     f.image = png;
     float *g = render(state, &f, &capture);
     const float *p = pixel_at(capture, g, 0.5, 0.5);
-    double vertex = (0.5 + 2) / 4, texel = 8.0 / H / 2; /* black at -2, white at 2; the pixel's centre is near */
+    double vertex = (0.5 + 2) / 4,
+           texel = 8.0 / H / 2; /* black at -2, white at 2; the pixel's centre is close to the point */
     assert_true(fabs((double)p[ALBEDO] - 0.5 * vertex) < texel * 0.5 + 0.004);
     assert_true(fabs((double)p[ALBEDO + 1] - vertex) < texel + 0.004);
     assert_true(fabs((double)p[ALBEDO + 2] - 0.25 * vertex) < texel * 0.25 + 0.004);
@@ -230,7 +231,7 @@ static void test_normal_map_turns_the_normal(void **state) {
     uint8_t rgba[SIDE * SIDE * 4];
     struct file f = {.material = "{\"normalTexture\":{\"index\":0}}"};
     struct glint_capture *capture;
-    /* (0.3, 0.2, z): to the right and to the image's top, which here are +x and +y */
+    /* (0.3, 0.2, z): to the right and to the top of the image, which are +x and +y here */
     for (int i = 0; i < SIDE * SIDE; i++) memcpy(rgba + 4 * i, (const uint8_t[]){166, 153, 246, 255}, 4);
     uint8_t *png = encode_png(rgba, &f.image_bytes);
     f.image = png;
@@ -260,7 +261,7 @@ static void test_alpha_mask_cuts_out(void **state) {
     glint_capture_close(&capture);
 }
 
-/* A checker of single texels, far finer than pixels from aside, must show its mean. */
+/* A checkerboard of single texels, much finer than pixels at a grazing angle, shows its mean. */
 static void test_grazing_texels_are_averaged(void **state) {
     uint8_t rgba[SIDE * SIDE * 4];
     struct file f = {.material = color_material};
@@ -308,11 +309,11 @@ static void test_damaged_images_are_refused(void **state) {
             struct file f = {.material = color_material, .image = images[k], .image_bytes = cut ? cut : 1};
             refuse(state, &f, GLINT_ERROR_FORMAT);
         }
-    /* PNG: width and height at 16 to 23, then their checksum at 29, which libpng judges first */
+    /* PNG: width and height are at 16 to 23, and their checksum at 29, which libpng checks first */
     struct file f = {.material = color_material, .image = images[0], .image_bytes = bytes[0]};
     memcpy(images[0] + 16, (const uint8_t[]){0x7f, 0xff, 0xff, 0xff}, 4);
     refuse(state, &f, GLINT_ERROR_FORMAT);
-    /* JPEG: height and width are the two words behind the frame header's length and precision */
+    /* JPEG: height and width are the two words after the frame header's length and precision */
     f = (struct file){.material = color_material, .image = images[1], .image_bytes = bytes[1]};
     for (size_t i = 2; i + 9 < bytes[1]; i++)
         if (images[1][i] == 0xff && images[1][i + 1] == 0xc0) {

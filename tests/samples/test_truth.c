@@ -1,4 +1,4 @@
-/* The lobes against their densities, and the truth against cases with a closed form. */
+/* The lobes compared with their densities, and the truth with closed forms. */
 #include "support.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 #include "noise.h"
 #include "render.h"
 
-/* Mean of cos θ of half-vectors, from the reflected directions: the half-vector halves the way to the eye. */
+/* The mean of cos θ of half-vectors from the reflected directions: the half-vector bisects the angle to the eye. */
 static double mean_half_cosine(vec3 (*lobe)(vec3, vec3, float, float, float), vec3 to_eye, vec3 normal,
                                float roughness) {
     enum { N = 200000 };
@@ -26,11 +26,11 @@ static double mean_half_cosine(vec3 (*lobe)(vec3, vec3, float, float, float), ve
 static void test_blinn_phong_half_vectors_follow_the_power(void **state) {
     (void)state;
     vec3 normal = unit(v3(0.2f, 0.9f, -0.3f));
-    /* density ∝ cosⁿ per solid angle: mean cosine (n + 1)/(n + 2); at normal incidence no half-vector is lost */
+    /* density ∝ cosⁿ per solid angle: mean cosine (n + 1)/(n + 2); at normal incidence no half-vector is rejected */
     for (int i = 1; i <= 4; i++) {
         float r = 0.2f * (float)i;
         double n = 2 / pow((double)r, 4) - 2, expected = (n + 1) / (n + 2);
-        /* 200,000 points of a low-discrepancy sequence: error well below 1e-3 of the spread */
+        /* 200,000 points of a low-discrepancy sequence: the error is far below 1e-3 of the deviation */
         assert_true(fabs(mean_half_cosine(lobe_blinn_phong, normal, normal, r) - expected) <
                     1e-3 * (1 - expected) + 2e-6);
     }
@@ -38,8 +38,8 @@ static void test_blinn_phong_half_vectors_follow_the_power(void **state) {
 
 static void test_slides_example_of_the_power(void **state) {
     (void)state;
-    /* roughness 0.5 is power 30, and cos³⁰ falls to 0.1 at acos(0.1^(1/30)) = 0.3868: the share of half-vectors
-       outside is 0.1^(31/30) */
+    /* the power for roughness 0.5 is 30, and cos³⁰ falls to 0.1 at acos(0.1^(1/30)) = 0.3868: the fraction of half-vectors outside is
+       0.1^(31/30) */
     vec3 normal = v3(0, 0, 1);
     enum { N = 200000 };
     size_t outside = 0;
@@ -54,8 +54,8 @@ static void test_slides_example_of_the_power(void **state) {
 
 static void test_ggx_half_vectors_follow_the_distribution(void **state) {
     (void)state;
-    /* At normal incidence visible normals have density D(h) cos θ, D = α²/π/((α² - 1)cos²θ + 1)²: with x = cos²θ its
-       distribution function has the inverse x = (1 - u)/(1 + (α² - 1)u). The mean of √x by quadrature. */
+    /* At normal incidence visible normals have the density D(h) cos θ, D = α²/π/((α² - 1)cos²θ + 1)²: with x = cos²θ the inverse of the
+       distribution function is x = (1 - u)/(1 + (α² - 1)u). The mean of √x by quadrature. */
     vec3 normal = unit(v3(-0.5f, 0.1f, 0.7f));
     for (int i = 1; i <= 4; i++) {
         float r = 0.25f * (float)i;
@@ -68,8 +68,8 @@ static void test_ggx_half_vectors_follow_the_distribution(void **state) {
     }
 }
 
-/* Visible normals from aslant have density D(h) max(0, v·h), but for a constant: the mean of v·h against brute-force
-   integration. */
+/* Visible normals from an oblique direction have a density proportional to D(h) max(0, v·h): compares the mean of v·h with
+   brute-force integration. */
 static void test_ggx_aslant(void **state) {
     (void)state;
     vec3 normal = v3(0, 0, 1), to_eye = unit(v3(0.8f, 0, 0.6f));
@@ -105,13 +105,13 @@ static void test_smooth_lobes_are_mirrors(void **state) {
     }
 }
 
-/* ---- Whole pictures of a scene made here: a floor under a sky ---- */
+/* ---- Whole images of a scene that is built here: a floor under a sky ---- */
 
 static vec3 even_sky(vec3 d) {
     (void)d;
     return v3(0.3f, 0.5f, 0.7f);
 }
-/* A sky that is linear in the direction: its mean over a lobe is the lobe's first moment. */
+/* A sky that is linear in the direction: its mean over a lobe is the first moment of the lobe. */
 static vec3 linear_sky(vec3 d) {
     return gray(2 + d.x + d.y);
 }
@@ -186,8 +186,8 @@ static void test_mirror_of_a_linear_sky(void **state) {
     drop(&p);
 }
 
-/* The standard error that is reported must match how far pictures with few samples are from one with many. */
-static void test_noise_estimate_is_honest(void **state) {
+/* The reported standard error must match the deviation of images with few samples from one with many. */
+static void test_noise_estimate_is_accurate(void **state) {
     (void)state;
     struct picture few, many;
     take(&few, 0.5f, linear_sky, 32);
@@ -203,7 +203,7 @@ static void test_noise_estimate_is_honest(void **state) {
         n++;
     }
     assert_true(n > 100);
-    /* draws of a low-discrepancy sequence do better than independent ones, which is what the estimate assumes */
+    /* a low-discrepancy sequence has less noise than independent samples, which the estimate assumes */
     assert_true(sqrt(squares) < 1.2 * sqrt(estimates) && sqrt(squares) > 0.02 * sqrt(estimates));
     drop(&few);
     drop(&many);
@@ -211,7 +211,7 @@ static void test_noise_estimate_is_honest(void **state) {
 
 static void test_a_mirrored_wall_is_lit_like_the_wall(void **state) {
     (void)state;
-    /* a lit wall behind a mirror floor: the truth there is the radiance of the wall's point, baked light included */
+    /* a lit wall behind a mirror floor: the truth is the radiance of the wall's point, including baked light */
     struct glint_error err = {0};
     struct job job = {.total = 1, .threads = 2};
     struct scene scene;
@@ -243,8 +243,8 @@ static void test_a_mirrored_wall_is_lit_like_the_wall(void **state) {
         vec3 from = along(scene.eye, d, -scene.eye.y / d.y);
         float t = (-2 - from.z) / up.z;
         vec3 at = along(from, up, t);
-        struct hit hit = world_trace(world, add(at, v3(0, 0, 1)), v3(0, 0, -1), 0); /* straight at that point */
-        /* light is interpolated over 0.5 m; the two rays meet the wall within 0.1 mm */
+        struct hit hit = world_trace(world, add(at, v3(0, 0, 1)), v3(0, 0, -1), 0); /* perpendicular at that point */
+        /* light is interpolated over 0.5 m; both rays hit the wall within 0.1 mm */
         assert_true(length(sub(world_radiance(world, &hit), truth[k].ggx)) < 1e-3f);
         assert_true(fabsf(truth[k].distance - t) < 1e-3f);
         compared++;
@@ -265,7 +265,7 @@ int main(void) {
         cmocka_unit_test(test_smooth_lobes_are_mirrors),
         cmocka_unit_test(test_even_sky_reflects_evenly),
         cmocka_unit_test(test_mirror_of_a_linear_sky),
-        cmocka_unit_test(test_noise_estimate_is_honest),
+        cmocka_unit_test(test_noise_estimate_is_accurate),
         cmocka_unit_test(test_a_mirrored_wall_is_lit_like_the_wall),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

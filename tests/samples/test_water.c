@@ -1,5 +1,5 @@
-/* The scene lake: its water lies in the mirror's plane, over the G-buffer's bottom, and the mirrored camera sees the points
-   of that plane where an unjittered camera of the frame would. */
+/* The scene lake: its water is in the plane of the mirror and above the G-buffer's bottom, and the mirrored camera sees points of that
+   plane at the same positions as an unjittered camera of the frame. */
 #include "support.h"
 
 #include <math.h>
@@ -42,7 +42,7 @@ static void test_water_lies_in_the_mirror(void **state) {
                 length += ray[k] * ray[k];
                 off += planar->plane[k] * point[k];
             }
-            /* 80 m away at most; logarithmic depth of 4000 to 1 in 32 bits holds 1e-6 of it, as a float does */
+            /* at most 80 m away; logarithmic depth of 4000 to 1 in 32 bits has a precision of 1e-6, as a float */
             assert_true(fabs(off) < 1e-4);
             assert_true(w[1] < depth[i] && w[3] > 0.9f);
             if (depth[i] < 1000) /* thickness is a half float */
@@ -56,7 +56,7 @@ static void test_water_lies_in_the_mirror(void **state) {
     }
 }
 
-/* The map at another size shows the same, and a scene without water has none of the parts. */
+/* A map of another size shows the same, and a scene without water has none of these parts. */
 static void test_the_map_has_a_size_of_its_own(void **state) {
     struct glint_sample_options o = {.width = W, .height = H, .cube_size = 16, .light_samples = 4};
     write_sample("lake", in_folder(state, "default.exr"), &o);

@@ -1,4 +1,4 @@
-/* The references that the self-test goes by, each against its inverse or against another way to the same answer. */
+/* The references of the self-test, each compared with its inverse or with an independent computation. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -11,7 +11,7 @@
 #include "oracles/open_box.h"
 #include "oracles/plain_capture.h"
 
-/* What is stored means the depth again, within what half a step of it is worth; a float's last bit, 6e-8, is beside that. */
+/* Stored values decode to the depth within half a step; the last bit of a float, 6e-8, is negligible. */
 static void stored_depth_decodes_to_itself(void **state) {
     static const uint32_t bits[] = {0, 24};
     (void)state;
@@ -35,8 +35,7 @@ static double cross_length(const double a[3], const double b[3]) {
     return sqrt(sum);
 }
 
-/* A mirror ray starts at the pixel that it was asked of, and the camera's ray through the place where its end is seen goes through
-   that end. */
+/* A mirror ray starts at its pixel, and the camera's ray through the screen position of its end passes through that end. */
 static void mirror_rays_start_and_end_where_they_are_seen(void **state) {
     const struct open_box box = open_box_filled(&(struct open_box){0});
     size_t rays = 0;
@@ -57,7 +56,7 @@ static void mirror_rays_start_and_end_where_they_are_seen(void **state) {
     assert_true(rays > 500);
 }
 
-/* Directions of a face have unit length, and their largest component is the one that the face is named after. */
+/* Directions of a face have unit length, and their largest component is along the axis of the face. */
 static void directions_lie_on_their_faces(void **state) {
     (void)state;
     for (uint32_t face = 0; face < 6; face++)
@@ -70,7 +69,7 @@ static void directions_lie_on_their_faces(void **state) {
         }
 }
 
-/* 10^6 of them: five standard deviations of a mean are 5/sqrt(12 10^6). */
+/* 10^6 numbers: five standard deviations of a mean are 5/sqrt(12 10^6). */
 static void noise_is_even(void **state) {
     double sum = 0;
     (void)state;

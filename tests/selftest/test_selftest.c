@@ -1,4 +1,4 @@
-/* Which cases a self-test selects, and which findings pass. What the cases find is cli_selftest's. */
+/* The selection of cases, and which findings pass. cli_selftest tests the cases themselves. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

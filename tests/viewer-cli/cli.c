@@ -1,4 +1,4 @@
-/* Runs the built program as a user would. */
+/* Runs the built program like a user. */
 #include "cli.h"
 #include "need.h"
 
@@ -123,6 +123,19 @@ json_t *parse_json(const char *text) {
     return json;
 }
 
+int count_lines(const char *name) {
+    struct outcome lines = run_program("wc", "-l", in_folder(name), NULL);
+    const int count = atoi(lines.out);
+    outcome_free(&lines);
+    return count;
+}
+
+json_t *load_json(const char *name) {
+    json_t *json = json_load_file(in_folder(name), 0, NULL);
+    if (!json) fail_msg("%s is no JSON", name);
+    return json;
+}
+
 const json_t *named(const json_t *list, const char *key, const char *name) {
     size_t i;
     json_t *item;
@@ -165,7 +178,7 @@ bool file_exists(const char *path) {
     return stat(path, &info) == 0;
 }
 
-/* The values as they are: the simplified interface would convert files that oiiotool marks as linear. */
+/* Without conversion: the simplified interface would convert files that oiiotool marks as linear. */
 struct pixels read_png(const char *path) {
     struct pixels pixels = {0};
     FILE *file = fopen(path, "rb");

@@ -1,4 +1,4 @@
-/* Runs the built program as a user would, and looks at what it says and leaves behind. */
+/* Runs the built program like a user, and checks its output and files. */
 #ifndef GLINT_TEST_CLI_H
 #define GLINT_TEST_CLI_H
 
@@ -6,38 +6,41 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-/* cmocka wants these before it */
+/* cmocka needs these before its own header */
 #include <cmocka.h>
 #include <stdbool.h>
 
 struct outcome {
-    int status; /* exit status, or 128 + the signal's number */
+    int status; /* exit status, or 128 + the number of the signal */
     char *out, *err;
 };
 
-/* The program named by $GLINT with these arguments, NULL-terminated. */
+/* Runs the program $GLINT with these arguments, NULL-terminated. */
 struct outcome glint(const char *first, ...);
-/* The same of a NULL-terminated list. */
+/* The same with a NULL-terminated list. */
 struct outcome glint_with(const char *const *arguments);
-/* Any program; the first argument is its name. */
+/* Runs any program; the first argument is its name. */
 struct outcome run_program(const char *first, ...);
 void outcome_free(struct outcome *outcome);
 
-/* Runs and checks the exit status; shows what the program said when it is another. Returns stdout, to be freed. */
+/* Runs and checks the exit status, printing the output if it differs. Returns stdout, which the caller frees. */
 #define glint_ok(...) checked(glint(__VA_ARGS__, NULL), 0, __FILE__, __LINE__)
 char *checked(struct outcome outcome, int status, const char *file, int line);
-/* Runs, expects an exit status and a message on stderr that contains `text`, and nothing on stdout. */
+/* Runs and expects an exit status, a message on stderr that contains `text`, and no output. */
 #define glint_fails(status, text, ...) refused(glint(__VA_ARGS__, NULL), status, text, __FILE__, __LINE__)
 void refused(struct outcome outcome, int status, const char *text, const char *file, int line);
 
 void assert_contains(const char *text, const char *needle);
-/* Parses, or fails. Released by json_decref. */
+/* Parses, or fails the test. Released by json_decref. */
 struct json_t *parse_json(const char *text);
-/* The object of a list whose `key` is `name`, and the number that an object has under a key; or fail. */
+/* The same for a file of the folder; the number of its lines. */
+struct json_t *load_json(const char *name);
+int count_lines(const char *name);
+/* The object in a list whose member `key` is `name`, and the number of a member; fails the test if there is none. */
 const struct json_t *named(const struct json_t *list, const char *key, const char *name);
 double number(const struct json_t *object, const char *key);
 
-/* A fresh folder; in_folder gives the path of a file in it (static storage for a few calls). */
+/* Creates a folder; in_folder returns the path of a file in it, in static storage for a few calls. */
 int make_folder(void **state);
 int remove_folder(void **state);
 const char *in_folder(const char *name);

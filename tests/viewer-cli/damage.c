@@ -1,4 +1,4 @@
-/* Mistakes made on purpose. */
+/* Deliberate mistakes in captures. */
 #include "damage_internal.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-/* Each texel of channels X Y Z of a kind in the G-buffer. */
+/* Changes each texel of the G-buffer's channels X Y Z of a kind. */
 static void each_normal(struct rewrite *r, void (*change)(const double *m, double n[3], double strength),
                         double strength) {
     float *x = damage_floats(r, "gbuffer", "normal.X"), *y = damage_floats(r, "gbuffer", "normal.Y"),
@@ -146,11 +146,11 @@ static double as_half(const double *p, double x, double y, double z, double stre
     frexp(z, &exponent);
     return isfinite(z) ? ldexp(nearbyint(ldexp(z, 11 - exponent)), exponent - 11) : z;
 }
-/* What a half float held, though the engine says otherwise. */
+/* Rounded to half floats, although the engine declares another format. */
 static bool depth_in_half(struct rewrite *r, double strength) {
     return each_depth(r, as_half, strength);
 }
-/* A depth buffer of few bits, decoded before it was captured; at the tests' few pixels 12 are what 16 are at a game's. */
+/* Depth from a buffer of few bits, decoded before capturing; 12 bits at the tests' resolution correspond to 16 at a game's. */
 static double through_12_bits(const double *p, double x, double y, double z, double strength) {
     (void)x, (void)y, (void)strength;
     const double device = nearbyint(4095 * (p[10] * p[14] + p[11] / z)) / 4095;
@@ -159,7 +159,7 @@ static double through_12_bits(const double *p, double x, double y, double z, dou
 static bool depth_through_12_bits(struct rewrite *r, double strength) {
     return each_depth(r, through_12_bits, strength);
 }
-/* Stored as the projection has it, and not declared. */
+/* Stored as the projection computes it, but not declared. */
 static bool depth_undeclared(struct rewrite *r, double strength) {
     (void)strength;
     rewrite_remove_attribute(r, "gbuffer", "glint.depth");
@@ -193,7 +193,7 @@ static bool camera_mirrored(struct rewrite *r, double strength) {
     }
     return true;
 }
-/* No mistake: held in a reversed depth buffer without a far plane, over NDC from -1 to 1. */
+/* Not a mistake: a reversed depth buffer without far plane, with NDC from -1 to 1. */
 static double as_infinite(const double *p, double x, double y, double z, double strength) {
     (void)p, (void)x, (void)y, (void)strength;
     return 0.1 / z;
@@ -232,7 +232,7 @@ static bool previous_missing(struct rewrite *r, double strength) {
     return true;
 }
 
-/* Every image of the screen with its rows bottom first, and motion with y up. */
+/* Every screen image with its bottom row first, and motion with y up. */
 static bool bottom_first(struct rewrite *r, double strength) {
     (void)strength;
     for (size_t i = 0; i < r->count; i++) {
@@ -257,7 +257,7 @@ static bool bottom_first(struct rewrite *r, double strength) {
 
 /* ---- Motion ---- */
 
-/* Some uv, then a factor. */
+/* Adds some uv, then multiplies by a factor. */
 static bool each_motion(struct rewrite *r, double x_shift, double y_shift, double x_factor, double y_factor) {
     float *x = damage_floats(r, "gbuffer", "motion.X"), *y = damage_floats(r, "gbuffer", "motion.Y");
     for (size_t i = 0; i < damage_texels_of(r, "gbuffer"); i++) {
@@ -278,11 +278,11 @@ DAMAGE(motion_zero, each_motion(r, 0, 0, 0, 0))
 
 static bool motion_unjittered(struct rewrite *r, double strength) {
     const double *now = damage_matrix(r, "glint.viewToClip"), *before = damage_matrix(r, "glint.previousViewToClip");
-    (void)strength; /* both look along -z, where an offset counts the other way */
+    (void)strength; /* both look along -z, where an offset has the opposite sign */
     return each_motion(r, (before[2] - now[2]) / 2, (now[6] - before[6]) / 2, 1, 1);
 }
 
-/* Of another frame altogether, but for each tenth pixel, which points the other way: too few to name that. */
+/* Motion of an unrelated frame, except for each tenth pixel, which points the opposite way: too few to identify that. */
 static bool motion_of_another(struct rewrite *r, double strength) {
     float *x = damage_floats(r, "gbuffer", "motion.X"), *y = damage_floats(r, "gbuffer", "motion.Y");
     for (size_t i = 0; i < damage_texels_of(r, "gbuffer"); i++) {
@@ -297,7 +297,7 @@ static bool motion_of_another(struct rewrite *r, double strength) {
 
 static const char *const rgb[3] = {"R", "G", "B"};
 
-/* The true reflection, as much as metal reflects of it. */
+/* The true reflection, scaled by the reflectance of metal. */
 static bool lit_specular(struct rewrite *r, double strength) {
     const float *metal = damage_floats(r, "gbuffer", "material.metalness");
     size_t metals = 0;
@@ -345,7 +345,7 @@ static bool lit_bgr(struct rewrite *r, double strength) {
     return true;
 }
 
-/* Of another place; metals are as dark there. */
+/* Of another place, where metals are as dark. */
 static bool lit_of_another(struct rewrite *r, double strength) {
     const float *metal = damage_floats(r, "gbuffer", "material.metalness");
     for (int c = 0; c < 3; c++) {

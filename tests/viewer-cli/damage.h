@@ -1,4 +1,4 @@
-/* Mistakes that an engine's dump may hold, made on purpose: pixels or one attribute of a capture are changed, everything else stays. */
+/* Deliberate mistakes as in an engine's dump: pixels or one attribute of a capture are changed, and everything else stays. */
 #ifndef DAMAGE_H
 #define DAMAGE_H
 
@@ -7,9 +7,9 @@
 enum damage_base { BASE_PLAIN, BASE_REVERSED, BASE_DEVICE, BASE_COUNT };
 
 struct damage {
-    const char *finding; /* the id that lint must give it; NULL: it cannot be told from the data */
+    const char *finding; /* the finding that lint must report; NULL: the data cannot show it */
     enum damage_base base;
-    /* `strength` is random in [0, 1). False: this capture has nothing that could be damaged so. */
+    /* `strength` is random in [0, 1). False: this capture has nothing to damage in this way. */
     bool (*apply)(struct rewrite *r, double strength);
 };
 extern const struct damage damages[];

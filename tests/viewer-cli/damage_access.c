@@ -1,4 +1,4 @@
-/* What mistakes are made on. */
+/* Access to the data that mistakes change. */
 #include "damage_internal.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@ size_t damage_texels_of(struct rewrite *r, const char *part) {
     return (size_t)p->part.width * p->part.height;
 }
 
-/* A channel as floats, from now on stored so; NULL when there is none. */
+/* Converts a channel to floats in storage; NULL if there is none. */
 float *damage_floats(struct rewrite *r, const char *part, const char *channel) {
     struct rewrite_part *p = rewrite_find(r, part);
     struct glint_error err = {0};

@@ -1,4 +1,4 @@
-/* Mistakes in a capture that holds the frame before, but no motion vectors and no cube maps: nothing else tells of them. */
+/* Mistakes in a capture with the previous frame but without motion vectors and cube maps, so that nothing else shows them. */
 #include "damage_internal.h"
 
 #include <math.h>
@@ -20,7 +20,7 @@ static void leave_the_frame_before(struct rewrite *r) {
     }
 }
 
-/* Both frames' depth. */
+/* Changes the depth of both frames. */
 static void each_depth(struct rewrite *r, double (*change)(double v)) {
     static const char *const parts[] = {"gbuffer", "previous.gbuffer"};
     for (int k = 0; k < 2; k++) {
@@ -56,7 +56,7 @@ bool before_exchanged(struct rewrite *r, double strength) {
     return exchanged(r);
 }
 
-/* With the colours of the frame before, and no depth of it. */
+/* With the colours of the previous frame, but without its depth. */
 bool before_exchanged_lit(struct rewrite *r, double strength) {
     (void)strength;
     leave_the_frame_before(r);
@@ -64,7 +64,7 @@ bool before_exchanged_lit(struct rewrite *r, double strength) {
     return exchanged(r);
 }
 
-/* No mistakes. */
+/* Not a mistake. */
 bool before_right(struct rewrite *r, double strength) {
     (void)strength;
     leave_the_frame_before(r);
@@ -75,7 +75,7 @@ bool before_right_lit(struct rewrite *r, double strength) {
     return before_right(r, strength);
 }
 
-/* The camera of some other frame. */
+/* The camera of another frame. */
 bool before_elsewhere(struct rewrite *r, double strength) {
     double m[16];
     leave_the_frame_before(r);
@@ -86,7 +86,7 @@ bool before_elsewhere(struct rewrite *r, double strength) {
     return true;
 }
 
-/* A projection of Direct3D's form under OpenGL's depth, which holds (z + 1) / 2: twice as far, in every direction as it is. */
+/* A projection in Direct3D's form with OpenGL's depth (z + 1) / 2: twice as far in every direction. */
 static double as_opengl(double v) {
     return (v + 1) / 2;
 }
@@ -107,7 +107,7 @@ bool before_hundreds(struct rewrite *r, double strength) {
     return true;
 }
 
-/* The eye's place in the engine's left-handed world, everything else in the right-handed one. */
+/* The position of the eye in the engine's left-handed world, everything else in the right-handed one. */
 bool before_mirrored(struct rewrite *r, double strength) {
     static const char *const names[] = {"glint.worldToView", "glint.previousWorldToView"};
     (void)strength;

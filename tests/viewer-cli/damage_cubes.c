@@ -9,7 +9,7 @@
 
 #include <cmocka.h>
 
-/* Every channel's faces: what stands at face f, place x y comes from face from[f], turned. */
+/* Every channel's faces: face f, texel x y, is taken from face from[f], rotated. */
 static bool each_face(struct rewrite *r, const int from[6], int turn) {
     static const char *const channels[] = {"R", "G", "B", "A", "distance.Z"};
     for (size_t i = 0; i < r->count; i++) {
@@ -84,7 +84,7 @@ bool sky_inverted(struct rewrite *r, double strength) {
 
 /* ---- Sky ---- */
 
-/* Something written into a channel of every texel that sees sky. */
+/* Writes a value to a channel of every texel with sky. */
 static bool each_sky(struct rewrite *r, const char *channel, float value) {
     size_t changed = 0;
     for (size_t i = 0; i < r->count; i++) {
@@ -107,7 +107,7 @@ DAMAGE(sky_at_0, each_sky(r, "distance.Z", 0))
 
 /* ---- Centres and volumes ---- */
 
-/* Half a metre off, along an axis. */
+/* Half a metre along an axis. */
 static bool move_centers(struct rewrite *r, double strength, size_t one) {
     static double kept[REWRITE_PARTS][3];
     const int axis = (int)(strength * 6) % 3;
@@ -123,7 +123,7 @@ static bool move_centers(struct rewrite *r, double strength, size_t one) {
 }
 DAMAGE(center_off, move_centers(r, strength, SIZE_MAX))
 
-/* The room's box, and all that stands in it. */
+/* The bounding box of the room and everything in it. */
 static bool inner_box(struct rewrite *r, double half) {
     static double low[3], high[3];
     for (int k = 0; k < 3; k++) low[k] = -half, high[k] = half;
@@ -152,8 +152,8 @@ void remove_cubes(struct rewrite *r) {
         if (damage_is_cube(&r->parts[i])) rewrite_remove_part(r, r->parts[i].name);
 }
 
-/* No mistake, but too little to tell: faces of two texels, sky on all but the one that a place far beyond the centre's
-   mirror image would be seen on. */
+/* Not a mistake, but too little data: faces of two texels, with sky on all but the one that would show points far beyond the centre's
+   mirror image. */
 bool cubes_tiny(struct rewrite *r, double strength) {
     (void)strength;
     for (size_t i = 0; i < r->count; i++) {

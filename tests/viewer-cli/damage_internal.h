@@ -1,16 +1,16 @@
-/* What the files of mistakes share: access to a capture's pixels and attributes, and their own mistakes. */
+/* Common to the mistakes: access to a capture's pixels and attributes, and the functions of each file. */
 #ifndef DAMAGE_INTERNAL_H
 #define DAMAGE_INTERNAL_H
 
 #include "damage.h"
 
 size_t damage_texels_of(struct rewrite *r, const char *part);
-/* A channel as floats, from now on stored so; NULL when there is none. */
+/* Converts a channel to floats in storage; NULL if there is none. */
 float *damage_floats(struct rewrite *r, const char *part, const char *channel);
 bool damage_is_cube(const struct rewrite_part *p);
 const double *damage_matrix(struct rewrite *r, const char *name);
 void damage_set_matrix(struct rewrite *r, const char *name, const double m[16]);
-/* A string on the G-buffer. */
+/* Sets a string attribute of the G-buffer. */
 void damage_set_text(struct rewrite *r, const char *name, const char *value);
 void remove_cubes(struct rewrite *r);
 
@@ -38,7 +38,7 @@ MISTAKE(sky_colored)
 MISTAKE(sky_solid)
 MISTAKE(sky_at_0)
 MISTAKE(cubes_tiny)
-/* damage_before.c: mistakes that the frame before tells, and those that only it tells */
+/* damage_before.c: mistakes that the previous frame shows, and those that only it shows */
 MISTAKE(before_same)
 MISTAKE(before_exchanged)
 MISTAKE(before_exchanged_lit)

@@ -1,5 +1,5 @@
-/* Loaded before libvulkan: a driver that has little for programs that open several devices. $FEW_DEVICES: "open" opens one at a
-   time, "memory" gives no memory while there are two. What it refuses is said on stderr. */
+/* Preloaded before libvulkan: simulates a driver with few resources for programs with several devices. $FEW_DEVICES: "open" allows one
+   device at a time, "memory" allocates no memory while there are two. Refusals are printed to stderr. */
 #include <dlfcn.h>
 #include <stdatomic.h>
 #include <stdbool.h>

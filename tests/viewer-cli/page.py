@@ -90,12 +90,12 @@ class Tests:
         self.browser.click(*marks[1])
         assert "many" in self.shown() and "screen_trace.steps64" in self.shown(), self.shown()
         assert self.color_of_picture() == [0, 0, 255], self.color_of_picture()
-        # it stays when the pointer leaves, pointing elsewhere shows that, and comes back
+        # it stays when the pointer leaves; another point replaces it, and it comes back
         self.browser.point_at(*marks[0])
         assert "few" in self.shown() and self.color_of_picture() == [255, 0, 0]
         self.browser.point_at(5, 5)
         assert "many" in self.shown(), self.shown()
-        # kept after another one: what differs is marked, and the enlarged picture flips to the other's in place
+        # kept while another one is selected: differences are marked, and the enlarged picture flips in place
         differing = "[...document.querySelectorAll('aside .differs')].map(e => e.textContent).join()"
         assert self.browser.evaluate(differing) == ""
         self.browser.click(*marks[0])
@@ -187,7 +187,7 @@ class Tests:
         assert self.browser.evaluate(order) == "badc"
         self.browser.evaluate("document.querySelectorAll('th button')[1].click()")
         assert self.browser.evaluate(order) == "dabc"
-        # numbers end at one place
+        # numbers are right-aligned
         ends = self.browser.evaluate("[...new Set([...document.querySelectorAll('td.number')].map(e => e.getBoundingClientRect().right))].length")
         assert ends == 1, ends
         self.browser.quiet()
@@ -218,7 +218,7 @@ class Tests:
         assert not [n for e in svg.getElementsByTagName("*") for n in e.attributes.keys() if n.startswith("on")]
 
     def test_marks_stand_at_their_values(self):
-        """The line of a mark lies where the axis puts its value: against two points on either side, in the file."""
+        """The line of a mark is at its value on the axis, compared with two points on either side, in the file."""
         points = [[1, 0.012], [2, 0.018]]
         block = {"chart": {"x": {"name": "x"}, "y": {"name": "y"}, "series": [{"name": "s", "kind": "line", "points": points}],
                            "marks": [{"y": 0.015}]}}
@@ -230,7 +230,7 @@ class Tests:
         (curve,) = [e.getAttribute("d") for e in paths if e.getAttribute("stroke-width") == "2" and e.getAttribute("fill") == "none"]
         heights = [float(p.split()[1]) for p in curve[1:].split("L")]
         mark = float(line[1:].split("L")[0].split()[1])
-        assert abs(mark - sum(heights) / 2) <= 1, (mark, heights)  # 1: lines are moved onto whole pixels
+        assert abs(mark - sum(heights) / 2) <= 1, (mark, heights)  # 1: lines are snapped to whole pixels
 
     def test_intervals_stand_on_their_bars(self):
         values = [[3, 2, 4], [1, 5, 2]]
@@ -261,7 +261,7 @@ class Tests:
         os.makedirs(folder)
         points = []
         for i in range(200):
-            # noise is the worst case of any encoder
+            # noise is the worst case for any encoder
             png(os.path.join(folder, f"{i}.png"), 320, 180, [os.urandom(960) for _ in range(180)], 0)
             points.append(point(1 + i, 1 / (1 + i), f"p{i}", i, f"{i}.png"))
         out = report(folder, page(chart(points)))

@@ -8,7 +8,7 @@ from browser import run_tests
 
 GLINT = sys.argv[1]
 NAME = "<img src=x onerror=alert(1)>.exr"
-# A section's table as lists of texts, without its intervals and its heads' units.
+# A section's table as lists of texts, without intervals and units.
 TABLE = """(title => [...[...document.querySelectorAll('main > section')].find(s => s.querySelector('h2')?.textContent === title)
     .querySelectorAll('table')].map(t => [...t.rows].map(r => [...r.cells].filter(c => !c.classList.contains('interval'))
     .map(c => (c.querySelector('button') || c).textContent))))"""
@@ -26,7 +26,7 @@ class Tests:
         self.capture = self.path(NAME)
         glint("sample", "room", "-o", self.capture, "--size=96x54", "--cube-size=16", "--truth=1")
         glint("replay", self.capture, "-o", self.path("a"), "--against=truth", "--set=downsample.jitter=false")
-        # what an older run was compared with must not stay
+        # errors of an older run must not stay
         os.makedirs(self.path("b"))
         with open(self.path("b/errors.json"), "w", encoding="utf-8") as file:
             file.write("{}")
@@ -47,7 +47,7 @@ class Tests:
         self.browser.show(out)
 
     def table(self, title, which=0):
-        """Its lines below the heads."""
+        """Its lines below the headings."""
         return self.browser.evaluate(f"{TABLE}({json.dumps(title)})[{which}].slice(1)")
 
     def test_a_run_is_told_whole(self):
@@ -69,7 +69,7 @@ class Tests:
     def test_times_are_those_of_the_run(self):
         run = self.run_json("b")
         self.show("b")
-        for which, cached in ((1, False), (3, True)):  # each behind the table of its chart
+        for which, cached in ((1, False), (3, True)):  # each follows the table of its chart
             told = dict(self.table("Times", which))
             passes = [p for p in run["passes"] if p["ran"] and p.get("cached_work", False) == cached]
             assert list(told) == [p["slot"] for p in passes], (list(told), cached)
@@ -157,7 +157,7 @@ class Tests:
         for x, y in places.values():
             self.browser.key("Escape")
             self.browser.click(x, y)
-            # points may lie on each other
+            # points may coincide
             at = places[self.browser.evaluate("document.querySelector('aside').firstChild.textContent")]
             assert max(abs(at[0] - x), abs(at[1] - y)) < 8, (at, x, y)
         self.browser.quiet()
@@ -179,7 +179,7 @@ class Tests:
         for row, preset in zip(rows[1:], presets, strict=True):
             (everything,) = [s for s in preset["surfaces"] if s["surfaces"] == "all"]
             assert row[0] == preset["preset"] and abs(float(row[5]) - everything["symmetric"]) < 1e-4, (row, everything)
-        # the truth has no error of its own; this scene has no finished picture of its own either
+        # the truth has no error of its own, and this scene has no final image
         stages = self.browser.evaluate("[...document.querySelectorAll('.stage')].map(s => [...new Set([...s.querySelectorAll('option, .bar button')].map(o => o.textContent))])")
         assert [s[5:8] for s in (stages[0], stages[2])] == [["truth", "mafia3", "kf2"], ["without reflections", "mafia3", "kf2"]], stages
         assert stages[1][:5] == ["Slider", "Side by side", "Flicker", "mafia3", "kf2"], stages
@@ -195,7 +195,7 @@ class Tests:
         stage = "document.querySelectorAll('.stage')[{}]"
 
         def values(number, x, y):
-            """What the stage says of a pixel: {preset: [value of each channel]}."""
+            """The values that the stage shows for a pixel: {preset: [value of each channel]}."""
             box = stage.format(number) + ".querySelector('.frame')"
             self.browser.evaluate(box + ".scrollIntoView()")
             left, top, width, height = self.browser.evaluate(f"(r => [r.x, r.y, r.width, r.height])({box}.getBoundingClientRect())")
@@ -204,7 +204,7 @@ class Tests:
             rows = self.browser.evaluate(f"[...{stage.format(number)}.querySelectorAll('.readout tbody tr')].map(r => [...r.cells].slice(0, -1).map(c => c.textContent))")
             return {row[0]: [float(v.replace("\u2212", "-")) for v in row[1:4] if v not in ("\u2013", "not compared")] for row in rows}
 
-        # an error is what docs/metrics.md calls symmetric, of the reflections that the page itself gives
+        # the error is the symmetric one of docs/metrics.md, of the reflections that the page contains
         compared = 0
         for x, y in ((20, 40), (48, 30), (70, 45)):
             reflection, error = values(0, x, y), values(1, x, y)

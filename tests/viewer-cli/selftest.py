@@ -11,7 +11,7 @@ import tempfile
 import tap
 
 GLINT, PASSES, FEW_DEVICES = sys.argv[1:4]
-# A file of passes/ (of passes/shared, where it has no folder), a piece of it, what it becomes, and a case that must find out: each case is here.
+# A file of passes/ (of passes/shared if no folder is named), a piece of it, its replacement, and a case that must fail: every case occurs.
 MUTANTS = [
     ("stable", "abs(x) > 0.35", "abs(x) > 0.0", ["expm1 near zero"]),
     ("stable", "return exp(x) - 1.0;", "return exp(x);", ["expm1 far from zero", "expm1 far below zero"]),
@@ -136,7 +136,7 @@ def selftest(*arguments, status=0, **environment):
 
 
 def functions():
-    """Names of what passes/shared defines."""
+    """The names that passes/shared defines."""
     names = set()
     for entry in os.scandir(os.path.join(PASSES, "shared")):
         if not entry.name.endswith(".glsl"):

@@ -12,7 +12,7 @@ from browser import run_tests
 
 GLINT = sys.argv[1]
 SIZE = (48, 27)
-STAGE = "[...document.querySelectorAll('.stage')].at(-1)"  # of the finished picture
+STAGE = "[...document.querySelectorAll('.stage')].at(-1)"  # of the final image
 FRAME = STAGE + ".querySelector('.frame')"
 
 
@@ -58,12 +58,12 @@ class Tests:
         self.browser.settle()
 
     def at(self, x, y, width=SIZE[0]):
-        """Where a pixel of the finished picture is in the window."""
+        """The position of a pixel of the final image in the window."""
         left, top, wide, high = self.ask(f"(r => [r.x, r.y, r.width, r.height])({FRAME}.getBoundingClientRect())")
         return left + (x + 0.5) / width * wide, top + (y + 0.5) / SIZE[1] * high
 
     def readout(self):
-        """{caption: [value, …]}, and the pixel that it is of."""
+        """{caption: [value, …]}, and the pixel that the values are of."""
         self.ask(f"new Promise(done => {{ const wait = () => {STAGE}.querySelector('.readout table') ? done() : setTimeout(wait, 10); wait(); }})")
         rows = self.ask(f"[...{STAGE}.querySelectorAll('.readout tr')].map(r => [...r.cells].map(c => c.textContent))")
         number = lambda t: float(t.replace("\u2212", "-").replace("\u221e", "inf"))
@@ -99,7 +99,7 @@ class Tests:
         self.ask(STAGE + ".querySelector('input[type=range]').focus()")
         self.browser.key("ArrowRight", 39)
         assert 25 < cut() < 26, cut()
-        # what is drawn left and right of the line are the pixels of the one and of the other
+        # the pixels on the left and right of the line are those of the two images
         sources = self.ask(f"[...{FRAME}.querySelectorAll('img')].map(i => [i.src.length, i.naturalWidth, i.hidden])")
         assert all(not hidden and width == SIZE[0] for _, width, hidden in sources), sources
         assert self.ask(f"{FRAME}.querySelectorAll('img')[0].src !== {FRAME}.querySelectorAll('img')[1].src")
@@ -170,7 +170,7 @@ class Tests:
         self.browser.point_at(*self.ask("(r => [r.x + r.width / 3, r.y + r.height / 3])(document.querySelector('.frame').getBoundingClientRect())"))
         values, heads = self.readout()
         assert heads[0] == "4,2" and values == {"a.exr": [1, 0.5, 0], "b.exr": [1, 0.5, 0.25], "b.exr \u2212 a.exr": [0, 0, 0.25]}, (heads, values)
-        # a page of the same twice has nothing to list, and shows it
+        # a page of two equal runs has nothing to list, and shows the image
         glint("diff", self.path("a.exr"), self.path("a.exr"), "--html", out)
         self.browser.show(out)
         assert self.ask("document.querySelectorAll('.stage').length") == 1 and "1 of 1 images are equal" in self.ask("document.body.textContent")

@@ -1,4 +1,4 @@
-"""Runs the methods test_… of an object, and says how it went in TAP."""
+"""Runs the methods test_… of an object, and reports in TAP."""
 import os
 import sys
 import traceback
@@ -8,13 +8,13 @@ import programs  # noqa: E402
 
 
 def explained(error):
-    """The error's trace, and where to get a program from that is not there."""
+    """The error's traceback, and the package of a program that is missing."""
     missing = isinstance(error, FileNotFoundError) and error.filename in programs.PACKAGES
     return traceback.format_exc()[:2000] + (f"{programs.Missing(error.filename)}\n" if missing else "")
 
 
 def run(tests):
-    """Whether any failed."""
+    """Whether any test failed."""
     names = [n for n in dir(tests) if n.startswith("test_")]
     failed = 0
     print(f"1..{len(names)}", flush=True)

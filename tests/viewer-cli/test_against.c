@@ -1,4 +1,4 @@
-/* What --against says of images: metrics chosen by name, classes that part the pixels, intervals, what is no number. */
+/* The output of --against for images: metrics by name, classes of pixels, intervals, non-finite values. */
 #include "cli.h"
 
 #include <jansson.h>
@@ -22,7 +22,7 @@ static int make_capture(void **state) {
     return 0;
 }
 
-/* Each set of classes has every pixel once, and its means add up to that of all. */
+/* Each set of classes contains every pixel once, and its means combine to the mean of all. */
 static void check_sets(const json_t *classes, double pixels, double mean) {
     static const char *const sets[] = {"angle", "distance", "hit", "source"};
     for (size_t s = 0; s < sizeof sets / sizeof sets[0]; s++) {
@@ -80,8 +80,8 @@ static void metrics_are_chosen(void **state) {
     glint_fails(2, "above 0", "replay", CAPTURE, "--against=truth", "--ppd=0");
 }
 
-/* Presets whose passes have no fog have none to switch off. */
-static void what_help_advises_works_in_every_preset(void **state) {
+/* Presets without fog need not switch it off. */
+static void advice_of_help_works_in_every_preset(void **state) {
     (void)state;
     static const char *const presets[] = {"mafia3", "mafia_de", "gtav", "kf2"};
     char *help = glint_ok("replay", "--help");
@@ -91,7 +91,7 @@ static void what_help_advises_works_in_every_preset(void **state) {
         free(glint_ok("replay", CAPTURE, "--against=truth", "--preset", presets[i], "--set=pipeline.fog=false"));
 }
 
-/* Rays of a tracer's end reason by what the truth says; where both have a reflection from. */
+/* End reasons of rays by those of the truth, and the sources of reflections in both. */
 static void ends_are_held_against_the_truth_and_the_reference(void **state) {
     (void)state;
     char *text = glint_ok("replay", CAPTURE, "--against=truth", "--json", "--set=downsample.jitter=false");
@@ -102,7 +102,7 @@ static void ends_are_held_against_the_truth_and_the_reference(void **state) {
     assert_string_equal(json_string_value(json_object_get(hit, "tracer")), "screen");
     double screen = number(truth, "screen"), elsewhere = number(truth, "elsewhere"), sky = number(truth, "sky");
     assert_true(screen + elsewhere + sky == number(hit, "rays"));
-    assert_true(screen > 0.9 * number(hit, "rays")); /* a screen trace finds what the screen shows */
+    assert_true(screen > 0.9 * number(hit, "rays")); /* a screen trace finds what is visible on screen */
     json_decref(json);
     free(text);
     text = glint_ok("replay", CAPTURE, "--against=reference", "--diagnostics", "--json");
@@ -142,7 +142,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(classes_part_the_pixels),
         cmocka_unit_test(metrics_are_chosen),
-        cmocka_unit_test(what_help_advises_works_in_every_preset),
+        cmocka_unit_test(advice_of_help_works_in_every_preset),
         cmocka_unit_test(ends_are_held_against_the_truth_and_the_reference),
         cmocka_unit_test(what_is_no_number_fails),
     };

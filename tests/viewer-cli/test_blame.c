@@ -7,27 +7,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A small pipeline: the linear march, the cube maps, one resolve. Few rays: what is checked holds for any. */
+/* A small pipeline: the linear march, the cube maps, one resolve. The tests hold for any number of rays, so there are few. */
 #define SMALL "-p", GLINT_TEST_PRESET, "--rays=16", "--player-rays=2"
-
-static json_t *load(const char *name) {
-    json_t *json = json_load_file(in_folder(name), 0, NULL);
-    if (!json) fail_msg("%s is no JSON", name);
-    return json;
-}
-
-static int lines_of(const char *name) {
-    struct outcome lines = run_program("wc", "-l", in_folder(name), NULL);
-    const int count = atoi(lines.out);
-    outcome_free(&lines);
-    return count;
-}
 
 static const json_t *errors_of(const json_t *sum, const char *answer, const char *class) {
     return json_object_get(json_object_get(json_object_get(sum, "errors"), answer), class);
 }
 
-/* Shares of every answer and class add up to what the preset errs more than its reference. */
+/* The shares of every reference and class sum up to the difference between preset and reference. */
 static void assert_sums(const json_t *sum, size_t answers) {
     const char *answer, *class, *name;
     json_t *classes, *errors, *player;
@@ -48,11 +35,11 @@ static void assert_sums(const json_t *sum, size_t answers) {
     }
 }
 
-/* The errors that pipelines have by `glint sweep`, which knows nothing of players. */
+/* The errors of pipelines by `glint sweep`, which is independent of players. */
 static void sweep_upscale(double errors[2]) {
     free(glint_ok("sweep", in_folder("room.exr"), "-o", in_folder("swept"), "-p", GLINT_TEST_PRESET, "--rays=16",
                   "--repeat=0", "--no-pictures", "--set=resolve.fog=false", "--vary=upscale=best_match,bilinear"));
-    json_t *json = load("swept/points.json");
+    json_t *json = load_json("swept/points.json");
     for (size_t i = 0; i < 2; i++) {
         const json_t *row =
             json_array_get(json_object_get(json_array_get(json_object_get(json, "points"), i), "captures"), 0);
@@ -62,7 +49,7 @@ static void sweep_upscale(double errors[2]) {
     json_decref(json);
 }
 
-/* Mean of a pipeline's two rounds, which is their median. */
+/* The mean of a pipeline's two rounds, which is their median. */
 static double logged_ms(const char *name, int coalition) {
     FILE *log = fopen(in_folder(name), "rb");
     char line[8192];
@@ -82,7 +69,7 @@ static double logged_ms(const char *name, int coalition) {
     return sum / rounds;
 }
 
-/* Catches: shares that do not add up, errors of other pipelines than said, a missing answer. */
+/* Catches: shares with a wrong sum, errors of wrong pipelines, a missing reference. */
 static void shares_add_up_to_the_error(void **state) {
     (void)state;
     free(glint_ok("sample", "room", "-o", in_folder("room.exr"), "--size=32x18", "--cube-size=8", "--truth=1"));
@@ -92,7 +79,7 @@ static void shares_add_up_to_the_error(void **state) {
     assert_contains(text, "against the truth");
     assert_contains(text, "exact, from all");
     free(text);
-    json_t *found = load("blame/shares.json");
+    json_t *found = load_json("blame/shares.json");
     const json_t *capture = json_array_get(json_object_get(found, "captures"), 0),
                  *players = json_object_get(found, "players"), *all = errors_of(capture, "reference", "all");
     const int count = (int)json_array_size(players);
@@ -100,8 +87,8 @@ static void shares_add_up_to_the_error(void **state) {
     assert_sums(capture, 2);
     assert_sums(json_object_get(found, "mean"), 2);
     assert_int_equal(number(capture, "pipelines"), 1 << count);
-    /* a look at each, and two rounds of both ends and of one exchange in either */
-    assert_int_equal(lines_of("blame/log.jsonl"), (1 << count) + 2 * (2 * count + 2));
+    /* one evaluation of each, and two rounds of both ends and of single replacements of either */
+    assert_int_equal(count_lines("blame/log.jsonl"), (1 << count) + 2 * (2 * count + 2));
     double errors[2];
     sweep_upscale(errors);
     assert_true(fabs(number(all, "preset") - errors[0]) < 1e-9);
@@ -120,7 +107,7 @@ static void shares_add_up_to_the_error(void **state) {
     json_decref(found);
 }
 
-/* What was found is found again, whatever is asked of it; killed without warning, the same command goes on. */
+/* Stored results are reused for any options; after a kill, the same command resumes. */
 static void a_killed_blame_goes_on(void **state) {
     (void)state;
     char command[1024];
@@ -133,8 +120,8 @@ static void a_killed_blame_goes_on(void **state) {
     struct outcome killed = run_program("sh", "-c", command, NULL);
     assert_int_equal(killed.status, 128 + 9);
     outcome_free(&killed);
-    if (file_exists(in_folder("killed/shares.json"))) { /* what was known by then */
-        json_t *partial = load("killed/shares.json");
+    if (file_exists(in_folder("killed/shares.json"))) { /* the results so far */
+        json_t *partial = load_json("killed/shares.json");
         assert_true(json_is_false(json_object_get(partial, "complete")));
         json_decref(partial);
     }
@@ -145,15 +132,15 @@ static void a_killed_blame_goes_on(void **state) {
     snprintf(command, sizeof command, "cd %s && \"$GLINT\" blame room.exr -o killed -p %s %s", in_folder(""),
              GLINT_TEST_PRESET, arguments);
     free(checked(run_program("sh", "-c", command, NULL), 0, __FILE__, __LINE__));
-    json_t *whole = load("blame/shares.json"), *resumed = load("killed/shares.json");
+    json_t *whole = load_json("blame/shares.json"), *resumed = load_json("killed/shares.json");
     assert_true(json_equal(json_object_get(json_object_get(whole, "mean"), "errors"),
                            json_object_get(json_object_get(resumed, "mean"), "errors")));
-    assert_int_equal(lines_of("killed/log.jsonl"), 1 << json_array_size(json_object_get(whole, "players")));
+    assert_int_equal(count_lines("killed/log.jsonl"), 1 << json_array_size(json_object_get(whole, "players")));
     json_decref(whole);
     json_decref(resumed);
 }
 
-/* Who waits for no times has the answers, on the screen and in the folder, and may have more times later. */
+/* Errors are complete on screen and in the folder without waiting for times, which can be added later. */
 static void answers_come_before_times(void **state) {
     (void)state;
     char command[1024];
@@ -165,38 +152,38 @@ static void answers_come_before_times(void **state) {
              "sleep 0.05; "
              "done; kill -INT $pid; wait $pid",
              in_folder(""), GLINT_TEST_PRESET, arguments, in_folder(""));
-    /* a shell's background job ignores interrupts, which exec'd programs inherit: glint listens all the same */
+    /* a shell's background job ignores interrupts, which its programs inherit; glint handles them nevertheless */
     struct outcome stopped = run_program("sh", "-c", command, NULL);
     assert_int_equal(stopped.status, 130);
     assert_contains(stopped.out, "exact, from all");
     assert_contains(stopped.out, "adds ms");
     assert_contains(stopped.err, "results are kept in ");
     outcome_free(&stopped);
-    json_t *whole = load("blame/shares.json"), *found = load("asked/shares.json");
+    json_t *whole = load_json("blame/shares.json"), *found = load_json("asked/shares.json");
     assert_true(json_is_false(json_object_get(found, "complete")) && json_is_true(json_object_get(whole, "complete")));
     assert_true(json_equal(json_object_get(json_object_get(whole, "mean"), "errors"),
                            json_object_get(json_object_get(found, "mean"), "errors")));
     assert_true(file_exists(in_folder("asked/index.html")));
-    const int lines = lines_of("asked/log.jsonl");
+    const int lines = count_lines("asked/log.jsonl");
     json_decref(found);
     free(glint_ok("blame", in_folder("room.exr"), "-o", in_folder("asked"), SMALL, "--use=upscale=best_match",
                   "--repeat=1"));
-    found = load("asked/shares.json");
-    assert_true(json_is_true(json_object_get(found, "complete")) && lines_of("asked/log.jsonl") >= lines);
+    found = load_json("asked/shares.json");
+    assert_true(json_is_true(json_object_get(found, "complete")) && count_lines("asked/log.jsonl") >= lines);
     const json_t *ms = json_object_get(json_object_get(found, "mean"), "frame_ms");
     assert_true(number(ms, "preset") > 0 && number(ms, "reference") > 0);
     json_decref(found);
     json_decref(whole);
 }
 
-/* Permutations in the same folder: no pipeline is run again, and another error is shared out as well. */
+/* Permutations in the same folder: no pipeline runs again, and another error has shares as well. */
 static void permutations_have_intervals(void **state) {
     (void)state;
-    const int lines = lines_of("killed/log.jsonl");
+    const int lines = count_lines("killed/log.jsonl");
     free(glint_ok("blame", in_folder("room.exr"), "-o", in_folder("killed"), SMALL, "--use=upscale=best_match",
                   "--repeat=0", "--exact=0", "--permutations=20", "--interval=50", "--metric=relative_mse"));
-    json_t *found = load("killed/shares.json");
-    assert_int_equal(lines_of("killed/log.jsonl"), lines);
+    json_t *found = load_json("killed/shares.json");
+    assert_int_equal(count_lines("killed/log.jsonl"), lines);
     const json_t *mean = json_object_get(found, "mean");
     assert_string_equal(json_string_value(json_object_get(found, "metric")), "relative_mse");
     assert_true(json_is_false(json_object_get(mean, "exact")));
@@ -213,7 +200,7 @@ static void several_captures_have_their_mean(void **state) {
     free(glint_ok("sample", "street", "-o", in_folder("street.exr"), "--size=32x18", "--cube-size=8"));
     free(glint_ok("blame", in_folder("room.exr"), in_folder("street.exr"), "-o", in_folder("two"), SMALL, "--repeat=0",
                   "--exact=0", "--permutations=2"));
-    json_t *found = load("two/shares.json");
+    json_t *found = load_json("two/shares.json");
     const json_t *captures = json_object_get(found, "captures"), *mean = json_object_get(found, "mean");
     const char *name;
     json_t *player;
@@ -227,7 +214,7 @@ static void several_captures_have_their_mean(void **state) {
         assert_true(fabs(number(player, "share") - sum / 2) < 1e-12);
     }
     assert_sums(json_array_get(captures, 0), 2);
-    assert_sums(json_array_get(captures, 1), 1); /* it has no truth */
+    assert_sums(json_array_get(captures, 1), 1); /* there is no truth */
     assert_sums(mean, 1);
     json_decref(found);
 }
@@ -235,14 +222,14 @@ static void several_captures_have_their_mean(void **state) {
 static double share_of(const char *folder, const char *name) {
     char path[64];
     snprintf(path, sizeof path, "%s/shares.json", folder);
-    json_t *found = load(path);
+    json_t *found = load_json(path);
     const json_t *all = errors_of(json_array_get(json_object_get(found, "captures"), 0), "reference", "all");
     const double share = number(json_object_get(json_object_get(all, "players"), name), "share");
     json_decref(found);
     return share;
 }
 
-/* A pass that remembers frames is worth more in a shot than in a frame of its own. */
+/* A pass with history has a larger share in a shot than in a single frame. */
 static void a_shot_has_a_history(void **state) {
     (void)state;
     static const char *const use = "--use=temporal=rough";
@@ -301,7 +288,7 @@ static void what_is_wrong_is_named(void **state) {
     free(street);
 }
 
-/* The handbook tells what the reference of each slot is. */
+/* The handbook contains the reference of each slot. */
 static void the_handbook_shows_references(void **state) {
     (void)state;
     char *text = glint_ok("passes", "cubemap_trace/exact");

@@ -26,7 +26,7 @@ static double share_of_ends(const json_t *preset) {
     return sum;
 }
 
-/* A preset that gives a reflection for every pixel is as far from the truth as `replay --against truth` has it. */
+/* The error of a preset with a reflection in every pixel equals that of `replay --against truth`. */
 static void errors_are_those_of_replay(void **state) {
     (void)state;
     free(glint_ok("sample", "room", "-o", in_folder("room.exr"), "--size=96x54", "--cube-size=16", "--truth=1"));
@@ -47,7 +47,7 @@ static void errors_are_those_of_replay(void **state) {
         assert_true(fabs(number(own, "symmetric") - number(row, "symmetric")) < 1e-9);
         assert_true(fabs(number(own, "rmse") - number(row, "rmse")) < 1e-9);
     }
-    /* the screen alone gives less; what both give is what it gives */
+    /* screen space alone has fewer reflections; common ones are equal */
     const json_t *kf2 = surfaces_of(preset_of(json, 0, "kf2"), "all");
     double coverage = number(kf2, "coverage");
     assert_true(coverage > 0.2 && coverage < 0.95);
@@ -62,7 +62,7 @@ static void errors_are_those_of_replay(void **state) {
     json_decref(replayed);
 }
 
-/* One table and one sheet of all captures; what a scene has nothing for is left out and named. */
+/* One table and one sheet of all captures; presets that a scene cannot run are skipped and listed. */
 static void several_captures_make_one_table_and_one_sheet(void **state) {
     (void)state;
     free(glint_ok("sample", "matte", "-o", in_folder("matte.exr"), "--size=32x18", "--cube-size=16", "--truth=1"));
@@ -89,7 +89,7 @@ static void several_captures_make_one_table_and_one_sheet(void **state) {
     free(sheet.rgb);
 }
 
-/* What lies over the opaque surfaces is compared in the finished picture; who lays nothing there is further from it. */
+/* Layers over opaque surfaces are compared in the final image; presets without them have larger errors. */
 static void water_is_compared_in_the_finished_picture(void **state) {
     (void)state;
     free(glint_ok("sample", "lake", "-o", in_folder("lake.exr"), "--size=48x27", "--cube-size=16", "--truth=1"));
@@ -100,13 +100,13 @@ static void water_is_compared_in_the_finished_picture(void **state) {
     assert_true(json_is_true(json_object_get(with, "drawn")) && json_is_false(json_object_get(without, "drawn")));
     assert_true(number(with, "pixels") > 200 && number(with, "pixels") == number(without, "pixels"));
     assert_true(number(with, "symmetric") < 0.7 * number(without, "symmetric"));
-    /* the reflection of opaque surfaces is no water's */
+    /* the reflection of opaque surfaces excludes that of water */
     assert_true(number(surfaces_of(preset_of(json, 0, "gtav"), "all"), "pixels") < number(with, "pixels"));
     json_decref(json);
     free(text);
 }
 
-/* The left half of the truth has no weight: no error can be told there, and none is painted. */
+/* The left half of the truth has no weight: errors are unknown there, and not drawn. */
 static void what_the_truth_does_not_know_is_neutral(void **state) {
     (void)state;
     static struct rewrite r;

@@ -1,4 +1,4 @@
-/* glint diff, as a user runs it: beside idiff on the same files, on runs, on the engine's intermediates. */
+/* glint diff, as a user runs it: compared with idiff on the same files, with runs, and with the engine's intermediates. */
 #include "cli.h"
 #include "need.h"
 
@@ -47,7 +47,7 @@ static double figure_of(const char *text, const char *name) {
     return atof(strchr(at, '=') + 1);
 }
 
-/* Catches: a limit that is read for another, counted by values instead of pixels, or met instead of exceeded. */
+/* Catches: options that are confused, counts of values instead of pixels, and limits that are inclusive. */
 static void verdicts_are_idiffs(void **state) {
     static const char *const limits[] = {
         "-fail 1e-6",
@@ -72,7 +72,7 @@ static void verdicts_are_idiffs(void **state) {
     };
     char line[512];
     (void)state;
-    need_program("idiff"); /* a shell's status says less */
+    need_program("idiff"); /* the exit status of a shell is less specific */
     write_pair();
     for (size_t i = 0; i < sizeof limits / sizeof *limits; i++) {
         snprintf(line, sizeof line, "idiff %s \"$0\" \"$1\"", limits[i]);
@@ -102,7 +102,7 @@ static void figures_are_idiffs(void **state) {
     assert_true(number(largest, "x") == 7 && number(largest, "y") == 9);
     assert_string_equal(json_string_value(json_object_get(largest, "channel")), "B");
     assert_true(number(image, "failed") == 21 && number(image, "differing") == 21);
-    /* 20 of a thousandth, give or take a rounding, one of a quarter */
+    /* 20 differences of a thousandth, apart from rounding, and one of a quarter */
     double counted = 0;
     for (size_t i = 0; i < json_array_size(json_object_get(image, "histogram")); i++)
         counted += number(json_array_get(json_object_get(image, "histogram"), i), "values");
@@ -119,7 +119,7 @@ static void status_is(int status, const char *first, const char *second, const c
     outcome_free(&found);
 }
 
-/* What idiff's codes name, and where idiff itself takes what is missing for black. */
+/* The exit statuses that idiff defines, and cases in which idiff itself treats missing data as black. */
 static void what_cannot_be_compared_has_its_own_code(void **state) {
     (void)state;
     write_image("wide.exr", "a", 2 * WIDTH, 3, values);
@@ -131,14 +131,14 @@ static void what_cannot_be_compared_has_its_own_code(void **state) {
     status_is(4, "a.exr", "nowhere.exr", "nowhere.exr");
     others[3 * 77] = 0.5F;
     write_image("nan.exr", "a", WIDTH, 3, others);
-    status_is(2, "a.exr", "nan.exr", "∞"); /* a NaN on one side alone, whatever is allowed */
+    status_is(2, "a.exr", "nan.exr", "∞"); /* a NaN on only one side exceeds every limit */
     struct outcome found = glint("diff", "-fail", "1e9", in_folder("a.exr"), in_folder("nan.exr"), NULL);
     assert_int_equal(found.status, 2);
     outcome_free(&found);
     found = glint("diff", in_folder("a.exr"), NULL);
     assert_int_equal(found.status, 5);
     outcome_free(&found);
-    /* What idiff 2.4 does not come to when no pixel fails. */
+    /* idiff 2.4 does not report this if no pixel fails */
     found = glint("diff", "-fail", "1", in_folder("a.exr"), in_folder("b.exr"), NULL);
     assert_int_equal(found.status, 1);
     outcome_free(&found);
@@ -185,8 +185,8 @@ static void runs_name_what_differs_first(void **state) {
     free(heat.rgb);
 }
 
-/* Catches: a plan called wrong for what it does without, and one called right that changes what is left: a ray's end, the picture,
-   an image that was lost otherwise. */
+/* Catches: a plan reported as different because of what it skips, and one reported as equal although something else differs: a ray's
+   end, the final image, an image missing for another reason. */
 static void a_plan_is_compared_in_what_both_have(void **state) {
     (void)state;
     free(glint_ok("sample", "mirror_box", "-o", in_folder("part.exr"), "--size=48x27", "--cube-size=16",
@@ -228,7 +228,7 @@ static void a_plan_is_compared_in_what_both_have(void **state) {
     json_decref(json);
 }
 
-/* The engine's own image under its slot's name; what it did not dump is not missed. */
+/* The engine's own image under the name of its slot; intermediates that it did not dump are not missing. */
 static void a_run_is_compared_with_the_engine(void **state) {
     static const char *const rgba[] = {"R", "G", "B", "A"};
     static const float gbuffer[1];

@@ -1,5 +1,5 @@
-/* A world in coordinates about the centre of a planet, dumped by an engine whose rotations are floats: the commands find the same camera as at the
-   origin, motion agrees, the replay is the same, and they say what the rotation leaves open. */
+/* A world whose origin is the centre of a planet, dumped by an engine with rotations in floats: the commands compute the same camera as
+   at the origin, motion is consistent, the replay is equal, and the uncertainty of the rotation is reported. */
 #include "cli.h"
 
 #include <jansson.h>
@@ -14,8 +14,8 @@
 static const double offset[3] = {5e6, 0, -4e6}; /* 6,400 km */
 static char near[256], far[256];
 
-/* The rotation as floats, the last camera's a bit lower each as after another product, and the translation that these make
-   of the camera's place, in double. */
+/* The rotation in floats, the previous camera's with slightly different rounding, and the translation that follows from it and the
+   position in double. */
 static void move_camera(double *m, bool previous) {
     double eye[3];
     for (int i = 0; i < 3; i++) eye[i] = offset[i] - (m[i] * m[3] + m[4 + i] * m[7] + m[8 + i] * m[11]);
@@ -62,7 +62,7 @@ static void info_finds_the_camera(void **state) {
     json_t *there = parse_json(there_text), *here = parse_json(here_text);
     const json_t *a = json_object_get(json_object_get(there, "camera"), "position"),
                  *b = json_object_get(json_object_get(here, "camera"), "position");
-    /* printed with nine digits: centimetres. Transposed, the camera stands up to some 100 mm away. */
+    /* printed with nine digits: centimetres. With the transposed rotation the camera is up to some 100 mm off. */
     for (size_t k = 0; k < 3; k++)
         assert_true(fabs(json_number_value(json_array_get(a, k)) - json_number_value(json_array_get(b, k)) -
                          offset[k]) < 0.011);

@@ -1,4 +1,4 @@
-/* What a person sees first: help, version, man page, completion, wrong words. */
+/* First contact: help, version, man page, completion, unknown words. */
 #include "cli.h"
 
 #include <stdio.h>
@@ -36,7 +36,7 @@ static void every_command_teaches_with_examples(void **state) {
     }
 }
 
-/* Long options of one command's help, as the completion lists them: two ways out of one table. */
+/* The long options in the help of a command and in the completion are equal, as both derive from one table. */
 static void help_man_and_completion_list_the_same_options(void **state) {
     (void)state;
     char *completion = glint_ok("--completion"), *man = glint_ok("--man");

@@ -1,4 +1,4 @@
-/* What glint info tells of a capture: the room of mirror_box, and a street under the sky. */
+/* The output of glint info for captures: mirror_box, and a street under the sky. */
 #include "cli.h"
 
 #include <jansson.h>
@@ -18,7 +18,7 @@ static int make_capture(void **state) {
     return 0;
 }
 
-/* Floats hold a distance of 10 m to 2^-20 m; D24 with near at 0.1 m to 10² / 0.1 / (2²⁴ − 1), in the table as in JSON. */
+/* Floats represent a distance of 10 m to 2^-20 m; D24 with near at 0.1 m to 10² / 0.1 / (2²⁴ − 1), in the table and in JSON. */
 static void info_tells_what_depth_resolves(void **state) {
     (void)state;
     const char *path = in_folder("device.exr");
@@ -34,7 +34,7 @@ static void info_tells_what_depth_resolves(void **state) {
                      *step = json_array_get(json_object_get(depth, "steps"), 1);
         assert_string_equal(json_string_value(json_object_get(depth, "storage")), cases[i].storage);
         assert_true(number(step, "at_m") == 10);
-        /* two neighbours of D24 are not at 10 m itself */
+        /* the two values of D24 are not exactly at 10 m */
         assert_true(fabs(number(step, "step_m") / cases[i].at_10_m - 1) < 1e-4);
         json_decref(json);
         free(text);
@@ -70,7 +70,7 @@ static void info_tells_the_camera_and_the_ranges(void **state) {
     assert_string_equal(json_string_value(json_object_get(depth, "unit")), "m");
     assert_true(number(range, "min") > 0 && number(range, "max") < sqrt(8 * 8 + 4 * 4 + 6 * 6));
     assert_int_equal((int)number(range, "nan"), 0);
-    /* Every wall is hit: no sky, and the survey counts each pixel once. */
+    /* Every ray hits a wall: there is no sky, and the survey counts each pixel once. */
     const json_t *survey = json_object_get(json, "survey");
     assert_int_equal((int)number(survey, "pixels"), 160 * 90);
     assert_int_equal((int)number(survey, "sky"), 0);
@@ -87,7 +87,7 @@ static void info_tells_the_camera_and_the_ranges(void **state) {
     free(json_text);
 }
 
-/* oiiotool reads the same file by itself. */
+/* oiiotool reads the same file independently. */
 static void ranges_equal_those_of_oiiotool(void **state) {
     (void)state;
     char *text = glint_ok("info", capture, "--json");
@@ -127,7 +127,7 @@ static float *channel_of(struct glint_exr *exr, const char *name, size_t pixels)
     return values;
 }
 
-/* The sample scenes write 0 under the sky, where a roughness may be anything; no surface of the street is as smooth. */
+/* The sample scenes write 0 at sky, where roughness is undefined; no surface of the street is as smooth. */
 static void ranges_are_of_surfaces_alone(void **state) {
     (void)state;
     enum { PIXELS = 96 * 54 };

@@ -1,5 +1,5 @@
-/* glint lint on captures damaged on purpose: at least 95 % of what the data can tell is found and named right, nothing is found where
-   nothing is wrong. With an argument, so many strengths of each mistake on every scene; without, each mistake on one scene. */
+/* glint lint on damaged captures: at least 95 % of the detectable mistakes are identified, and valid captures have no findings. With an
+   argument, this many strengths of each mistake on every scene; without, each mistake on one scene. */
 #include "cli.h"
 
 #include <jansson.h>
@@ -19,7 +19,7 @@ struct box {
     float from[3], to[3];
     int material;
 };
-/* a hall with a door to the sky, things of different shapes on its floor */
+/* a hall with a door to the sky and objects of different shapes */
 static const struct box boxes[] = {
     {{-6, -0.2f, -7}, {7, 0, 6}, 0},     {{-6, 0, -7.3f}, {7, 4, -7}, 1},
     {{-6.3f, 0, -7}, {-6, 4, 6}, 2},     {{7, 0, -7}, {7.3f, 4, 6}, 1},
@@ -106,7 +106,7 @@ static int write_scene(void **state) {
     return 0;
 }
 
-/* An undamaged capture, rendered when it is first asked for. */
+/* An undamaged capture, rendered on first use. */
 static const char *base(int scene, enum damage_base b) {
     static const char *const depths[BASE_COUNT] = {"view_linear", "reversed", "device"};
     char *path = bases[scene][b], name[64];
@@ -145,8 +145,8 @@ static void nothing_is_found_where_nothing_is_wrong(void **state) {
         }
 }
 
-/* Right captures of every kind that engines write: encodings, sizes of pictures and cube maps down to tiny ones, frames, jitter,
-   fields of view, places far from the origin. */
+/* Valid captures of every kind that engines write: encodings, resolutions of images and cube maps down to tiny ones, frames, jitter,
+   fields of view, positions far from the origin. */
 static const char *const kinds[][17] = {
     {"--size", "320x180", "--cube-size", "64"},
     {"--size", "160x90", "--cube-size", "32", "--encoding", "depth=reversed,normal=octahedral", "--travel",
@@ -178,7 +178,7 @@ static void nothing_is_found_in(const char *scene, const char *const *kind) {
     remove(in_folder("clean.exr"));
 }
 
-/* Every scene that glint brings and every kind when all is tried, which is 80 captures; else each kind on some scene. */
+/* With an argument every scene and every kind, which is 80 captures; else each kind on some scene. */
 static void nothing_is_found_in_any_right_capture(void **state) {
     (void)state;
     char *text = glint_ok("sample", "--list", "--json");
@@ -196,7 +196,7 @@ static void nothing_is_found_in_any_right_capture(void **state) {
     free(text);
 }
 
-/* Cube maps that see all that moves, and volumes that are empty of what stands still: a car in one of them. */
+/* Cube maps that show moving objects, and volumes that are empty of static ones: a car is in one of them. */
 static void a_volume_that_something_drives_through_is_named(void **state) {
     (void)state;
     free(glint_ok("sample", "street", "-o", in_folder("car.exr"), "--size", "128x128", "--cube-size", "64", "--light",
@@ -210,7 +210,7 @@ struct score {
     int tried, right;
 };
 
-/* One damaged capture; whether the only finding is the right one. */
+/* Runs lint on a damaged capture, and checks whether the right finding is the only one. */
 static void try_damage(const struct damage *damage, int scene, double strength, struct score *detectable,
                        struct score *undetectable) {
     struct rewrite *r = malloc(sizeof *r);
@@ -306,8 +306,8 @@ static void fix_writes_what_stands_under_sky(void **state) {
     for (size_t i = 0; i < sizeof ids / sizeof *ids; i++) check_fix(ids[i], true);
 }
 
-/* A finding that no declaration fixes; and a declaration that would be right for this frame's G-buffer and is wrong for the one
-   before, which then breaks a rule. */
+/* A finding that no declaration fixes; and a declaration that would be right for the G-buffer of this frame and wrong for that of the
+   previous one, which then violates a rule. */
 static void fix_leaves_what_it_would_make_worse(void **state) {
     struct rewrite *r = malloc(sizeof *r);
     (void)state;

@@ -1,4 +1,4 @@
-/* From a scene to a picture, as a user does it: sample, validate, plan, replay, view, on mirror_box at 160 × 90. */
+/* From a scene to an image, as a user does it: sample, validate, plan, replay, view, on mirror_box at 160 × 90. */
 #include "cli.h"
 
 #include <jansson.h>
@@ -48,7 +48,7 @@ static void validate_accepts_it_and_refuses_a_damaged_one(void **state) {
     outcome_free(&cut);
     glint_fails(1, "nowhere.exr", "validate", "nowhere.exr");
 
-    /* An EXR file without what every capture has: each missing part is a violation of its own. */
+    /* An EXR file without mandatory parts: each missing part is a violation. */
     struct outcome made =
         run_program("oiiotool", "--pattern", "constant:color=1,1,1", "4x4", "3", "-o", in_folder("plain.exr"), NULL);
     assert_int_equal(made.status, 0);
@@ -85,7 +85,7 @@ static void plan_lists_every_pass_with_a_reason(void **state) {
     free(text);
 }
 
-/* A preset for water, on a scene that has none. */
+/* A preset for water on a scene without water. */
 static void plan_says_what_the_scene_has_nothing_for(void **state) {
     (void)state;
     char *text = glint_ok("plan", capture, "--preset=gtav", "--json");
@@ -108,7 +108,7 @@ static void replay_reports_times_and_leaves_a_run(void **state) {
         const json_t *pass = named(json_object_get(one, "passes"), "slot", slots[i]);
         const json_t *time = json_object_get(pass, "time_ns");
         assert_true(json_is_true(json_object_get(pass, "ran")));
-        /* What the host computes, it computes once. */
+        /* work on the host is not repeated */
         assert_int_equal((int)number(time, "n"), strcmp(slots[i], "cubemap_active") ? 3 : 1);
         assert_true(number(time, "min") <= number(time, "median") && number(time, "median") <= number(time, "max"));
     }
@@ -124,7 +124,7 @@ static void replay_reports_times_and_leaves_a_run(void **state) {
     free(text);
 }
 
-/* Catches: a folder that is not looked up by the next call, and one that is looked up although nobody asked. */
+/* Catches: a folder that the next call does not use, and one that is used without being requested. */
 static void replay_finds_cube_map_work_of_an_earlier_call(void **state) {
     (void)state;
     char option[300], again[256];
@@ -171,7 +171,7 @@ static void several_captures_get_a_folder_each(void **state) {
     free(glint_ok("replay", in_folder("s.0001.exr"), in_folder("s.0002.exr"), "-o", in_folder("runs")));
     assert_true(file_exists(in_folder("runs/s.0001/run.json")));
     assert_true(file_exists(in_folder("runs/s.0002/run.json")));
-    /* One that is missing does not keep the others from being replayed. */
+    /* A missing capture does not prevent the replay of the others. */
     struct outcome some =
         glint("replay", in_folder("none.exr"), in_folder("s.0002.exr"), "-o", in_folder("some"), NULL);
     assert_int_equal(some.status, 1);
@@ -270,7 +270,7 @@ static void passes_describe_what_replay_accepts(void **state) {
     free(table);
 }
 
-/* The default of a run is its last colour image, at the capture's size; indices and reasons have legends. */
+/* The default image of a run is its last colour image, at the size of the capture; indices and reasons have legends. */
 static void view_shows_every_image_of_the_run(void **state) {
     (void)state;
     char spec[300];
@@ -290,7 +290,7 @@ static void view_shows_every_image_of_the_run(void **state) {
         assert_true(a.height > 45); /* half resolution, and a legend */
         free(a.rgb);
     }
-    /* A capture's cube map is a cross; its depth in one encoding or another looks the same. */
+    /* A cube map of a capture is shown as a cross; its depth looks the same in any encoding. */
     free(glint_ok("view", capture, "--part=cubemap.003", "-o", in_folder("cube.png")));
     a = read_png(in_folder("cube.png"));
     assert_int_equal(a.width, 4 * 64);
@@ -298,7 +298,7 @@ static void view_shows_every_image_of_the_run(void **state) {
     free(a.rgb);
 }
 
-/* Each cell is the picture that the image has by itself, here three times as large. */
+/* Each cell shows the image as if it were drawn alone, here at three times the size. */
 static void sheet_shows_images_side_by_side(void **state) {
     (void)state;
     static const char *const images[] = {"composed", "reflection"};
@@ -318,7 +318,7 @@ static void sheet_shows_images_side_by_side(void **state) {
     glint_fails(2, "did you mean composed?", "view", run, "--sheet", "--image=compose", "-o", "x.png");
 }
 
-/* A column for each run; one scale for a row, so that a run keeps its colours only beside itself. */
+/* A column for each run with one scale per row, so that colours of a run depend on the others. */
 static void sheet_compares_runs(void **state) {
     (void)state;
     free(glint_ok("replay", capture, "-o", in_folder("other"), "--set=cubemap_trace.length_m=2"));
@@ -372,7 +372,7 @@ static void sample_writes_to_stdout_and_lists_its_scenes(void **state) {
     free(list);
 }
 
-/* The child is given time to start its work, then interrupted once; it must end by itself, and leave nothing. */
+/* The child is given time to begin, then interrupted once; it must end without leaving files. */
 static void ctrl_c_leaves_no_half_file(void **state) {
     (void)state;
     extern char **environ;

@@ -1,4 +1,4 @@
-/* glint probe, as a user runs it: its steps beside a run's files. gpu_probe has what the steps of all tracers must be. */
+/* glint probe, as a user runs it: its steps compared with the files of a run. gpu_probe tests the steps of all tracers. */
 #include "cli.h"
 
 #include <jansson.h>
@@ -15,7 +15,7 @@ static void make_capture(void) {
     if (!file_exists(CAPTURE)) free(glint_ok("sample", "street", "-o", CAPTURE, "--size=96x54", "--cube-size=16"));
 }
 
-/* A channel of a run's file, found by what the name ends with. */
+/* A channel of a run's file whose name ends like this. */
 static float *channel_of(const char *file, const char *part, const char *channel, size_t *width, size_t *height) {
     struct glint_error err = {0};
     struct glint_exr *exr = glint_exr_open(file, NULL, &err);
@@ -47,8 +47,8 @@ static const json_t *last_step(const json_t *pass, const char *kind) {
     return found;
 }
 
-/* Pixels of all kinds: each one's last step is what the run's file says, and no value is lost on the way. */
-static void a_story_agrees_with_the_run(void **state) {
+/* Pixels of all kinds: each one's last step equals the run's file, and no record is dropped. */
+static void a_trace_agrees_with_the_run(void **state) {
     (void)state;
     size_t width = 0, height = 0, hits = 0, skies = 0;
     make_capture();
@@ -82,7 +82,7 @@ static void a_story_agrees_with_the_run(void **state) {
     print_message("# %zu hits, %zu in the sky\n", hits, skies);
 }
 
-static size_t count(const char *text, const char *what) {
+static size_t count_occurrences(const char *text, const char *what) {
     size_t n = 0;
     while ((text = strstr(text, what))) n++, text += strlen(what);
     return n;
@@ -98,7 +98,7 @@ static char *read_text(const char *path) {
     return text;
 }
 
-/* A mark for each step with a place, a legend for what they were, the reference where it hit. */
+/* A mark for each step with a position, a legend of decisions, and the hit of the reference. */
 static void a_drawing_has_every_step(void **state) {
     (void)state;
     make_capture();
@@ -112,19 +112,19 @@ static void a_drawing_has_every_step(void **state) {
     }
     char *svg = read_text(in_folder("ray.svg"));
     assert_true(drawn > 3);
-    assert_int_equal(count(svg, "<title>"), drawn);
+    assert_int_equal(count_occurrences(svg, "<title>"), drawn);
     assert_contains(svg, "pixel 40,45");
     assert_contains(svg, "depth in m, linear in 1/z");
     assert_contains(svg, "in front: continues");
-    assert_int_equal(count(svg, "<svg"), count(svg, "</svg>"));
+    assert_int_equal(count_occurrences(svg, "<svg"), count_occurrences(svg, "</svg>"));
     assert_non_null(json_object_get(json, "reference"));
     json_decref(json);
     free(svg);
     free(text);
 }
 
-/* What was mixed, with each part's weight: samples where the ray ends, and the reflection over the picture. */
-static void mixtures_are_told_and_drawn(void **state) {
+/* Records of averages with each weight: samples at the end of the ray, and the reflection composed over the image. */
+static void mixtures_are_printed_and_drawn(void **state) {
     (void)state;
     make_capture();
     char *text = glint_ok("probe", CAPTURE, "40,45", "--preset=kf2", "--alone", "-o", in_folder("kf2.svg"));
@@ -135,7 +135,7 @@ static void mixtures_are_told_and_drawn(void **state) {
     assert_contains(svg, "resolve/blurred: combines");
     assert_contains(svg, "compose/contribution: blends one colour over another");
     assert_contains(svg, "above: reflection, ");
-    assert_int_equal(count(svg, "<svg"), count(svg, "</svg>"));
+    assert_int_equal(count_occurrences(svg, "<svg"), count_occurrences(svg, "</svg>"));
     free(svg);
     free(text);
     text = glint_ok("probe", CAPTURE, "40,45", "--preset=mafia_de", "--alone", "--json", "-o", in_folder("de.svg"));
@@ -143,7 +143,7 @@ static void mixtures_are_told_and_drawn(void **state) {
     const json_t *pass = named(json_object_get(json_object_get(json, "story"), "passes"), "slot", "blur");
     const json_t *made = last_step(pass, "made"), *tap = last_step(pass, "tap");
     assert_string_equal(word(made, "image"), "reflection_levels");
-    assert_int_equal(json_number_value(json_object_get(made, "texel_x")), 40 / 2 / 2); /* level 1, last */
+    assert_int_equal(json_number_value(json_object_get(made, "texel_x")), 40 / 2 / 2); /* level 1, the last one */
     assert_true(json_number_value(json_object_get(tap, "weight")) > 0);
     svg = read_text(in_folder("de.svg"));
     assert_contains(svg, "reflection_across level 0, texel 5,5 combines");
@@ -192,8 +192,8 @@ static void what_is_asked_wrong_is_said(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_story_agrees_with_the_run), cmocka_unit_test(a_drawing_has_every_step),
-        cmocka_unit_test(mixtures_are_told_and_drawn), cmocka_unit_test(the_text_tells_it_all),
+        cmocka_unit_test(a_trace_agrees_with_the_run), cmocka_unit_test(a_drawing_has_every_step),
+        cmocka_unit_test(mixtures_are_printed_and_drawn), cmocka_unit_test(the_text_tells_it_all),
         cmocka_unit_test(what_is_asked_wrong_is_said)};
     return cmocka_run_group_tests_name("cli_probe", tests, make_folder, remove_folder);
 }

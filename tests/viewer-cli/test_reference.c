@@ -1,4 +1,4 @@
-/* glint reference, as a user meets it, and what is compared with what it keeps. */
+/* glint reference, as a user runs it, and comparisons with stored references. */
 #include "cli.h"
 
 #include <jansson.h>
@@ -44,7 +44,7 @@ static void it_is_kept_and_goes_on(void **state) {
     free(text);
     text = glint_ok("reference", in_folder("room.exr"), "-o", in_folder("kept"), "--noise=0.9", "--json");
     json = parse_json(text);
-    assert_true(number(json, "rays") == 32); /* it is better already */
+    assert_true(number(json, "rays") == 32); /* the noise is below the limit already */
     assert_true(number(json_object_get(json, "sensitivity"), "rays") == 16);
     json_decref(json);
     free(text);
@@ -54,8 +54,8 @@ static void it_is_kept_and_goes_on(void **state) {
     free(picture.rgb);
 }
 
-/* Where there is no terminal, too. */
-static void how_far_it_is_is_told_on_request(void **state) {
+/* Also without a terminal. */
+static void progress_is_printed_on_request(void **state) {
     (void)state;
     struct outcome silent = glint("reference", in_folder("room.exr"), "--rays=16", NULL),
                    progress = glint("reference", in_folder("room.exr"), "--rays=16", "--progress", NULL);
@@ -67,7 +67,7 @@ static void how_far_it_is_is_told_on_request(void **state) {
     outcome_free(&progress);
 }
 
-/* Against itself nothing is left; against both, both answers are those of one each. */
+/* Compared with itself there is no error; against both gives the same figures as against each. */
 static void runs_are_compared_with_it(void **state) {
     (void)state;
     json_t *whole[3];
@@ -82,7 +82,7 @@ static void runs_are_compared_with_it(void **state) {
     assert_true(rmse(run, "against_reference", "rmse") == rmse(reference, "against_reference", "rmse"));
     assert_true(rmse(run, "against_truth", "rmse") == rmse(truth, "against_truth", "rmse"));
     assert_true(rmse(run, "missing_information", "rmse") < rmse(run, "against_truth", "rmse"));
-    /* the reference's noise is known, and taken off */
+    /* the noise of the reference is known and subtracted */
     assert_true(rmse(run, "against_reference", "truth_noise") > 0);
     assert_true(rmse(run, "against_reference", "clean_rmse") < rmse(run, "against_reference", "rmse"));
     assert_null(json_object_get(reference, "missing_information"));
@@ -135,7 +135,7 @@ static void what_cannot_be_is_said(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(it_is_kept_and_goes_on),    cmocka_unit_test(how_far_it_is_is_told_on_request),
+        cmocka_unit_test(it_is_kept_and_goes_on),    cmocka_unit_test(progress_is_printed_on_request),
         cmocka_unit_test(runs_are_compared_with_it), cmocka_unit_test(another_captures_reference_is_told),
         cmocka_unit_test(what_cannot_be_is_said),
     };

@@ -1,4 +1,4 @@
-/* glint stability, as a user runs it: figures, layers, checks. gpu_stability has what they must be. */
+/* glint stability, as a user runs it: figures, layers, checks. gpu_stability tests the values. */
 #include "cli.h"
 
 #include <jansson.h>
@@ -27,8 +27,8 @@ static double largest_of(const char *file, const char *part, const char *channel
     return largest;
 }
 
-/* Catches: layers of one image under another's name, a forecast of other values than those that are there. */
-static void layers_hold_what_the_figures_say(void **state) {
+/* Catches: layers of one image under the name of another, a forecast that differs from the image's values. */
+static void layers_match_the_figures(void **state) {
     (void)state;
     free(glint_ok("sample", "room", "-o", in_folder("room.exr"), "--size=64x36", "--cube-size=16"));
     char *text =
@@ -43,7 +43,7 @@ static void layers_hold_what_the_figures_say(void **state) {
     snprintf(file, sizeof file, "stable/%02d-cubemap_trace.exr", (int)number(pass, "place"));
     const double largest = largest_of(in_folder(file), "travelled", "amplification");
     assert_true(number(worst, "amplification") > 0);
-    assert_true(number(worst, "amplification") <= largest * (1 + 1e-5)); /* JSON has six digits and more */
+    assert_true(number(worst, "amplification") <= largest * (1 + 1e-5)); /* JSON has at least six digits */
     assert_true(number(json_object_get(travelled, "amplification"), "largest") == number(worst, "amplification"));
     assert_true(largest_of(in_folder(file), "travelled", "flips") <= 2);
     const double peak =
@@ -57,7 +57,7 @@ static void layers_hold_what_the_figures_say(void **state) {
         starts += number(row, "starts");
         above = fmax(above, number(json_object_get(row, "amplification"), "above"));
     }
-    /* Each pixel starts once, and every one that is above the bound anywhere has started. */
+    /* Each pixel starts at most once, and every one above the bound has started. */
     assert_true(starts >= above && starts <= 64 * 36);
     free(text);
     json_decref(json);
@@ -82,7 +82,7 @@ static void checks_end_with_their_status(void **state) {
     glint_fails(1, "nowhere.exr", "stability", in_folder("nowhere.exr"));
 }
 
-/* Nothing that is moved changes nothing: albedo is no part of where rays go. */
+/* Perturbing albedo changes nothing, because rays do not depend on it. */
 static void what_is_not_read_moves_nothing(void **state) {
     (void)state;
     char *text = glint_ok("stability", in_folder("room.exr"), "--seeds=2", "--perturb=gbuffer:albedo", "--json");
@@ -98,7 +98,7 @@ static void what_is_not_read_moves_nothing(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(layers_hold_what_the_figures_say),
+        cmocka_unit_test(layers_match_the_figures),
         cmocka_unit_test(checks_end_with_their_status),
         cmocka_unit_test(what_is_not_read_moves_nothing),
     };

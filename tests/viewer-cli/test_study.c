@@ -1,4 +1,4 @@
-/* What is learned from runs, as a user asks for it: the reference, comparisons, shots that were interrupted. */
+/* Studies of runs, as a user does them: the reference, comparisons, interrupted shots. */
 #include "cli.h"
 
 #include <jansson.h>
@@ -8,7 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* The reference must be better by far than what is measured with it. */
+/* The reference must be far more accurate than the presets that are measured with it. */
 static void reference_is_near_the_truth_and_others_are_compared_with_it(void **state) {
     (void)state;
     free(glint_ok("sample", "mirror_box", "-o", in_folder("fine.exr"), "--size=96x54", "--cube-size=128",
@@ -24,7 +24,7 @@ static void reference_is_near_the_truth_and_others_are_compared_with_it(void **s
     assert_true(number(smooth, "median_error") <= 0.001);
     json_decref(json);
     free(text);
-    /* So are its rays of which the screen shows a part. */
+    /* Also for its rays that end on screen. */
     text = glint_ok("replay", in_folder("fine.exr"), "--preset=reference", "--set=pipeline.rays=1", "--against=truth",
                     "--json", "--set=downsample.jitter=false");
     json = parse_json(text);
@@ -77,7 +77,7 @@ static void an_interrupted_shot_is_completed(void **state) {
     free(glint_ok("replay", in_folder("s.0001.exr"), in_folder("s.0002.exr"), in_folder("s.0003.exr"), "-o",
                   in_folder("whole")));
     age(in_folder("shot/s.0001/run.json"), &first);
-    /* as if stopped within the second frame: its files are there, run.json is not */
+    /* as if interrupted within the second frame: its files exist, but not run.json */
     assert_int_equal(unlink(in_folder("shot/s.0002/run.json")), 0);
     age(in_folder("shot/s.0003/run.json"), &last);
     char *text = glint_ok("replay", SHOT, "--json");
@@ -87,7 +87,7 @@ static void an_interrupted_shot_is_completed(void **state) {
     assert_null(json_object_get(json_array_get(runs, 1), "kept"));
     assert_false(newer(in_folder("shot/s.0001/run.json"), &first));
     assert_true(file_exists(in_folder("shot/s.0002/run.json")));
-    /* the third has the second in its history */
+    /* the third frame depends on the second through history */
     assert_true(newer(in_folder("shot/s.0003/run.json"), &last));
     struct outcome same = run_program("sh", "-c", "cmp \"$0\"/*-compose.exr \"$1\"/*-compose.exr",
                                       in_folder("shot/s.0003"), in_folder("whole/s.0003"), NULL);
@@ -95,14 +95,14 @@ static void an_interrupted_shot_is_completed(void **state) {
     outcome_free(&same);
     json_decref(json);
     free(text);
-    /* complete: nothing is done, unless it is asked for */
+    /* complete: nothing runs unless requested */
     text = glint_ok("replay", SHOT);
     assert_contains(text, "s.0003.exr: already complete, kept");
     free(text);
     free(glint_ok("replay", SHOT, "--no-cache"));
     assert_true(newer(in_folder("shot/s.0001/run.json"), &first));
     age(in_folder("shot/s.0001/run.json"), &first);
-    /* other settings, another capture, a lost file: made again */
+    /* other settings, another capture or a missing file: replayed again */
     free(glint_ok("replay", SHOT, "--set=screen_trace.cells=9"));
     assert_true(newer(in_folder("shot/s.0001/run.json"), &first));
     free(glint_ok("sample", "mirror_box", "-o", in_folder("s.0002.exr"), "--size=32x18", "--cube-size=16"));

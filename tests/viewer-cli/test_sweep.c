@@ -10,12 +10,6 @@
 /* A small pipeline: the linear march, the cube maps, one resolve. */
 #define PLAIN "-p", GLINT_TEST_PRESET
 
-static json_t *load(const char *name) {
-    json_t *json = json_load_file(in_folder(name), 0, NULL);
-    if (!json) fail_msg("%s is no JSON", name);
-    return json;
-}
-
 static const json_t *point(const json_t *swept, size_t i) {
     return json_array_get(json_object_get(swept, "points"), i);
 }
@@ -33,7 +27,7 @@ static const json_t *row_of(const json_t *point, size_t capture) {
     return json_array_get(json_object_get(point, "captures"), capture);
 }
 
-/* Marks of a front against the definition, by the figures of the same file. */
+/* Checks the marks of a front against the definition, with the figures of the same file. */
 static void check_front(const json_t *swept, const char *name, const char *cost, const char *sum) {
     const size_t count = json_array_size(json_object_get(swept, "points"));
     size_t on = 0;
@@ -62,7 +56,7 @@ static void check_front(const json_t *swept, const char *name, const char *cost,
     }
 }
 
-/* Catches: points with other values than they say, errors that are not the image's, passes that run though nothing changed. */
+/* Catches: points with wrong values, errors of another image, and passes that run although nothing changed. */
 static void points_are_the_pipelines_they_name(void **state) {
     (void)state;
     free(glint_ok("sample", "room", "-o", in_folder("room.exr"), "--size=64x36", "--cube-size=16", "--truth=1"));
@@ -73,9 +67,9 @@ static void points_are_the_pipelines_they_name(void **state) {
     assert_contains(text, "RMSE against GPU time");
     assert_contains(text, "RMSE against fetches per pixel");
     free(text);
-    json_t *swept = load("grid/points.json");
+    json_t *swept = load_json("grid/points.json");
     assert_int_equal(json_array_size(json_object_get(swept, "points")), 6);
-    for (size_t i = 0; i < 6; i++) { /* what runs late varies fastest */
+    for (size_t i = 0; i < 6; i++) { /* late passes vary fastest */
         const json_t *row = row_of(point(swept, i), 0), *ran = json_object_get(row, "executed");
         static const char *const steps[] = {"4", "8", "16"}, *const weights[] = {"0", "100"};
         assert_string_equal(value(point(swept, i), "screen_trace.steps"), steps[i / 2]);
@@ -118,9 +112,9 @@ static void points_are_the_pipelines_they_name(void **state) {
     json_decref(swept);
 }
 
-/* What a sweep found, but for times. */
+/* Compares the results of two sweeps, except times. */
 static void assert_same_findings(const char *a, const char *b) {
-    json_t *one = load(a), *other = load(b);
+    json_t *one = load_json(a), *other = load_json(b);
     const size_t count = json_array_size(json_object_get(one, "points"));
     assert_int_equal(json_array_size(json_object_get(other, "points")), count);
     for (size_t i = 0; i < count; i++) {
@@ -137,14 +131,7 @@ static void assert_same_findings(const char *a, const char *b) {
     json_decref(other);
 }
 
-static int lines_of(const char *name) {
-    struct outcome lines = run_program("wc", "-l", in_folder(name), NULL);
-    const int count = atoi(lines.out);
-    outcome_free(&lines);
-    return count;
-}
-
-/* Killed without warning, with half a line at the end: the same command goes on and finds what an uninterrupted one does. */
+/* Killed with half a line at the end of the log: the same command resumes and gives the same results as an uninterrupted one. */
 static void a_killed_sweep_goes_on(void **state) {
     (void)state;
     char command[1024];
@@ -159,7 +146,7 @@ static void a_killed_sweep_goes_on(void **state) {
     struct outcome killed = run_program("sh", "-c", command, NULL);
     assert_int_equal(killed.status, 128 + 9);
     outcome_free(&killed);
-    assert_true(lines_of("killed/log.jsonl") >= 15);
+    assert_true(count_lines("killed/log.jsonl") >= 15);
     assert_false(file_exists(in_folder("killed/points.json")));
     FILE *log = fopen(in_folder("killed/log.jsonl"), "ab");
     assert_non_null(log);
@@ -170,8 +157,8 @@ static void a_killed_sweep_goes_on(void **state) {
                  i ? "whole" : "killed", GLINT_TEST_PRESET, arguments);
         free(checked(run_program("sh", "-c", command, NULL), 0, __FILE__, __LINE__));
     }
-    assert_int_equal(lines_of("killed/log.jsonl"), 12 * (1 + 2));
-    assert_int_equal(lines_of("whole/log.jsonl"), 12 * (1 + 2));
+    assert_int_equal(count_lines("killed/log.jsonl"), 12 * (1 + 2));
+    assert_int_equal(count_lines("whole/log.jsonl"), 12 * (1 + 2));
     assert_same_findings("killed/points.json", "whole/points.json");
 }
 
@@ -181,7 +168,7 @@ static void several_captures_have_a_mean_and_a_worst_case(void **state) {
     free(glint_ok("sweep", in_folder("room.exr"), in_folder("street.exr"), "-o", in_folder("two"), PLAIN, "--rays=16",
                   "--repeat=0", "--vary=screen_trace=linear,dda", "--vary=screen_trace.steps=4,64", "--no-pictures",
                   "--metric=symmetric"));
-    json_t *swept = load("two/points.json");
+    json_t *swept = load_json("two/points.json");
     assert_int_equal(json_array_size(json_object_get(swept, "points")), 3); /* dda has no steps */
     for (size_t i = 0; i < 3; i++) {
         const double a = error_of(row_of(point(swept, i), 0), "reference", "all", "symmetric"),
@@ -201,7 +188,8 @@ static void several_captures_have_a_mean_and_a_worst_case(void **state) {
 
 static void what_is_wrong_is_named(void **state) {
     (void)state;
-    char *room = strdup(in_folder("room.exr")), *out = strdup(in_folder("bad")); /* they outlive the calls between */
+    char *room = strdup(in_folder("room.exr")),
+         *out = strdup(in_folder("bad")); /* copies, because in_folder's results are overwritten */
     glint_fails(2, "no capture given", "sweep", "-o", out, "--vary=screen_trace.cells=8,16");
     glint_fails(2, "no output folder given: -o FOLDER", "sweep", room, "--vary=screen_trace.cells=8,16");
     glint_fails(2, "nothing to vary", "sweep", room, "-o", out);
@@ -223,7 +211,7 @@ static void what_is_wrong_is_named(void **state) {
                 "--reference=truth", "--vary=screen_trace.steps=8,16");
     glint_fails(2, "expected a run of", "sweep", in_folder("street.exr"), "-o", in_folder("bad2"), PLAIN, "--reference",
                 in_folder("reference"), "--vary=screen_trace.steps=8,16");
-    /* a folder that holds another sweep, and one whose log somebody wrote into */
+    /* a folder with another sweep, and one whose log was edited */
     glint_fails(2, "two: contains a sweep with other metrics", "sweep", room, in_folder("street.exr"), "-o",
                 in_folder("two"), PLAIN, "--rays=16", "--repeat=0", "--vary=screen_trace=linear,dda",
                 "--vary=screen_trace.steps=4,64", "--metric=ssim");

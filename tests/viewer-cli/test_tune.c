@@ -17,12 +17,6 @@ static int make_captures(void **state) {
     return 0;
 }
 
-static json_t *load(const char *name) {
-    json_t *json = json_load_file(in_folder(name), 0, NULL);
-    if (!json) fail_msg("%s is no JSON", name);
-    return json;
-}
-
 static const json_t *contender(const json_t *tuned, size_t capture, const char *name) {
     const json_t *confirmed = json_array_get(json_object_get(tuned, "confirmed"), capture);
     return json_object_get(json_object_get(confirmed, "contenders"), name);
@@ -32,7 +26,7 @@ static double value_of(const json_t *object, const char *key) {
     return number(json_object_get(object, key), "value");
 }
 
-/* What AXES allow of the start's counts times a factor. */
+/* The start's counts times a factor, as AXES allows. */
 struct counts {
     double screen, cubes;
 };
@@ -40,7 +34,7 @@ static struct counts scaled_counts(double factor) {
     return (struct counts){fmax(2, round(32 * factor)), fmax(4, round(24 * factor))};
 }
 
-/* Of the start with these counts, measured by a search that may not search. */
+/* The cost of the start with these counts, measured by a search without tries. */
 static double fetches_of(struct counts counts) {
     char folder[64], screen[64], cubes[64];
     snprintf(folder, sizeof folder, "%.0f-%.0f", counts.screen, counts.cubes);
@@ -56,12 +50,12 @@ static double fetches_of(struct counts counts) {
     return fetches;
 }
 
-/* Catches: a budget that is broken, a preset that is not what was measured, figures of other pipelines than they say. */
+/* Catches: a budget that is exceeded, a preset that differs from the measured point, and figures of other pipelines. */
 static void the_preset_is_what_was_found(void **state) {
     (void)state;
     char *text = glint_ok("tune", in_folder("room.exr"), "-o", in_folder("found.json"), PLAIN, "--budget-fetches=60%",
                           "--reference=truth", "--tries=24", "--repeat=2", "--baseline=scale", AXES, "--json");
-    json_t *tuned = parse_json(text), *preset = load("found.json");
+    json_t *tuned = parse_json(text), *preset = load_json("found.json");
     free(text);
     const json_t *from = json_object_get(preset, "provenance"), *start = contender(tuned, 0, "start");
     const json_t *found = contender(tuned, 0, "tuned"), *scaled = contender(tuned, 0, "scaled");
@@ -70,7 +64,8 @@ static void the_preset_is_what_was_found(void **state) {
     assert_true(number(found, "fetches_px") <= budget &&
                 fabs(number(found, "fetches_px") - number(from, "cost")) < 1e-7);
     const json_t *errors = json_object_get(found, "errors");
-    /* the baseline keeps the budget, a larger one would not; what was tuned costs no more and errs no more than one of its cost */
+    /* the baseline meets the budget, and a larger one would not; the tuned preset costs no more and has no larger error than a baseline
+       of its cost */
     const double factor = number(scaled, "factor");
     const struct counts own = scaled_counts(factor);
     struct counts under = own;
@@ -88,7 +83,7 @@ static void the_preset_is_what_was_found(void **state) {
     const json_t *less = json_object_get(json_array_get(json_object_get(tuned, "confirmed"), 0), "tuned_less_scaled");
     assert_true(fabs(value_of(less, "all") - value_of(errors, "all") +
                      value_of(json_object_get(scaled, "errors"), "all")) < 1e-7);
-    /* the file alone replays to the same error, and holds what is said to have moved */
+    /* the preset alone replays with the same error, and contains the reported changes */
     text = glint_ok("replay", in_folder("room.exr"), "-p", in_folder("found.json"), "--against=truth", "--json");
     json_t *replayed = parse_json(text);
     free(text);
@@ -115,7 +110,7 @@ static void the_preset_is_what_was_found(void **state) {
     json_decref(tuned);
 }
 
-/* What a seed and deterministic figures must give again; a second run finds all of it in the folder. */
+/* The deterministic part of the results, which is equal for the same seed; a second run finds all of it in the folder. */
 static void a_seed_gives_the_same_preset_again(void **state) {
     (void)state;
     json_t *sets[3], *moved[3];
@@ -123,7 +118,7 @@ static void a_seed_gives_the_same_preset_again(void **state) {
         const char *out = in_folder(i == 1 ? "b.json" : "a.json");
         char *text = glint_ok("tune", in_folder("room.exr"), "-o", out, PLAIN, "--budget-fetches=60%",
                               "--reference=truth", "--tries=18", "--repeat=0", "--seed=5", AXES, "--json");
-        json_t *tuned = parse_json(text), *preset = load(i == 1 ? "b.json" : "a.json");
+        json_t *tuned = parse_json(text), *preset = load_json(i == 1 ? "b.json" : "a.json");
         free(text);
         sets[i] = json_incref(json_object_get(preset, "set"));
         moved[i] = json_incref(json_object_get(json_object_get(preset, "provenance"), "moved"));
@@ -138,7 +133,7 @@ static void a_seed_gives_the_same_preset_again(void **state) {
     for (int i = 0; i < 3; i++) json_decref(sets[i]), json_decref(moved[i]);
 }
 
-/* Interrupted, with half a line at the end: the best so far is there, and the same command ends as an uninterrupted one. */
+/* Interrupted with half a line at the end: the best point so far is stored, and the same command ends like an uninterrupted one. */
 static void an_interrupted_search_goes_on(void **state) {
     (void)state;
     char command[1200];
@@ -154,7 +149,7 @@ static void an_interrupted_search_goes_on(void **state) {
     assert_int_equal(stopped.status, 130);
     assert_contains(stopped.err, "the same command resumes the search");
     outcome_free(&stopped);
-    json_t *best = load("c.json");
+    json_t *best = load_json("c.json");
     assert_true(json_is_false(json_object_get(json_object_get(best, "provenance"), "confirmed")));
     json_decref(best);
     FILE *log = fopen(in_folder("c.tune/log.jsonl"), "ab");
@@ -164,7 +159,7 @@ static void an_interrupted_search_goes_on(void **state) {
     snprintf(command, sizeof command, "cd %s && \"$GLINT\" tune room.exr -o c.json -p %s %s", in_folder(""),
              GLINT_TEST_PRESET, arguments);
     char *text = checked(run_program("sh", "-c", command, NULL), 0, __FILE__, __LINE__);
-    json_t *went_on = parse_json(text), *whole = load("a.json"), *same = load("c.json");
+    json_t *went_on = parse_json(text), *whole = load_json("a.json"), *same = load_json("c.json");
     free(text);
     assert_true(number(went_on, "fresh") < 18 && number(went_on, "fresh") > 0);
     assert_true(json_equal(json_object_get(whole, "set"), json_object_get(same, "set")));
@@ -173,8 +168,8 @@ static void an_interrupted_search_goes_on(void **state) {
     json_decref(same);
 }
 
-/* Time enough for all: whatever the search's noisy times were, what errs least of all that was tried is taken, and what is left of the time
-   was searched for more. */
+/* With ample time: whatever the noisy times of the search are, the point with the smallest error is chosen, and the search continues
+   with the remaining time. */
 static void time_that_is_left_is_used(void **state) {
     (void)state;
     char *text = glint_ok("tune", in_folder("room.exr"), "-o", in_folder("e.json"), PLAIN, "--budget-ms=3000%",
@@ -206,7 +201,7 @@ static bool says(const json_t *left, const char *name, const char *why) {
     return false;
 }
 
-/* Everything declared, but what cannot matter; two captures, one held out, in the least time for an error. */
+/* All declared parameters that can matter; two captures, one held out, in the least time for an error. */
 static void what_cannot_matter_is_left_alone(void **state) {
     (void)state;
     char *text = glint_ok("tune", in_folder("room.exr"), "--held-out", in_folder("street.exr"), "-o",
@@ -273,7 +268,7 @@ static void what_is_wrong_is_named(void **state) {
                 "--vary=screen_trace.steps", "--vary=screen_trace.steps=2..64");
     glint_fails(1, "truth.reflection.ggx: missing", "tune", in_folder("street.exr"), "-o", out, PLAIN,
                 "--reference=truth", budget, "--vary=screen_trace.steps");
-    /* a budget that nothing reaches; a folder that holds another search, and one whose log somebody wrote into */
+    /* a budget that no point meets; a folder with another search, and one whose log was edited */
     glint_fails(1, "no point meets a cost limit of 0.001 fetches/px: the best of", "tune", room, "-o", out, PLAIN,
                 "--reference=truth", "--budget-fetches=0.001", "--tries=12", AXES);
     assert_false(file_exists(out));

@@ -1,4 +1,4 @@
-/* glint view, pixel by pixel, on small EXR files whose values are known. */
+/* glint view, pixel by pixel, on small EXR files with known values. */
 #include "cli.h"
 
 #include <jansson.h>
@@ -46,7 +46,7 @@ static void assert_pixel(const struct pixels *p, uint32_t x, uint32_t y, const u
 
 static void assert_grey(const struct pixels *p, uint32_t x, uint32_t y, double value) {
     uint8_t v = (uint8_t)lround(value * 255);
-    assert_pixel(p, x, y, (const uint8_t[3]){v, v, v}, 1); /* 1: OpenColorIO's sRGB curve is a fast approximation */
+    assert_pixel(p, x, y, (const uint8_t[3]){v, v, v}, 1); /* 1: OpenColorIO's sRGB curve is an approximation */
 }
 
 static double srgb(double v) {
@@ -78,7 +78,7 @@ static void colour_without_tone_mapping_is_the_srgb_curve(void **state) {
     free(p.rgb);
 }
 
-/* The same configuration and view through another program; both convert with OpenColorIO, each rounds for itself. */
+/* The same configuration and view through another program; both use OpenColorIO and round separately. */
 static void colour_equals_oiiotool(void **state) {
     (void)state;
     enum { W = 32, H = 24 };
@@ -105,7 +105,7 @@ static void colour_equals_oiiotool(void **state) {
         free(ours.rgb);
         free(theirs.rgb);
     }
-    /* The same file as a foreign configuration. */
+    /* The same file as an external configuration. */
     free(glint_ok("view", in_folder("o.exr"), "--ocio", GLINT_OCIO, "-o", in_folder("again.png")));
     free(glint_ok("view", in_folder("o.exr"), "-o", in_folder("ours.png")));
     struct pixels a = read_png(in_folder("again.png")), b = read_png(in_folder("ours.png"));
@@ -135,11 +135,11 @@ static void distance_is_viridis_between_the_ends_of_the_range(void **state) {
 
     free(glint_ok("view", in_folder("d.exr"), "--range=1,100", "--scale=log", "--no-legend", "-o", in_folder("d.png")));
     p = read_png(in_folder("d.png"));
-    assert_pixel(&p, 2, 0, middle, 4); /* 10 is half way from 1 to 100 */
+    assert_pixel(&p, 2, 0, middle, 4); /* 10 is halfway between 1 and 100 */
     free(p.rgb);
 }
 
-/* Lengths from 0.1 to 10 get a logarithmic scale by themselves; what is not a length does not. */
+/* Lengths from 0.1 to 10 have a logarithmic scale by default; other quantities do not. */
 static void wide_lengths_are_shown_logarithmically(void **state) {
     (void)state;
     const float v[] = {0.1F, 1, 10, 0};
@@ -179,7 +179,7 @@ static void legend_stands_below_the_picture(void **state) {
     struct pixels p = read_png(in_folder("l.png"));
     assert_int_equal(p.width, 400);
     assert_true(p.height > 50);
-    /* The bar shows the whole scale, and the text is bright on dark. */
+    /* the bar shows the whole scale, and the text is bright on dark */
     bool dark = false, bright = false, text = false;
     for (uint32_t y = 10; y < p.height; y++)
         for (uint32_t x = 0; x < p.width; x++) {
@@ -204,7 +204,7 @@ static int ticks_of(const char *path, const char *range) {
     return ticks;
 }
 
-/* 360 pixels hold five short numbers, and three long ones. */
+/* 360 pixels fit five short numbers, and three long ones. */
 static void a_legend_has_as_many_ticks_as_its_labels_leave_room_for(void **state) {
     const float v[] = {0, 1};
     (void)state;
@@ -266,8 +266,8 @@ static void crop_and_zoom(void **state) {
     assert_false(file_exists(in_folder("no.png")));
 }
 
-/* Neighbouring faces of the cross meet in the same direction: every texel's colour is its direction, computed here from
-   Vulkan's table of major axes, so across each inner edge the colours are nearly the same. */
+/* Neighbouring faces of the cross agree at their common edge: the colour of every texel is its direction, computed here from Vulkan's
+   table of major axes, so that colours are nearly equal across each inner edge. */
 static void cube_map_is_a_seamless_cross(void **state) {
     (void)state;
     enum { N = 32 };
@@ -290,7 +290,7 @@ static void cube_map_is_a_seamless_cross(void **state) {
     assert_int_equal(p.width, 4 * N);
     assert_int_equal(p.height, 3 * N);
     for (uint32_t i = 0; i < N; i++) {
-        /* Half a texel on each side of an edge: 2/N of a unit direction at most, halved for the colour. */
+        /* Half a texel on each side of an edge: at most 2/N of a unit direction, halved for the colour. */
         for (uint32_t edge = 1; edge < 4; edge++)
             assert_pixel(&p, edge * N, N + i, pixel(&p, edge * N - 1, N + i), 255 / N + 1);
         for (uint32_t edge = 1; edge < 3; edge++)
@@ -349,7 +349,7 @@ static void wrong_use_and_bad_files(void **state) {
     free(path);
 }
 
-/* Six times as high as wide, as a cube map's faces below each other are. */
+/* Six times as high as wide, like the faces of a cube map below each other. */
 static void a_narrow_picture_is_no_cube_map(void **state) {
     char *capture = strdup(in_folder("narrow.exr")), *run = strdup(in_folder("narrow"));
     (void)state;
@@ -365,7 +365,7 @@ static void a_narrow_picture_is_no_cube_map(void **state) {
     free(capture), free(run);
 }
 
-/* A terminal would obey what a stranger wrote into a name. */
+/* A terminal would interpret control characters in names from untrusted files. */
 static void control_characters_in_names_do_not_reach_the_terminal(void **state) {
     (void)state;
     const float v[] = {1, 1, 1};

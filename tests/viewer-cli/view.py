@@ -58,7 +58,7 @@ class Tests:
                 assert math.isclose(c[ours], expected[theirs][k], rel_tol=1e-5, abs_tol=2e-6), (ours, c[ours], expected[theirs][k])
             assert c["finite"] == 64 * 48 and c["nan"] == c["infinite"] == 0
             assert c["min"] < c["p1"] < c["median"] < c["p99"] < c["max"]
-            assert abs(c["median"] - 2) < 0.05  # of 3,072 draws: five standard errors
+            assert abs(c["median"] - 2) < 0.05  # of 3,072 random numbers: five standard errors
 
     def test_histogram_counts_every_finite_value_once(self):
         path = self.make("ramp.exr", "--pattern", "fill:left=0:right=1", "256x2", "1")

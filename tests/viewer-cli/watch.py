@@ -12,11 +12,11 @@ import time
 from browser import run_tests
 
 GLINT, PASSES = sys.argv[1:]
-WAIT_S = 60  # for a replay of a tiny capture, while others use the machine
+WAIT_S = 60  # for a replay of a tiny capture on a busy machine
 
 
 class Watched:
-    """A replay that watches; what it says comes line by line."""
+    """A replay that watches; its output is read line by line."""
 
     def __init__(self, *words):
         self.process = subprocess.Popen([GLINT, "replay", *words, "--watch"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
@@ -24,7 +24,7 @@ class Watched:
         threading.Thread(target=lambda: [self.lines.put(line) for line in self.process.stdout], daemon=True).start()
 
     def until(self, *words):
-        """The next line that has all of these."""
+        """The next line that contains all of these."""
         seen = []
         while True:
             try:
@@ -44,13 +44,13 @@ class Tests:
         return os.path.join(self.folder, name)
 
     def write(self, name, text):
-        """As editors do: a new file under the old name."""
+        """Like editors: a new file replaces the old one."""
         with open(self.path("new"), "w", encoding="utf-8") as file:
             file.write(text)
         os.rename(self.path("new"), self.path(name))
 
     def page_says(self, words):
-        """Waits until the page, left to itself, says so."""
+        """Waits until the page contains this after reloading by itself."""
         end = time.monotonic() + WAIT_S
         while time.monotonic() < end:
             try:

@@ -1,5 +1,4 @@
-/* The channels of a capture or of any EXR file, and what values they hold. Read part by part, so that memory stays at
-   one part's size. */
+/* The channels of a capture or of any EXR file, and what values they hold. Read part by part, so that memory stays at one part's size. */
 #ifndef GLINT_VIEWER_CHANNELS_H
 #define GLINT_VIEWER_CHANNELS_H
 

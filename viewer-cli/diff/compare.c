@@ -1,4 +1,4 @@
-/* Values of two sides, pair by pair. */
+/* Compares the values of each pair of images. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -6,7 +6,7 @@
 
 #include "diff/diff.h"
 
-/* Channels that both have, whole numbers or not; what one lacks fails. */
+/* The channels that both images have, integer or float. A channel that only one of them has fails. */
 static size_t common_channels(struct diff_pair *pair, bool integers, const char *names[DIFF_CHANNELS]) {
     size_t count = 0;
     for (int side = 0; side < 2; side++) {
@@ -37,7 +37,7 @@ static void add_heat(const struct diff_pair *pair, const void *a, const void *b,
     }
 }
 
-/* Figures of metrics.h take the first four channels of floats. */
+/* metrics.h handles up to four float channels, so the first four are used. */
 static bool add_metrics(const struct diff *diff, struct diff_pair *pair, float *a, float *b, const char *const *names,
                         size_t count, struct glint_error *err) {
     char channels[512] = "";

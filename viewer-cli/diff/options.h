@@ -1,4 +1,4 @@
-/* The options that diff and check share: limits, what to write, what to print. */
+/* The options that diff and check share: limits, and what to write and print. */
 #ifndef GLINT_VIEWER_DIFF_OPTIONS_H
 #define GLINT_VIEWER_DIFF_OPTIONS_H
 
@@ -52,15 +52,15 @@ enum {
     {"json",          'j',               NULL, 0, "Print JSON", 0}
 /* clang-format on */
 
-/* idiff's limits. */
+/* The limits of idiff. */
 struct diff_args diff_args_default(void);
 /* Reads one of DIFF_OPTIONS; ARGP_ERR_UNKNOWN for any other key. */
 error_t diff_args_parse(int key, char *arg, struct argp_state *state, struct diff_args *args);
 
-/* Compares two sides, and writes the pictures and the page that were asked for. Release `diff` whether or not this succeeds. */
+/* Compares two sides, and writes the requested pictures and page. Release `diff` even if this fails. */
 bool diff_args_compare(const struct diff_args *args, const char *const paths[2], struct diff *diff,
                        struct glint_error *err);
-/* The exit status of what could not be compared, said on stderr. */
+/* Prints an error and returns its exit status. */
 enum diff_status diff_args_fail(const struct command *command, const struct glint_error *err);
 
 #endif

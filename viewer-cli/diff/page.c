@@ -1,4 +1,4 @@
-/* A comparison as a page: what differs, where, by how much, and both images under a slider. */
+/* The page of a comparison: what differs, where and by how much, and both images under a slider. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -7,7 +7,7 @@
 #include "diff/diff.h"
 #include "draw/page/page.h"
 
-/* So many images that differ are shown, in the order of the passes, and the last one; the table has all. */
+/* The number of differing images that are shown, in the order of the passes, besides the final one; the table lists all. */
 enum { STAGES = 8 };
 
 static const char *const verdicts[] = {"equal within the limits", "warning", "different", "different sizes"};
@@ -20,8 +20,8 @@ static const char *name_of(const struct diff_image *image) {
     return image->name[0] ? image->name : "the image";
 }
 
-/* The colour image that comes last, else the last image: what a person sees of a run. */
-static size_t last_picture(const struct diff *diff) {
+/* The final image of a run: its last colour image, else its last image. */
+static size_t find_final_image(const struct diff *diff) {
     size_t last = diff->count;
     bool colour = false;
     for (size_t i = 0; i < diff->count; i++) {
@@ -38,7 +38,7 @@ static size_t last_picture(const struct diff *diff) {
 
 /* ---- Facts and tables ---- */
 
-/* What a run is of; of a file its path, unless that is its label. */
+/* Lists a run's capture, preset and device; for a file its path, unless that is its label. */
 static void add_side(json_t *document, const struct diff_side *side, const char *label) {
     char text[512];
     const char *capture = NULL, *device = NULL, *preset = NULL;
@@ -132,7 +132,7 @@ static void add_table(json_t *document, const struct diff *diff) {
 
 /* ---- One image ---- */
 
-/* Of the values that differ. */
+/* Histogram of the values that differ. */
 static void add_histogram(json_t *blocks, const struct glint_difference *d) {
     json_t *points = json_array(), *names = json_array();
     const double differing = (double)(d->values - d->histogram[0]);
@@ -155,7 +155,7 @@ static void add_histogram(json_t *blocks, const struct glint_difference *d) {
                                  "bar", "name", "values", "points", points));
 }
 
-/* What false colours stand for. */
+/* Explains the scale of false colours. */
 static void add_scale(json_t *blocks, const struct legend *legend, const char *unit) {
     char text[160];
     if (legend->kind != KIND_DISTANCE || !(legend->low < legend->high)) return;
@@ -186,7 +186,7 @@ static bool add_stage(json_t *blocks, struct diff *diff, const struct diff_pair 
     return ok;
 }
 
-/* `part`: of what pictures and values may take it has 1/part. */
+/* The image gets 1/part of the page's limits for pictures and values. */
 static bool add_image(json_t *document, struct diff *diff, size_t i, size_t part, struct glint_error *err) {
     const struct diff_pair *pair = &diff->pairs[i];
     char title[300];
@@ -197,9 +197,9 @@ static bool add_image(json_t *document, struct diff *diff, size_t i, size_t part
     return true;
 }
 
-/* The finished picture has half of the page, the others share the rest. */
+/* The final image gets half of the page's limits, the other images share the rest. */
 static bool add_images(json_t *document, struct diff *diff, bool picture_first, struct glint_error *err) {
-    const size_t last = last_picture(diff);
+    const size_t last = find_final_image(diff);
     size_t shown = 0, stages = 1;
     for (size_t i = 0; i < diff->count; i++)
         stages += i != last && compared(&diff->pairs[i]) && diff->pairs[i].difference.differing;

@@ -1,4 +1,4 @@
-/* Images of two sides, pair by pair. */
+/* Finds the pairs of images of two sides. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -22,7 +22,7 @@ static void add_pair(struct diff *diff, int first, const struct diff_image *one,
     diff->pairs[diff->count++] = (struct diff_pair){.a = first ? other : one, .b = first ? one : other};
 }
 
-/* Images that the other side alone has: those of a slot; with NULL, of slots that the first lacks. */
+/* Adds images that only the other side has: those of a slot, or with NULL those of slots that the first side does not have. */
 static void add_others(struct diff *diff, int first, const char *slot) {
     const struct diff_side *one = &diff->sides[first], *other = &diff->sides[1 - first];
     for (size_t i = 0; i < other->count; i++) {
@@ -34,8 +34,8 @@ static void add_others(struct diff *diff, int first, const char *slot) {
     }
 }
 
-/* By name, slot by slot in the order of the first side, a run's before a file's; two images alone are a pair whatever their
-   names. What an engine did not dump is not missed. */
+/* Pairs images by name and slot in the order of the first side, a run's before a file's. If both sides have a single
+   image, these are a pair whatever their names. Intermediates that an engine did not dump are not missing. */
 bool diff_pair_up(struct diff *diff, struct glint_error *err) {
     const int first = diff->sides[0].run || !diff->sides[1].run ? 0 : 1;
     const struct diff_side *one = &diff->sides[first], *other = &diff->sides[1 - first];

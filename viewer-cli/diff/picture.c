@@ -1,4 +1,4 @@
-/* Pictures of what differs: heat maps, both images beside each other, both in turns. */
+/* Pictures of the differences: heat maps, both images side by side, or alternating. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -17,7 +17,7 @@ static bool has_channel(const struct diff_image *image, const char *name, bool i
     return false;
 }
 
-/* What both sides have of the layer that differs most, R G B A and X Y Z in that order; at most 4. */
+/* The common channels of the layer with the largest difference, in the order R G B A or X Y Z; at most 4. */
 static size_t drawn_channels(const struct diff_pair *pair, const char *names[4], bool *integers) {
     const struct diff_image *image = pair->a;
     const char *most = diff_channel(pair);
@@ -60,7 +60,7 @@ static bool read_source(struct diff_side *side, const struct diff_image *image, 
     return true;
 }
 
-/* Logarithmic, from what may differ to what differs most. */
+/* The scale is logarithmic, from the tolerance to the largest difference. */
 static bool draw_heat(struct picture *picture, struct legend *legend, const struct diff *diff,
                       const struct diff_pair *pair, struct glint_error *err) {
     const struct diff_image *image = diff_pair_image(pair);
@@ -133,8 +133,8 @@ static uint32_t count_differing(const struct diff *diff) {
     return count;
 }
 
-/* The first that differs, else the last that was compared. */
-static const struct diff_pair *most_telling(const struct diff *diff, struct glint_error *err) {
+/* The first pair that differs, else the last that was compared. */
+static const struct diff_pair *find_drawn_pair(const struct diff *diff, struct glint_error *err) {
     const struct diff_pair *last = NULL;
     for (size_t i = 0; i < diff->count; i++) {
         if (differs(&diff->pairs[i])) return &diff->pairs[i];
@@ -179,7 +179,7 @@ bool diff_write_heat(const char *path, struct diff *diff, struct glint_error *er
     return ok;
 }
 
-/* At its full size, with legends. */
+/* One pair at full size, with legends. */
 static bool write_pair_beside(const char *path, struct diff *diff, const struct diff_pair *pair,
                               struct glint_error *err) {
     enum { GAP_PX = 12 };
@@ -205,7 +205,7 @@ static bool write_pair_beside(const char *path, struct diff *diff, const struct 
 
 bool diff_write_beside(const char *path, struct diff *diff, struct glint_error *err) {
     const uint32_t count = count_differing(diff);
-    const struct diff_pair *telling = most_telling(diff, err);
+    const struct diff_pair *telling = find_drawn_pair(diff, err);
     if (!telling || count <= 1) return telling && write_pair_beside(path, diff, telling, err);
     struct sheet sheet = {0};
     bool ok = sheet_init(&sheet, 3, count, err);
@@ -226,8 +226,8 @@ bool diff_write_beside(const char *path, struct diff *diff, struct glint_error *
     return ok;
 }
 
-/* Legends of categories may be higher in one of them. */
-static bool pad(struct picture *picture, uint32_t height, struct glint_error *err) {
+/* The legends of the two pictures may differ in height. */
+static bool pad_bottom(struct picture *picture, uint32_t height, struct glint_error *err) {
     struct picture higher;
     if (picture->height >= height) return true;
     if (!picture_init(&higher, picture->width, height, COLOR_BACKGROUND, err)) return false;
@@ -240,10 +240,10 @@ static bool pad(struct picture *picture, uint32_t height, struct glint_error *er
 bool diff_write_flicker(const char *path, struct diff *diff, struct glint_error *err) {
     enum { TURN_MS = 500 };
     struct diff_drawing d = {0};
-    const struct diff_pair *pair = most_telling(diff, err);
+    const struct diff_pair *pair = find_drawn_pair(diff, err);
     bool ok = pair && diff_draw(diff, pair, &d, err);
     for (int k = 0; ok && k < 2; k++) ok = legend_add(&d.pictures[k], &d.legends[k], err);
-    for (int k = 0; ok && k < 2; k++) ok = pad(&d.pictures[k], d.pictures[1 - k].height, err);
+    for (int k = 0; ok && k < 2; k++) ok = pad_bottom(&d.pictures[k], d.pictures[1 - k].height, err);
     ok = ok && png_file_animate(path, d.pictures, 2, TURN_MS, err);
     diff_drawing_finish(&d);
     return ok;

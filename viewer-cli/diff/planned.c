@@ -1,4 +1,4 @@
-/* A run as planned beside one of everything: which images a plan does without, and at which texels it traces no ray. */
+/* Compares a planned run with one that ran all passes: which images the plan skips, and at which texels it traces no ray. */
 #include <stdlib.h>
 #include <string.h>
 
@@ -6,7 +6,7 @@
 #include "glint/passes.h"
 #include "report/report.h"
 
-/* The side that was planned while the other ran everything; -1: neither, or both. */
+/* The side that was planned if the other ran all passes; -1: neither, or both. */
 static int planned_side(const struct diff *diff) {
     bool all[2];
     for (int k = 0; k < 2; k++) {
@@ -16,7 +16,7 @@ static int planned_side(const struct diff *diff) {
     return all[0] == all[1] ? -1 : all[0];
 }
 
-/* The row that says of a run's image what it is; NULL for levels but the finest, and passes that are not known. */
+/* The declaration of a run's image; NULL for coarser levels and unknown passes. */
 static const struct glint_row *row_of(const struct diff_image *image) {
     const struct glint_pass *pass = glint_pass_find(image->slot, image->variant);
     for (size_t r = 0; pass && r < pass->row_count; r++) {
@@ -33,7 +33,7 @@ static const struct diff_image *image_of(const struct diff_side *side, const cha
     return NULL;
 }
 
-/* A plan drops passes, and images of others that nobody reads; a run of everything goes by no lists. */
+/* A plan skips passes and unused outputs of other passes; a run of all passes processes no tile lists. */
 bool diff_is_planned_out(const struct diff *diff, const struct diff_pair *pair) {
     if (diff->planned < 0 || (pair->a && pair->b)) return false;
     const struct diff_image *image = diff_pair_image(pair);
@@ -48,8 +48,8 @@ bool diff_is_planned_out(const struct diff *diff, const struct diff_pair *pair) 
     return others;
 }
 
-/* The normals of the rays, as the passes that look things up along rays declare them; NULL: the run has none. */
-static const struct diff_image *normals_of_rays(const struct diff_side *side) {
+/* The normals of the rays, as declared by passes that trace rays; NULL: the run has none. */
+static const struct diff_image *find_ray_normals(const struct diff_side *side) {
     size_t count;
     const struct glint_pass *passes = glint_passes(&count);
     for (size_t p = 0; p < count; p++)
@@ -61,8 +61,8 @@ static const struct diff_image *normals_of_rays(const struct diff_side *side) {
     return NULL;
 }
 
-/* Only texels of rays may hold nothing in a plan; of the picture every pixel counts. */
-static bool is_of_rays(const struct diff_image *image) {
+/* A plan may skip texels of rays only; every pixel of the final image counts. */
+static bool is_ray_image(const struct diff_image *image) {
     const struct glint_row *row = row_of(image);
     return row && row->size == GLINT_SIZE_HALF;
 }
@@ -82,7 +82,7 @@ bool diff_planned_begin(struct diff *diff, struct glint_error *err) {
     diff->planned = planned_side(diff);
     if (diff->planned < 0) return true;
     struct diff_side *sides[2] = {&diff->sides[diff->planned], &diff->sides[1 - diff->planned]};
-    const struct diff_image *own = normals_of_rays(sides[0]), *other = own ? image_of(sides[1], own->name) : NULL;
+    const struct diff_image *own = find_ray_normals(sides[0]), *other = own ? image_of(sides[1], own->name) : NULL;
     if (!other || own->width != other->width || own->height != other->height) return true;
     const size_t texels = (size_t)own->width * own->height;
     float *normals[2] = {read_normals(sides[0], own, err), NULL};
@@ -101,7 +101,7 @@ bool diff_planned_begin(struct diff *diff, struct glint_error *err) {
 void diff_planned_skip(const struct diff *diff, const struct diff_pair *pair, size_t count, const uint32_t *a,
                        uint32_t *b) {
     if (!diff->rayless || pair->a->width != diff->rays_width || pair->a->height != diff->rays_height ||
-        !is_of_rays(pair->a))
+        !is_ray_image(pair->a))
         return;
     const size_t texels = (size_t)diff->rays_width * diff->rays_height;
     for (size_t i = 0; i < texels; i++)

@@ -1,4 +1,4 @@
-/* What a comparison found, as tables and as JSON. */
+/* The result of a comparison as tables and as JSON. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -12,7 +12,7 @@ enum { PLACES = 16 };
 
 const char *const diff_words[] = {"same", "warning", "FAILS", "different size"};
 
-/* Channels of floats are counted first, then those of whole numbers. */
+/* Float channels precede integer channels. */
 const char *diff_channel(const struct diff_pair *pair) {
     size_t left = pair->difference.channel;
     for (int integers = 0; integers < 2; integers++)
@@ -40,7 +40,7 @@ static json_t *histogram_json(const struct glint_difference *d) {
     return list;
 }
 
-/* The first pixels that fail, by rows. */
+/* The first failing pixels, row by row. */
 static json_t *places_json(const struct glint_difference *d) {
     json_t *list = json_array();
     for (size_t i = 0; i < d->pixels && json_array_size(list) < PLACES; i++)

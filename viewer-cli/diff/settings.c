@@ -1,4 +1,4 @@
-/* What two runs say differently of themselves: capture, device, preset, passes and their parameters. */
+/* The settings in which two runs differ: capture, device, preset, passes and their parameters. */
 #include <string.h>
 
 #include "diff/diff.h"
@@ -16,7 +16,7 @@ static void compare(json_t *list, const char *what, const json_t *a, const json_
     if ((a || b) && !(a && b && json_equal(a, b))) add_setting(list, what, a, b);
 }
 
-/* Parameters of one pass; those of another variant are others altogether. */
+/* Compares the parameters of one pass. Those of different variants are unrelated. */
 static void compare_pass(json_t *list, const char *slot, const json_t *a, const json_t *b) {
     static const char *const facts[] = {"variant", "ran", "shader"};
     char what[256];

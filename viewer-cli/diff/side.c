@@ -1,4 +1,4 @@
-/* What lies on one side of a comparison: images of a file, of a run, or the engine's intermediates in a capture. */
+/* The images of one side of a comparison: of a file, of a run, or the engine's intermediates in a capture. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -29,7 +29,7 @@ void diff_side_finish(struct diff_side *side) {
     *side = (struct diff_side){0};
 }
 
-/* Room for one image more, with a name and channels that are empty. */
+/* Appends an empty image with room for its name and channels. */
 static struct diff_image *add_image(struct diff_side *side, const char *name, size_t channels,
                                     struct glint_error *err) {
     struct diff_image *larger = realloc(side->images, (side->count + 1) * sizeof *larger);
@@ -83,7 +83,7 @@ static bool list_file(struct diff_side *side, struct glint_error *err) {
     return true;
 }
 
-/* "engine.SLOT.IMAGE" by the image's name. */
+/* Engine intermediates are named "engine.SLOT.IMAGE". */
 static bool list_engine(struct diff_side *side, struct glint_error *err) {
     static const char prefix[] = "engine.";
     for (size_t p = 0; p < glint_exr_part_count(side->exr); p++) {

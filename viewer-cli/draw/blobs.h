@@ -1,4 +1,4 @@
-/* Files that are built into the program. */
+/* Files that are embedded in the program. */
 #ifndef GLINT_VIEWER_BLOBS_H
 #define GLINT_VIEWER_BLOBS_H
 
@@ -7,7 +7,7 @@ extern "C" {
 #endif
 extern const unsigned char blob_font[], blob_font_end[]; /* DejaVuSans.ttf */
 extern const unsigned char blob_ocio[], blob_ocio_end[]; /* glint.ocio */
-/* What pages begin with, up to their document; their scripts, in order. */
+/* The beginning of a page up to its document, and its scripts in order. */
 extern const unsigned char blob_page_head[], blob_page_head_end[];
 extern const unsigned char blob_echarts[], blob_echarts_end[]; /* Apache ECharts */
 extern const unsigned char blob_chart[], blob_chart_end[];     /* page/chart.js */

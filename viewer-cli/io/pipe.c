@@ -1,4 +1,4 @@
-/* "-" as a file. */
+/* "-" as a file name. */
 #include "io/pipe.h"
 
 #include <errno.h>

@@ -1,16 +1,16 @@
-/* "-" as a file: EXR files need seeking, so what comes or goes through a pipe passes through a temporary file. */
+/* "-" as a file name. EXR files need seeking, so stdin and stdout go through temporary files. */
 #ifndef GLINT_VIEWER_PIPE_H
 #define GLINT_VIEWER_PIPE_H
 
 #include "glint/common.h"
 
 struct pipe {
-    char path[256]; /* the temporary file, "" for none; removed by pipe_finish */
+    char path[256]; /* the temporary file, "" if there is none; pipe_finish removes it */
 };
 
-/* `path`, or for "-" a temporary file with all of stdin; NULL on failure. */
+/* Returns `path`, or for "-" a temporary file with the contents of stdin; NULL on failure. */
 const char *pipe_input(struct pipe *pipe, const char *path, struct glint_error *err);
-/* `path`, or for "-" a temporary file that pipe_output_flush copies to stdout. */
+/* Returns `path`, or for "-" a temporary file that pipe_output_flush copies to stdout. */
 const char *pipe_output(struct pipe *pipe, const char *path, struct glint_error *err);
 bool pipe_output_flush(const struct pipe *pipe, struct glint_error *err);
 void pipe_finish(struct pipe *pipe);

@@ -1,4 +1,4 @@
-/* The progress bar on a terminal, lines elsewhere, and Ctrl-C as a polite request to stop. */
+/* A progress bar on terminals, lines elsewhere, and Ctrl-C as a request to stop. */
 #include "io/progress.h"
 
 #include <signal.h>
@@ -34,7 +34,7 @@ void progress_begin(struct progress *progress) {
     clock_gettime(CLOCK_MONOTONIC, &progress->start);
 }
 
-/* " 4:10 left", from what was done since the step began; "" as long as that is a guess. */
+/* " 4:10 left", estimated from the rate since the step began; "" until the estimate is usable. */
 static const char *time_left(const struct progress *progress, double done, double elapsed, char text[32]) {
     const double share = done - progress->begun;
     *text = '\0';
@@ -70,7 +70,7 @@ bool progress_report(void *user, const char *what, double done) {
     if (!(done >= 0)) done = 0;
     if (done > 1) done = 1;
     if (!what) what = "";
-    /* A step that starts anew gets its own estimate of the time left. */
+    /* Each step has its own estimate of the remaining time. */
     if (done < progress->done - 1e-6) progress->start = now, progress->begun = done;
     progress->done = done;
     const double elapsed = seconds_between(&progress->start, &now), since = seconds_between(&progress->shown, &now);

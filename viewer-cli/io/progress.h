@@ -1,4 +1,4 @@
-/* The progress bar on a terminal, lines elsewhere, and Ctrl-C as a polite request to stop. */
+/* A progress bar on terminals, lines elsewhere, and Ctrl-C as a request to stop. */
 #ifndef GLINT_VIEWER_PROGRESS_H
 #define GLINT_VIEWER_PROGRESS_H
 
@@ -8,12 +8,12 @@
 enum { PROGRESS_TEXT = 36, PROGRESS_LINES_SECONDS = 10 };
 struct progress {
     struct timespec start, shown;
-    double begun, done; /* where the step started, and where it is */
+    double begun, done; /* progress at the beginning of the step, and now */
     bool terminal, drawn;
-    bool lines; /* asked for: a line every few seconds where there is no terminal */
+    bool lines; /* requested: a line every few seconds if stderr is not a terminal */
 };
 
-/* For commands that may take long, with `lines` set where it was given. */
+/* For commands that may take long; sets `lines`. */
 #define PROGRESS_OPTION                                                                                                \
     {                                                                                                                  \
         "progress", KEY_PROGRESS, NULL, 0,                                                                             \
@@ -23,11 +23,11 @@ struct progress {
             0                                                                                                          \
     }
 
-/* From here the first Ctrl-C only sets a flag; a second one ends the program as usual. SIGUSR1 is answered with a line. */
+/* From here on the first Ctrl-C only sets a flag, and a second one ends the program. SIGUSR1 prints the progress. */
 void progress_begin(struct progress *progress);
 /* A glint_progress callback; `user` is a struct progress. Returns false after Ctrl-C. */
 bool progress_report(void *user, const char *what, double done);
-/* Clears the bar. */
+/* Removes the bar. */
 void progress_end(struct progress *progress);
 bool progress_interrupted(void);
 

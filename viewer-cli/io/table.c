@@ -1,4 +1,4 @@
-/* Tables for people. */
+/* Tables in the terminal. */
 #include "io/table.h"
 
 #include <math.h>
@@ -78,7 +78,7 @@ static void pad(FILE *out, size_t n) {
     while (n--) fputc(' ', out);
 }
 
-/* Prints `text` in lines of at most `room` columns, broken at spaces, each but the first indented. */
+/* Prints `text` in lines of at most `room` columns, broken at spaces; all but the first are indented. */
 static void print_wrapped(FILE *out, const char *text, size_t indent, size_t room) {
     while (text_width(text) > room) {
         const char *cut = NULL;
@@ -97,7 +97,8 @@ static void print_wrapped(FILE *out, const char *text, size_t indent, size_t roo
 
 static void print_row(FILE *out, const struct table *t, const char *const *row, const size_t *widths, size_t room,
                       bool titles) {
-    size_t indent = 0, gap = 0; /* spaces are written before the next text only, never at the end of a line */
+    size_t indent = 0,
+           gap = 0; /* pending spaces, which are written before the next text only, never at the end of a line */
     for (size_t i = 0; i < t->columns; i++) {
         const char *text = row[i] + (titles ? 1 : 0);
         size_t fill = widths[i] - text_width(text);
@@ -161,7 +162,7 @@ bool table_print_markdown(const struct table *t, FILE *out) {
     return true;
 }
 
-/* A ring of buffers, so that several of these texts may stand in one printf. */
+/* A ring of buffers, so that one printf can use several results. */
 static char *next_buffer(void) {
     static char buffers[8][48];
     static unsigned turn;

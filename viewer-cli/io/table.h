@@ -1,4 +1,4 @@
-/* Tables for people: columns aligned, the last one wrapped at the terminal's width. */
+/* Tables in the terminal: aligned columns, the last one wrapped at the terminal's width. */
 #ifndef GLINT_VIEWER_TABLE_H
 #define GLINT_VIEWER_TABLE_H
 
@@ -9,8 +9,8 @@
 
 struct table;
 
-/* Titles start with '<' (left) or '>' (right aligned), NULL-terminated. NULL when memory is short: every call then does
-   nothing and table_print returns false. */
+/* Titles start with '<' (left) or '>' (right aligned), NULL-terminated. Returns NULL when out of memory; all calls then
+   do nothing, and table_print returns false. */
 struct table *table_create(const char *const *titles);
 void table_destroy(struct table **table);
 /* Appends the next cell, row by row. */
@@ -22,18 +22,18 @@ bool table_print(const struct table *table, FILE *out);
 bool table_print_markdown(const struct table *table, FILE *out);
 bool table_is_empty(const struct table *table);
 
-/* How many columns the terminal on stdout has; 0 when it is none. */
+/* The number of columns of the terminal on stdout; 0 if it is not one. */
 int terminal_width(void);
-/* Columns that a UTF-8 text takes. */
+/* The number of columns of a UTF-8 text. */
 size_t text_width(const char *text);
-/* Names in files are written by strangers: replaces control characters, which a terminal would obey. */
+/* Replaces control characters, which a terminal would interpret. Names in files may come from untrusted sources. */
 void text_clean(char *text);
 
-/* "12.3 ms", "456 µs", "1.20 s"; static storage for a few calls within one expression. */
+/* "12.3 ms", "456 µs", "1.20 s". In static storage, valid for a few calls. */
 const char *time_text(double seconds);
 /* "1.5 GiB" */
 const char *bytes_text(uint64_t bytes);
-/* A number in as few digits as it needs, at most four significant ones. */
+/* A number with at most four significant digits. */
 const char *number_text(double value);
 
 #endif

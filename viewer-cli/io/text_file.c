@@ -1,4 +1,4 @@
-/* Texts as files. */
+/* Writes text files. */
 #include "io/text_file.h"
 
 #include <errno.h>

@@ -1,4 +1,4 @@
-/* Texts as files. */
+/* Writes text files. */
 #ifndef GLINT_VIEWER_TEXT_FILE_H
 #define GLINT_VIEWER_TEXT_FILE_H
 
@@ -6,10 +6,10 @@
 
 #include "glint/common.h"
 
-/* To a temporary file that is renamed when complete. */
+/* Writes a temporary file and renames it when complete. */
 bool text_file_write(const char *path, const char *text, struct glint_error *err);
 
-/* A text as a cell of CSV, in quotes. */
+/* Writes a text as a quoted cell of CSV. */
 void csv_text(FILE *out, const char *text);
 
 #endif

@@ -1,4 +1,4 @@
-/* Studies on disk: what one is, and a line for each result. */
+/* Studies on disk: a definition, and a log with one line for each result. */
 #include "journal/journal.h"
 
 #include <errno.h>
@@ -39,7 +39,7 @@ static bool same_definition(const struct journal *journal, const json_t *theirs,
     return true;
 }
 
-/* Reads whole lines; what an end without warning left of another is cut off. */
+/* Reads all complete lines. An incomplete last line, left by a crash, is cut off. */
 static bool read_log(struct journal *journal, const char *path, struct glint_error *err) {
     FILE *file = fdopen(dup(journal->log), "rb");
     char *line = NULL;
@@ -69,8 +69,8 @@ static bool write_definition(const json_t *definition, const char *path, struct 
     return ok;
 }
 
-/* The definition that is there, or ours if none is. */
-static bool agree(const struct journal *journal, const json_t *definition, struct glint_error *err) {
+/* Compares our definition with the stored one, if there is one. */
+static bool check_definition(const struct journal *journal, const json_t *definition, struct glint_error *err) {
     char path[4096], name[64];
     json_error_t error;
     snprintf(name, sizeof name, "%s.json", journal->kind);
@@ -87,7 +87,8 @@ bool journal_open(struct journal *journal, const json_t *definition, struct glin
     char path[4096];
     if (!journal->folder) return true;
     if (!glint_make_folder(journal->folder, err)) return false;
-    if (!agree(journal, definition, err) || !journal_path(journal->folder, "log.jsonl", path, err)) return false;
+    if (!check_definition(journal, definition, err) || !journal_path(journal->folder, "log.jsonl", path, err))
+        return false;
     journal->log = open(path, O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
     if (journal->log < 0) return glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
     if (lockf(journal->log, F_TLOCK, 0) != 0)
@@ -100,7 +101,7 @@ bool journal_append(struct journal *journal, json_t *line, struct glint_error *e
     char *text = line ? json_dumps(line, JSON_COMPACT) : NULL;
     const size_t length = text ? strlen(text) : 0;
     bool ok = text || no_memory(err);
-    if (ok) text[length] = '\n'; /* in the place of the end: one write of a whole line */
+    if (ok) text[length] = '\n'; /* one write of a whole line */
     if (ok && journal->log > 0 && write(journal->log, text, length + 1) != (ssize_t)(length + 1))
         ok = glint_fail(err, GLINT_ERROR_IO, "%s/log.jsonl: %s", journal->folder, strerror(errno));
     if (ok) journal->keep(journal->user, line);

@@ -1,4 +1,4 @@
-/* What studies write down: pipelines, captures, errors, costs. */
+/* JSON of pipelines, captures, errors and costs in studies. */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>

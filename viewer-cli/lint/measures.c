@@ -25,8 +25,7 @@ bool lint_same_direction(const double a[3], const double b[3]) {
     return dot(a, b) > SAME_DIRECTION;
 }
 
-/* The normal of the two vectors between opposite neighbours, towards the eye. Returns the cosine to the eye, 0 when there is no
-   normal. */
+/* The normal of the two vectors between opposite neighbours, towards the eye. Returns the cosine to the eye, 0 when there is no normal. */
 static double facet_normal(const double e[2][3], const double to_eye[3], double out[3]) {
     out[0] = e[0][1] * e[1][2] - e[0][2] * e[1][1];
     out[1] = e[0][2] * e[1][0] - e[0][0] * e[1][2];

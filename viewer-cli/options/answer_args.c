@@ -1,4 +1,4 @@
-/* The options that sweep, blame and tune share: what errors are against. */
+/* The options of sweep, blame and tune that choose the reference or truth for errors. */
 #include "options/answer_args.h"
 
 #include <string.h>

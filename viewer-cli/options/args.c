@@ -1,4 +1,4 @@
-/* Small helpers that read arguments. */
+/* Parses arguments. */
 #include "options/args.h"
 
 #include <errno.h>

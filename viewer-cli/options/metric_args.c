@@ -1,4 +1,4 @@
-/* The options of commands that compare images, and what is shown of the comparison. */
+/* The options of commands that compare images, and the output of the metrics. */
 #include "options/metric_args.h"
 
 #include <math.h>
@@ -37,16 +37,16 @@ void metric_args_default(struct glint_metric_options *options) {
 }
 
 /* Whether any row has the metric. */
-static bool is_there(const struct glint_metric_table *t, size_t metric) {
+static bool has_metric(const struct glint_metric_table *t, size_t metric) {
     for (size_t i = 0; i < t->count; i++)
         if (!isnan(t->rows[i].of[metric].value)) return true;
     return false;
 }
 
-/* Without noise of the truth, figures without it say nothing new to people. */
-static bool is_shown(const struct glint_metric_table *t, size_t metric) {
+/* Without noise of the truth, the figures that are corrected for it equal the others and are not printed. */
+static bool is_printed(const struct glint_metric_table *t, size_t metric) {
     bool clean = metric == GLINT_METRIC_CLEAN_RMSE || metric == GLINT_METRIC_CLEAN_RELATIVE_MSE;
-    return is_there(t, metric) && !(clean && !(t->rows[0].truth_noise > 0));
+    return has_metric(t, metric) && !(clean && !(t->rows[0].truth_noise > 0));
 }
 
 static bool has_pixels(const struct glint_metric_row *row) {
@@ -63,7 +63,7 @@ static void print_all(const struct glint_metric_table *t) {
     static const char *const titles[] = {"<metric", ">value", ">95 % from", ">to", "<", NULL};
     struct table *table = table_create(titles);
     for (size_t k = 0; k < GLINT_METRIC_COUNT; k++) {
-        if (!is_shown(t, k)) continue;
+        if (!is_printed(t, k)) continue;
         const struct glint_figure *figure = &t->rows[0].of[k];
         table_cell(table, "%s", glint_metric(k)->title);
         value_cell(table, figure->value);
@@ -77,9 +77,11 @@ static void print_all(const struct glint_metric_table *t) {
 
 static void print_assumed(const struct glint_metric_table *t) {
     printf("epsilon %g", t->epsilon);
-    if (is_there(t, GLINT_METRIC_PSNR)) printf(", peak %.5g", t->peak);
-    if (is_there(t, GLINT_METRIC_SSIM) || is_there(t, GLINT_METRIC_FLIP)) printf(", exposure %g f-stops", t->exposure);
-    if (is_there(t, GLINT_METRIC_FLIP) || is_there(t, GLINT_METRIC_HDR_FLIP)) printf(", %.4g pixels a degree", t->ppd);
+    if (has_metric(t, GLINT_METRIC_PSNR)) printf(", peak %.5g", t->peak);
+    if (has_metric(t, GLINT_METRIC_SSIM) || has_metric(t, GLINT_METRIC_FLIP))
+        printf(", exposure %g f-stops", t->exposure);
+    if (has_metric(t, GLINT_METRIC_FLIP) || has_metric(t, GLINT_METRIC_HDR_FLIP))
+        printf(", %.4g pixels a degree", t->ppd);
     if (t->exposures)
         printf(", HDR-ꟻLIP over %u exposures from %.2f to %.2f f-stops", t->exposures, t->start_exposure,
                t->stop_exposure);
@@ -94,7 +96,7 @@ static void print_classes(const struct glint_metric_table *t) {
     char texts[GLINT_METRIC_COUNT][48];
     size_t columns = 4;
     for (size_t k = 0; k < GLINT_METRIC_COUNT; k++) {
-        if (!is_shown(t, k)) continue;
+        if (!is_printed(t, k)) continue;
         snprintf(texts[k], sizeof texts[k], ">%s", glint_metric(k)->title);
         titles[columns++] = texts[k];
     }
@@ -110,7 +112,7 @@ static void print_classes(const struct glint_metric_table *t) {
         table_cell(table, "%llu", (unsigned long long)row->pixels);
         value_cell(table, row->truth_mean);
         for (size_t k = 0; k < GLINT_METRIC_COUNT; k++)
-            if (is_shown(t, k)) value_cell(table, row->of[k].value);
+            if (is_printed(t, k)) value_cell(table, row->of[k].value);
         table_cell(table, "%llu", (unsigned long long)row->invalid);
     }
     table_print(table, stdout);
@@ -131,7 +133,7 @@ static json_t *row_json(const struct glint_metric_table *t, const struct glint_m
     json_t *intervals = json_object();
     for (size_t k = 0; k < GLINT_METRIC_COUNT; k++) {
         const struct glint_figure *figure = &row->of[k];
-        if (!is_there(t, k)) continue;
+        if (!has_metric(t, k)) continue;
         json_object_set_new(json, glint_metric(k)->name, json_number(figure->value));
         if (!isnan(figure->low))
             json_object_set_new(intervals, glint_metric(k)->name,

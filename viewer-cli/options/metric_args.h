@@ -1,4 +1,4 @@
-/* The options of commands that compare images: which metrics, and what these must assume. */
+/* The options of commands that compare images: the metrics and their parameters. */
 #ifndef GLINT_VIEWER_METRIC_ARGS_H
 #define GLINT_VIEWER_METRIC_ARGS_H
 
@@ -20,16 +20,16 @@ enum { KEY_METRICS = 640, KEY_PPD, KEY_PEAK };
 error_t metric_args_parse(int key, char *arg, struct argp_state *state, struct glint_metric_options *options);
 /* The names of the metrics, for the help of KEY_METRICS; malloc'd, NULL for other keys. */
 char *metric_args_values(int key);
-/* What is not set yet is set to what commands use: metrics, resamples, seed. */
+/* Sets what is not set to the defaults of commands: metrics, resamples, seed. */
 void metric_args_default(struct glint_metric_options *options);
 
-/* The chosen metrics of all pixels with their intervals, and those of each class that has pixels. */
+/* Prints the chosen metrics of all pixels with their intervals, and those of each class that has pixels. */
 void metrics_print(const struct glint_metric_table *table);
-/* {"epsilon", "peak", …, "surfaces": [row…], "classes": [row…]}: rows of the set `surface`, with all pixels first, and those of the
-   other sets. */
+/* {"epsilon", "peak", …, "surfaces": [row…], "classes": [row…]}: the rows of the set `surface`, beginning with all
+   pixels, and the rows of the other sets. */
 json_t *metrics_json(const struct glint_metric_table *table);
 
-/* How often each label of `rows` meets each of `columns`, in per cent of what both label, where `mask` is not 0. */
+/* How often each label of `rows` coincides with each label of `columns`, in per cent of the pixels with both, where `mask` is not 0. */
 void cross_print(const struct glint_classes *rows, const struct glint_classes *columns, const uint64_t *table);
 json_t *cross_json(const struct glint_classes *rows, const struct glint_classes *columns, const uint64_t *table);
 

@@ -1,4 +1,4 @@
-/* "did you mean …?" by edit distance: insertions, removals, changes and swaps of neighbours count one each. */
+/* "did you mean …?" by edit distance: an insertion, removal, substitution or swap of neighbours counts one. */
 #include "options/nearest.h"
 
 #include <ctype.h>
@@ -7,7 +7,7 @@
 
 #define LONGEST 64
 
-static size_t smaller(size_t a, size_t b) {
+static size_t min_distance(size_t a, size_t b) {
     return a < b ? a : b;
 }
 
@@ -21,9 +21,9 @@ static size_t edit_distance(const char *a, const char *b) {
         now[0] = i;
         for (size_t j = 1; j <= nb; j++) {
             int ca = tolower((unsigned char)a[i - 1]), cb = tolower((unsigned char)b[j - 1]);
-            now[j] = smaller(smaller(now[j - 1], above[j]) + 1, above[j - 1] + (ca != cb));
+            now[j] = min_distance(min_distance(now[j - 1], above[j]) + 1, above[j - 1] + (ca != cb));
             if (i > 1 && j > 1 && ca == tolower((unsigned char)b[j - 2]) && cb == tolower((unsigned char)a[i - 2]))
-                now[j] = smaller(now[j], above2[j - 2] + 1);
+                now[j] = min_distance(now[j], above2[j - 2] + 1);
         }
     }
     return row[na % 3][nb];
@@ -36,8 +36,8 @@ struct nearest nearest_to(const char *wanted) {
 void nearest_offer(struct nearest *nearest, const char *candidate) {
     if (!candidate || !*candidate) return;
     size_t distance = edit_distance(nearest->wanted, candidate);
-    /* A beginning or a part of the name is a likely shorthand. */
-    if (strlen(nearest->wanted) >= 3 && strstr(candidate, nearest->wanted)) distance = smaller(distance, 1);
+    /* A prefix or substring is a likely abbreviation. */
+    if (strlen(nearest->wanted) >= 3 && strstr(candidate, nearest->wanted)) distance = min_distance(distance, 1);
     if (distance >= nearest->distance) return;
     nearest->best = candidate;
     nearest->distance = distance;

@@ -1,4 +1,4 @@
-/* "did you mean …?": the known name that is nearest to one that is not known. */
+/* "did you mean …?": finds the known name that is nearest to an unknown one. */
 #ifndef GLINT_VIEWER_NEAREST_H
 #define GLINT_VIEWER_NEAREST_H
 
@@ -15,9 +15,9 @@ struct nearest {
 };
 
 struct nearest nearest_to(const char *wanted);
-/* The candidate must live as long as the answer is used. NULL is ignored. */
+/* The candidate must outlive `nearest`. NULL is ignored. */
 void nearest_offer(struct nearest *nearest, const char *candidate);
-/* " (did you mean street?)", or "" when nothing is near. */
+/* " (did you mean street?)", or "" if no name is near. */
 const char *nearest_text(struct nearest *nearest);
 
 #ifdef __cplusplus

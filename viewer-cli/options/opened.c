@@ -1,4 +1,4 @@
-/* What a command works with that is about one capture. */
+/* The objects of commands that work on one capture. */
 #include "options/opened.h"
 
 bool opened_init(struct opened *opened, const struct pipeline_args *args, const char *capture,

@@ -1,4 +1,4 @@
-/* What a command works with that is about one capture: the capture itself, a pipeline, a device, and a replay on it. */
+/* The objects of commands that work on one capture: the capture, a pipeline, a device, and a replay on it. */
 #ifndef GLINT_VIEWER_OPENED_H
 #define GLINT_VIEWER_OPENED_H
 
@@ -13,7 +13,7 @@ struct opened {
     struct glint_replay *replay;
 };
 
-/* capture: "-" is stdin. A pipeline that is there already stays. Finish it after a failure, too. */
+/* "-" as capture is stdin. A pipeline that is set is kept. Finish it even if this fails. */
 bool opened_init(struct opened *opened, const struct pipeline_args *args, const char *capture, struct glint_error *err);
 void opened_finish(struct opened *opened);
 

@@ -1,4 +1,4 @@
-/* What the pass table declares, in words; and checks of names that users type. */
+/* Formats the declarations of passes, and checks names that users type. */
 #include "options/pass_names.h"
 
 #include <math.h>
@@ -66,8 +66,9 @@ const char *value_text(const struct glint_row *row, double value) {
     if (row->type == GLINT_VALUE_BOOL && row_is_parameter(row)) return value != 0 ? "on" : "off";
     char *text = buffers[turn++ % 8];
     if (isinf(value)) snprintf(text, 32, value > 0 ? "∞" : "−∞");
-    else if (value == trunc(value) && fabs(value) < 1e15) snprintf(text, 32, "%.0f", value); /* never 4.294967e+09 */
-    else snprintf(text, 32, "%.7g", value); /* the digits of a float, without its rounding */
+    else if (value == trunc(value) && fabs(value) < 1e15)
+        snprintf(text, 32, "%.0f", value);  /* integers never in exponential notation */
+    else snprintf(text, 32, "%.7g", value); /* seven digits hide the rounding of floats */
     return text;
 }
 
@@ -140,7 +141,7 @@ bool check_set(const char *assignment, struct glint_error *err) {
         !split_assignment(assignment, '.', example, &slot, err))
         return false;
     if (slot >= all) return glint_fail(err, GLINT_ERROR_USAGE, "%s: expected %s", assignment, example);
-    /* The pipeline itself is not a pass; the library knows its parameters. */
+    /* "pipeline" is not a pass; the library checks its parameters. */
     if (name_is("pipeline", assignment, slot)) return true;
     if (!check_slot(assignment, slot, err)) return false;
     const struct glint_pass *passes = glint_passes(&count);

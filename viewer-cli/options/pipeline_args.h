@@ -1,4 +1,4 @@
-/* The options of commands that run pipelines: which one, which part of it, on which device. */
+/* The options of commands that run pipelines: the pipeline, which part of it runs, and the device. */
 #ifndef GLINT_VIEWER_PIPELINE_ARGS_H
 #define GLINT_VIEWER_PIPELINE_ARGS_H
 
@@ -7,10 +7,10 @@
 
 struct pipeline_args {
     const char *preset; /* NULL: mafia3 */
-    const char *device; /* NULL: the usual one */
+    const char *device; /* NULL: the preferred one */
     struct list use, set, shader;
     struct list passes, outputs, skip, force;
-    struct glint_replay_options replay; /* its lists are filled by pipeline_args_options */
+    struct glint_replay_options replay; /* pipeline_args_options fills its lists */
 };
 
 enum {
@@ -33,7 +33,7 @@ enum {
     {"use",     KEY_USE,     "SLOT=VARIANT",   0, "Use this variant of a slot; the variant none removes the slot", 0}
 #define ALL_OPTION \
     {"all",     KEY_ALL,     NULL,             0, "Run every pass on every pixel, without the survey, the plan and lists of tiles. The image is the same, bit for bit", 0}
-/* A pipeline, and what it is for the command. */
+/* The pipeline, and its role in the command. */
 #define WHOLE_PIPELINE_OPTIONS(what) \
     {"preset",  'p',         "NAME|FILE",      0, what ": a preset's name or a JSON file (default mafia3)", 0}, \
     USE_OPTION, \
@@ -42,7 +42,7 @@ enum {
     ALL_OPTION, DEVICE_OPTION
 #define SKIP_OPTION \
     {"skip",    KEY_SKIP,    "SLOT,...",       0, "Never run these passes; passes that read their images get fallback values instead, so the image changes", 0}
-/* And which part of it. */
+/* Also which part of it runs. */
 #define PIPELINE_OPTIONS \
     WHOLE_PIPELINE_OPTIONS("The pipeline"), \
     {"passes",  KEY_PASSES,  "SLOT,...",       0, "Run only these passes; images that they read from other passes come from --inputs", 0}, \
@@ -53,14 +53,14 @@ enum {
     {"force",   KEY_FORCE,   "SLOT,...",       0, "Run these passes even if the plan finds that they are not needed", 0}
 /* clang-format on */
 
-/* Reads one of these; ARGP_ERR_UNKNOWN for any other key. */
+/* Parses one of these; ARGP_ERR_UNKNOWN for any other key. */
 error_t pipeline_args_parse(int key, char *arg, struct argp_state *state, struct pipeline_args *args);
 void pipeline_args_finish(struct pipeline_args *args);
-/* The pipeline that the arguments ask for; unknown names are errors that name the nearest known one. */
+/* Creates the pipeline of the arguments. Unknown names are errors with the nearest known name. */
 struct glint_pipeline *pipeline_args_create(const struct pipeline_args *args, struct glint_error *err);
-/* Its --use, --set and --shader on another pipeline. */
+/* Applies --use, --set and --shader to another pipeline. */
 bool pipeline_args_apply(const struct pipeline_args *args, struct glint_pipeline *pipeline, struct glint_error *err);
-/* Switches fog off, which the truth lacks. */
+/* Switches fog off, which the truth does not contain. */
 bool pipeline_fog_off(struct glint_pipeline *pipeline, struct glint_error *err);
 struct glint_device *pipeline_args_device(const struct pipeline_args *args, struct glint_error *err);
 struct glint_replay_options pipeline_args_options(const struct pipeline_args *args);

@@ -1,4 +1,4 @@
-/* The errors of runs against truth and reference, stored in their folders and shown in reports. */
+/* The errors of runs against truth and reference, stored in run folders and shown in reports. */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -92,7 +92,7 @@ static void add_table(const struct report *r, json_t *const *errors, const char 
     free(rows);
 }
 
-/* What charts show of a row: its error, with the interval. */
+/* The error of a row with its interval, as a point of a chart. */
 static json_t *error_point(const json_t *row, const char *key, size_t place) {
     json_t *point = json_pack("{s:O?, s:I}", "x", json_object_get(row, key), "y", (json_int_t)place);
     const json_t *interval = report_interval(row, key);
@@ -101,7 +101,7 @@ static json_t *error_point(const json_t *row, const char *key, size_t place) {
     return point;
 }
 
-/* Rows of one run as points of lying bars, categories by the rows' `name`. */
+/* Rows of one run as points of horizontal bars; their categories are the rows' `name`. */
 static json_t *error_points(const json_t *rows, const char *name, const char *key, const json_t *categories) {
     json_t *points = json_array(), *row, *category;
     size_t i, k;
@@ -111,7 +111,7 @@ static json_t *error_points(const json_t *rows, const char *name, const char *ke
     return points;
 }
 
-/* One of the `parts`, of one run; nothing when it has no points. */
+/* Adds the points of one run and part as a series, unless there are none. */
 static void add_series(const struct report *r, size_t run, const char *what, json_t *points, json_t *series) {
     const char *label = r->count > 1 ? r->labels[run] : "", *between = label[0] && what[0] ? ": " : "";
     if (json_array_size(points))
@@ -120,7 +120,7 @@ static void add_series(const struct report *r, size_t run, const char *what, jso
     json_decref(points);
 }
 
-/* Bars of `categories`, which it takes, as are the series. */
+/* Adds a bar chart. Takes ownership of `categories` and the series. */
 static void add_chart(json_t *blocks, const char *title, const char *name, const char *unit, json_t *categories,
                       json_t *series) {
     size_t height = 120 + json_array_size(categories) * (10 + 13 * json_array_size(series));
@@ -139,7 +139,7 @@ static void add_surfaces(const struct report *r, json_t *const *errors, json_t *
     add_chart(blocks, "Error without the noise of truth and reference", "RMSE", "radiance", categories, series);
 }
 
-/* Adds to `categories` what `rows` lack in them, and to each row its category: "hit: sky", as sets share names. */
+/* Adds missing categories to `categories`, and to each row its category: "hit: sky", as several sets use the same names. */
 static void name_classes(const json_t *rows, json_t *categories) {
     json_t *row, *known;
     size_t i, n;
@@ -152,7 +152,7 @@ static void name_classes(const json_t *rows, json_t *categories) {
     }
 }
 
-/* Classes of pixels, of the first part that has them. */
+/* Classes of pixels of the first part that has them. */
 static void add_classes(const struct report *r, json_t *const *errors, json_t *blocks) {
     const char *part = NULL;
     for (size_t p = sizeof parts / sizeof *parts; p-- > 0;)

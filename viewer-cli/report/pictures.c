@@ -7,7 +7,7 @@
 #include "report/report.h"
 #include "draw/view/sheet.h"
 
-/* The meaning of an image, from run.json. */
+/* The declared meaning of an image, from run.json. */
 static const char *meaning_of(const json_t *run, const char *image) {
     size_t i, k;
     json_t *pass, *entry;
@@ -27,8 +27,8 @@ static bool add_picture(const struct report *r, size_t run, json_t *pictures, co
     return true;
 }
 
-/* Images of the frame's size or half of it, without coarser levels, tables and cube maps. NULL-terminated, to be freed;
-   the names are the run's. */
+/* The names of images of full or half size, without coarser levels, tables and cube maps. NULL-terminated; the caller
+   frees the list, the run owns the names. */
 static const char **screen_images(const struct glint_run *run, const json_t *json) {
     const json_t *full = report_find(json, "resolution.full"), *half = report_find(json, "resolution.half");
     size_t count = glint_run_image_count(run), kept = 0;
@@ -44,7 +44,7 @@ static const char **screen_images(const struct glint_run *run, const json_t *jso
     return names;
 }
 
-/* The last colour image of each run, as large as it is up to a limit. */
+/* The final image of each run, at full size up to a limit. */
 static bool add_finished(const struct report *r, size_t share, struct glint_error *err) {
     enum { WIDEST_PX = 1280 };
     json_t *blocks = page_section(r->document, r->count > 1 ? "Pictures" : "Picture"), *pictures = json_array();
@@ -71,7 +71,7 @@ static bool add_finished(const struct report *r, size_t share, struct glint_erro
     return ok;
 }
 
-/* All images; images with the same name are side by side and share a range. */
+/* All images; those of the same name are shown side by side with one range of values. */
 static bool add_images(const struct report *r, const char *const *images, size_t share, struct glint_error *err) {
     const struct render_options options = {0};
     struct sheet sheet;
@@ -94,7 +94,7 @@ bool report_pictures(const struct report *r, const char *const *images, struct g
     const char *const *shown = images ? images : names;
     size_t count = 0;
     while (shown && shown[count]) count++;
-    size_t share = PAGE_PICTURE_BYTES / ((count + 4) * r->count); /* the finished ones may take four times as much */
+    size_t share = PAGE_PICTURE_BYTES / ((count + 4) * r->count); /* final images get four times the share */
     bool ok = first && shown ? add_finished(r, 4 * share, err) && (count == 0 || add_images(r, shown, share, err))
                              : first && glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     free(names);

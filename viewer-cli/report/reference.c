@@ -1,4 +1,4 @@
-/* The noise and the assumptions of reference runs. */
+/* Noise of reference runs, and their dependence on assumptions. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -22,8 +22,8 @@ static const struct report_column change_columns[] = {
     {0},
 };
 
-/* The change that a parameter causes on all surfaces, as the member "all" of its row. */
-static void lift_changes(const json_t *rows) {
+/* Copies the change that a parameter causes on all surfaces to the member "all" of its row. */
+static void copy_changes(const json_t *rows) {
     size_t i;
     json_t *row;
     json_array_foreach(rows, i, row) {
@@ -55,7 +55,7 @@ void report_reference(const struct report *r) {
         any = any || reference;
         noise[k] = json_object_get(reference, "noise");
         changes[k] = report_find(reference, "sensitivity.rows");
-        lift_changes(changes[k]);
+        copy_changes(changes[k]);
     }
     if (any) {
         json_t *blocks = page_section(r->document, "Reference");

@@ -1,4 +1,4 @@
-/* Run folders as a document: pictures, times, the plan, parameters, the device. */
+/* Describes run folders: pictures, times, plan, parameters, device. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,8 +9,8 @@
 
 /* ---- Reading ---- */
 
-/* The slots of all runs, in the order in which they are met, as an object's keys. */
-static json_t *all_slots(const struct report *r) {
+/* The slots of all runs in the order of their first appearance, as keys of an object. */
+static json_t *collect_slots(const struct report *r) {
     json_t *slots = json_object(), *pass;
     size_t k;
     for (size_t i = 0; i < r->count; i++)
@@ -19,7 +19,7 @@ static json_t *all_slots(const struct report *r) {
     return slots;
 }
 
-/* The last part of a path; the whole where two would be the same. */
+/* Labels runs by the last component of their path, or by the whole path where labels would be equal. */
 static void label_runs(struct report *r) {
     for (size_t i = 0; i < r->count; i++) {
         const char *path = r->folders[i];
@@ -51,7 +51,7 @@ static bool read_runs(struct report *r, struct glint_error *err) {
 
 /* ---- Facts ---- */
 
-/* Facts from run.json: "a.b" is the member b of a. */
+/* Facts from run.json; "a.b" is the member b of a. */
 static const struct fact {
     const char *name, *key, *unit;
 } facts[] = {
@@ -70,7 +70,7 @@ static const struct fact {
     {"warnings", "warnings", ""},
 };
 
-/* "960 × 540" of [960, 540], texts of a list beside each other. */
+/* "960 × 540" for [960, 540]; lists of texts are joined. */
 static json_t *fact_json(const json_t *run, const struct fact *fact) {
     const json_t *value = report_find(run, fact->key);
     char text[512] = "";
@@ -132,7 +132,7 @@ static void add_plan(const struct report *r) {
     }
 }
 
-/* A row, unless it is only for values that differ. */
+/* Adds a row, unless only differing values are requested and these are equal. */
 static void add_values(json_t *table, const char *slot, const char *name, json_t *const *values, size_t count,
                        bool differing) {
     bool differs = false;
@@ -145,7 +145,7 @@ static void add_values(json_t *table, const char *slot, const char *name, json_t
     else json_decref(row);
 }
 
-/* Those of one slot, of all runs, each once. Differing are a slot's variants, and parameters that each run has. */
+/* Adds the parameters of a slot of all runs, each once. Only the variant of a slot and parameters of all runs can differ. */
 static void add_slot(const struct report *r, json_t *table, const char *slot, json_t **values, bool differing) {
     json_t *names = json_object(), *value;
     const char *name;
@@ -181,7 +181,7 @@ json_t *report_runs(const char *const *folders, size_t count, const char *const 
     struct report r = {.folders = folders, .count = count};
     bool ok = read_runs(&r, err);
     if (ok) {
-        r.slots = all_slots(&r);
+        r.slots = collect_slots(&r);
         char title[256];
         if (count == 1) snprintf(title, sizeof title, "%.100s, %.100s", r.labels[0], report_text(r.runs[0], "preset"));
         else

@@ -1,4 +1,4 @@
-/* The time of each pass of runs in a report. */
+/* The times of the passes of runs in a report. */
 #include <stdio.h>
 #include <string.h>
 
@@ -9,14 +9,14 @@ static double pass_ms(const json_t *pass, const char *key) {
     return json_number_value(json_object_get(json_object_get(pass, "time_ns"), key)) / 1e6;
 }
 
-/* A run's pass, when it was timed and is paid for like this; else NULL. */
-static const json_t *timed(const json_t *run, const char *slot, bool cached_work) {
+/* The pass of a run if it was timed in this category of work; else NULL. */
+static const json_t *find_timed_pass(const json_t *run, const char *slot, bool cached_work) {
     const json_t *pass = report_pass(run, slot);
     bool same = json_is_true(json_object_get(pass, "cached_work")) == cached_work;
     return report_ran(pass) && same && json_is_object(json_object_get(pass, "time_ns")) ? pass : NULL;
 }
 
-/* With the fastest and the slowest round, if there were several. */
+/* The time, with those of the fastest and slowest round if there were several. */
 static json_t *time_cell(const json_t *pass) {
     if (!pass) return json_null();
     bool several = json_integer_value(json_object_get(json_object_get(pass, "time_ns"), "n")) > 1;
@@ -39,7 +39,7 @@ static json_t *time_series(const struct report *r, size_t run, const json_t *slo
     json_t *points = json_array(), *slot;
     size_t i;
     json_array_foreach(slots, i, slot) {
-        const json_t *pass = timed(r->runs[run], json_string_value(slot), cached_work);
+        const json_t *pass = find_timed_pass(r->runs[run], json_string_value(slot), cached_work);
         if (pass) json_array_append_new(points, time_point(pass, i));
     }
     return json_pack("{s:s, s:s, s:o}", "name", r->labels[run], "kind", "bar", "points", points);
@@ -53,12 +53,12 @@ static void add_table(const struct report *r, json_t *blocks, const json_t *slot
     json_array_foreach(slots, i, slot) {
         json_t *row = json_pack("[O]", slot);
         for (size_t k = 0; k < r->count; k++)
-            json_array_append_new(row, time_cell(timed(r->runs[k], json_string_value(slot), cached_work)));
+            json_array_append_new(row, time_cell(find_timed_pass(r->runs[k], json_string_value(slot), cached_work)));
         page_row(table, row);
     }
 }
 
-/* "Each frame: 12.3 ms": the passes together, of each run. */
+/* "Each frame: 12.3 ms": the sum over all passes of each run. */
 static void add_sums(const struct report *r, json_t *blocks, const json_t *slots, bool cached_work) {
     char text[2048];
     size_t used = (size_t)snprintf(text, sizeof text, "%s", cached_work ? "When a cube map changes: " : "Each frame: ");
@@ -67,7 +67,7 @@ static void add_sums(const struct report *r, json_t *blocks, const json_t *slots
         size_t i;
         json_t *slot;
         json_array_foreach(slots, i, slot) {
-            const json_t *pass = timed(r->runs[k], json_string_value(slot), cached_work);
+            const json_t *pass = find_timed_pass(r->runs[k], json_string_value(slot), cached_work);
             if (pass) sum += pass_ms(pass, "median");
         }
         const char *label = r->count > 1 ? r->labels[k] : "";
@@ -83,7 +83,7 @@ static void add_work(const struct report *r, json_t *blocks, bool cached_work) {
     const char *slot;
     json_object_foreach(r->slots, slot, value) {
         bool any = false;
-        for (size_t i = 0; i < r->count; i++) any = any || timed(r->runs[i], slot, cached_work);
+        for (size_t i = 0; i < r->count; i++) any = any || find_timed_pass(r->runs[i], slot, cached_work);
         if (any) json_array_append_new(slots, json_string(slot));
     }
     if (json_array_size(slots)) {
@@ -99,7 +99,7 @@ static void add_work(const struct report *r, json_t *blocks, bool cached_work) {
     json_decref(series);
 }
 
-/* Notes about the times of CPU devices, one for each device. */
+/* Adds notes about times of CPU devices, one for each device. */
 static void add_warnings(const struct report *r, json_t *blocks) {
     for (size_t i = 0; i < r->count; i++) {
         const json_t *device = json_object_get(r->runs[i], "device");

@@ -1,4 +1,4 @@
-/* Files whose change is waited for: looked at ten times a second, so that it works on every file system and with editors that
+/* Waits for changes of files by polling ten times a second, which works on every file system and with editors that
    write a new file and rename it. */
 #include <dirent.h>
 #include <stdio.h>
@@ -22,7 +22,7 @@ static bool append(char ***list, size_t *count, char *text, struct glint_error *
     return true;
 }
 
-/* A path's folder, malloc'd. */
+/* The folder of a path, malloc'd. */
 static char *folder_of(const char *path) {
     const char *slash = strrchr(path, '/');
     return slash ? strndup(path, (size_t)(slash - path + 1)) : strdup("./");
@@ -48,7 +48,7 @@ static bool add_folders_below(struct watch_files *files, const char *folder, str
 
 /* ---- State of the files ---- */
 
-/* Cheap attributes by which a changed file is noticed. */
+/* Hashes attributes that change with the contents and are cheap to read. */
 static void add_file(XXH64_state_t *hash, const char *path) {
     struct stat info;
     XXH64_update(hash, path, strlen(path));
@@ -121,7 +121,7 @@ bool watch_files_wait(struct watch_files *files) {
     for (uint64_t before = known; !progress_interrupted();) {
         const uint64_t now = state_of(files);
         files->state = now;
-        if (now != known && now == before) return true; /* completely written */
+        if (now != known && now == before) return true; /* unchanged since the last poll, so completely written */
         before = now;
         nanosleep(&tenth, NULL);
     }

@@ -1,4 +1,4 @@
-/* Replays the versions of a watched preset or shader. */
+/* Replays each version of a watched preset or shader. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,7 +15,7 @@ struct session {
     struct watch_files files;
     struct progress progress;
     char first[4096], page[4096];
-    unsigned number, shown; /* of the newest version, and of the newest that ran; 0: none */
+    unsigned number, shown; /* the newest version, and the newest that ran; 0: none */
 };
 
 /* ---- Reporting a version ---- */
@@ -45,8 +45,8 @@ static void say(const struct session *s, const struct diff *diff) {
     fflush(stdout);
 }
 
-/* The newest version that ran beside the first. `fault`: why a newer one does not, or NULL. Without
-   `refresh` it is the last page, which no Ctrl-C stops. */
+/* Shows the newest version that ran beside the first one. `fault`: why a newer one fails, or NULL. Without `refresh`
+   this is the final page, which Ctrl-C does not interrupt. */
 static bool show_run(struct session *s, const char *fault, bool refresh, struct glint_error *err) {
     const char *const paths[2] = {s->first, s->watch->out};
     struct diff diff = {.options = {.limits = glint_difference_limits(), .heat = true}};
@@ -85,7 +85,7 @@ static bool run_version(struct session *s, struct glint_error *err) {
     return ok;
 }
 
-/* False when the watch cannot continue, or after Ctrl-C; a version that fails only waits for the next change. */
+/* False after Ctrl-C or an error that ends the watch. If a version fails, the watch waits for the next change. */
 static bool next_version(struct session *s, struct glint_error *err) {
     struct glint_error fault = {0};
     s->number++;

@@ -15,19 +15,19 @@ bool is_captured(int level) { return dispatch_phase == 0u || (dispatch_phase > 1
 float captured(ivec3 at) { return texelFetch(cubemap_distance, at, 0).x; }
 float texel_of(ivec3 at, int level) { return is_captured(level) ? captured(at) : texelFetch(faces, at, level).x; }
 
-float farther(float most, float distance_m) { return distance_m < LARGEST ? max(most, distance_m) : most; }
+float farther(float farthest_m, float distance_m) { return distance_m < LARGEST ? max(farthest_m, distance_m) : farthest_m; }
 
 // The farthest of the four texels that meet at a corner.
 float farthest_around(ivec3 corner, int level) {
-    float most = -1.0;
+    float farthest_m = -1.0;
     if (is_captured(level)) {
         vec3 place = vec3(vec2(corner.xy) / float(face_size(cubemap_distance, 0)), corner.z);
         vec4 four = textureGather(sampler2DArray(cubemap_distance, nearest_clamp), place);
-        for (int i = 0; i < 4; ++i) most = farther(most, four[i]);
+        for (int i = 0; i < 4; ++i) farthest_m = farther(farthest_m, four[i]);
     } else {
-        for (int i = 0; i < 4; ++i) most = farther(most, texelFetch(faces, corner - ivec3(i & 1, i >> 1, 0), level).x);
+        for (int i = 0; i < 4; ++i) farthest_m = farther(farthest_m, texelFetch(faces, corner - ivec3(i & 1, i >> 1, 0), level).x);
     }
-    return most;
+    return farthest_m;
 }
 
 // Reduction: the farthest texel that is not sky among 2x2 texels of the finer level, or 3x3 where its size is odd. The finest level, which
@@ -36,23 +36,23 @@ float farthest_child(ivec3 at, int width, int level) {
     if (level == 0) return captured(at);
     int odd = face_size(faces, level - 1) - 2 * width;
     ivec2 first = 2 * at.xy + 1, corner = first;
-    float most = -1.0;
+    float farthest_m = -1.0;
     do {
-        most = max(most, farthest_around(ivec3(corner, at.z), level - 1));
+        farthest_m = max(farthest_m, farthest_around(ivec3(corner, at.z), level - 1));
         corner = corner.x < first.x + odd ? ivec2(corner.x + 1, corner.y) : ivec2(first.x, corner.y + 1);
     } while (corner.y <= first.y + odd);
-    return most < 0.0 ? INFINITE : most;
+    return farthest_m < 0.0 ? INFINITE : farthest_m;
 }
 
 // There is no coarser level to fill the coarsest one from: a face of sky takes the farthest distance of the whole cube map.
 float farthest_of_map(int layer, int level) {
-    float most = -1.0;
+    float farthest_m = -1.0;
     for (int face = 0; face < 6; ++face)
-        most = farther(most, farthest_child(ivec3(0, 0, layer - layer % 6 + face), 1, level));
-    return most < 0.0 ? INFINITE : most;
+        farthest_m = farther(farthest_m, farthest_child(ivec3(0, 0, layer - layer % 6 + face), 1, level));
+    return farthest_m < 0.0 ? INFINITE : farthest_m;
 }
 
-float seen(vec3 v, float cube, int level) {
+float distance_in(vec3 v, float cube, int level) {
     return textureLod(samplerCubeArray(chain, linear_clamp), vec4(v, cube), float(level)).x;
 }
 
@@ -62,7 +62,7 @@ float seen(vec3 v, float cube, int level) {
 // seen; at a pole both samples of a pair lie on the background.
 float weighted_max(vec4 direction, int level) {
     int coarser = level + 1;
-    float pivot = seen(direction.xyz, direction.w, coarser);
+    float pivot = distance_in(direction.xyz, direction.w, coarser);
     if (!(pivot < LARGEST)) return INFINITE;
     vec3 axis = normalize(direction.xyz), tangent, bitangent;
     tangent_frame(axis, tangent, bitangent);
@@ -74,12 +74,12 @@ float weighted_max(vec4 direction, int level) {
             vec2 offset = vec2(x, y) * rim / (float(reach) + 0.5);
             vec3 aside = offset.x * tangent + offset.y * bitangent;
             float length_of_both = sqrt(1.0 + dot(offset, offset)), weight = pow(length_of_both, -power);
-            float one = seen(axis + aside, direction.w, coarser), other = seen(axis - aside, direction.w, coarser);
+            float first = distance_in(axis + aside, direction.w, coarser), second = distance_in(axis - aside, direction.w, coarser);
             if (maximum == maximum_pairs) {
-                float mean = 0.5 * (length_of_both / one + length_of_both / other);
+                float mean = 0.5 * (length_of_both / first + length_of_both / second);
                 depth_m = max(depth_m, 1.0 / mix(1.0 / pivot, mean, weight));
             } else {
-                depth_m = max(depth_m, pivot + (max(one, other) - pivot) * weight);
+                depth_m = max(depth_m, pivot + (max(first, second) - pivot) * weight);
             }
         } while (++x <= wide);
     }
@@ -105,7 +105,7 @@ void cap_level(ivec3 at, int width, int level) {
     if (!caps && level > 0) return;
     float distance_m = caps ? texel_of(at, level) : captured(at);
     if (caps && !(distance_m < LARGEST)) {
-        float cap_m = seen(texel_direction(at.xy, width, at.z).xyz, float(at.z / 6), cocoon_level());
+        float cap_m = distance_in(texel_direction(at.xy, width, at.z).xyz, float(at.z / 6), cocoon_level());
         distance_m = cap_m < LARGEST ? -cap_m : INFINITE;
     } else if (level > 0) {
         return;
@@ -116,7 +116,7 @@ void cap_level(ivec3 at, int width, int level) {
 void keep_cocoon(ivec3 at) {
     if (any(greaterThanEqual(at.xy, ivec2(COCOON_SIZE)))) return;
     vec3 direction = direction_of_sample(at.xy, at.z % 6);
-    float distance_m = seen(direction, float(at.z / 6), cocoon_level());
+    float distance_m = distance_in(direction, float(at.z / 6), cocoon_level());
     imageStore(cocoon, at, vec4(distance_m < LARGEST ? length(direction) / distance_m : 0.0)); // filtering may have made +inf NaN
 }
 

@@ -9,8 +9,8 @@
 #include "shared/levels.glsl"
 #include "shared/paraboloid.glsl"
 
-// The solid angle of a texel at a point of the plane.
-vec4 seen(vec2 place, float width, int layer) {
+// The mean colour of the cube map over a texel at a point of the plane.
+vec4 mean_over_texel(vec2 place, float width, int layer) {
     vec4 sum = vec4(0.0);
     float total = 0.0;
     for (int i = 0; i < taps * taps; ++i) {
@@ -49,6 +49,6 @@ void main() {
     vec2 place = paraboloid_place(vec2(at.xy) + 0.5, float(size), widest);
     vec4 color = vec4(0.0);
     if (level > 0) color = coarser(at, size, level, widest);
-    else if (fill || dot(place, place) <= 1.0) color = seen(place, 2.0 / float(size) * paraboloid_reach(widest), at.z);
+    else if (fill || dot(place, place) <= 1.0) color = mean_over_texel(place, 2.0 / float(size) * paraboloid_reach(widest), at.z);
     imageStore(paraboloids, at, color);
 }

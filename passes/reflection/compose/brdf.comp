@@ -26,7 +26,7 @@ vec3 weight_of(ivec2 pixel, float depth_m, vec4 surface) {
     return environment_reflectance(f0, roughness, cosine, rise);
 }
 
-// The last of the reflection images that the pipeline makes.
+// The last reflection image that the pipeline writes.
 vec3 reflected_color(ivec2 pixel) {
     if (has_reflection_stable) return texelFetch(reflection_stable, pixel, 0).rgb;
     if (has_reflection_sharp) return texelFetch(reflection_sharp, pixel, 0).rgb;

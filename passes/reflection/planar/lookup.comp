@@ -20,7 +20,7 @@ vec3 mirror_ray(vec3 towards, vec3 normal, vec3 up) {
 
 // A perturbed ray deviates from the one that the map was rendered for. It is assumed to end at about the depth that the map shows, and is
 // sampled where the mirrored camera sees that end.
-vec4 seen(vec3 position, vec3 ray) {
+vec4 color_at_end(vec3 position, vec3 ray) {
     vec4 start = frame.mirror_uv_from_world * vec4(position, 1.0), along = frame.mirror_uv_from_world * vec4(ray, 0.0), end = start;
     for (int i = 0; i <= refinements && near; ++i) {
         if (!(end.w > 0.0)) return vec4(0.0);
@@ -49,7 +49,7 @@ void main() {
         vec2 uv = (vec2(pixel) + 0.5) / vec2(frame.size.xy);
         vec3 position = mat3(frame.world_from_view) * view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
         vec3 up = frame.mirror_plane.w < 0.0 ? -frame.mirror_plane.xyz : frame.mirror_plane.xyz; // towards the side of the camera
-        color = seen(position, mirror_ray(normalize(position), perturb ? normalize(normal) : up, up));
+        color = color_at_end(position, mirror_ray(normalize(position), perturb ? normalize(normal) : up, up));
     }
     imageStore(planar_reflection, pixel, color);
 }

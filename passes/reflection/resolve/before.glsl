@@ -5,7 +5,7 @@ const uint SHOWN = 1u, OUTSIDE = 2u, HIDDEN = 3u;
 
 bool of_frame(texture2D image) { return textureSize(image, 0) == ivec2(frame.size.xy); }
 
-// The position of the ray's end in the previous frame, and its depth; +inf for the sky. Depth 0: behind the camera.
+// The position of the ray's end in the previous frame, and its depth; +inf for the sky, 0 behind the camera.
 vec3 place_before(Ray ray) {
     vec3 now = mat3(frame.view_from_world) * ray.end;
     float front = frame.depth_range.w;
@@ -38,7 +38,7 @@ vec3 picture_before(vec3 place) {
                                : textureLod(sampler2D(previous_scene, linear_clamp), place.xy, 0.0).rgb
                  : parts ? joint_texels(previous_lit, previous_depth, place.xy, place.z, hidden_depth).rgb
                          : textureLod(sampler2D(previous_lit, linear_clamp), place.xy, 0.0).rgb;
-    return told_picture(scene ? IMAGE_previous_scene : IMAGE_previous_lit, place.xy, 0.0, color);
+    return record_picture(scene ? IMAGE_previous_scene : IMAGE_previous_lit, place.xy, 0.0, color);
 }
 
 uint source_of(vec3 place) {
@@ -48,7 +48,7 @@ uint source_of(vec3 place) {
     return shows(place.xy, place.z) ? SHOWN : HIDDEN;
 }
 
-// A hit that is not visible in the previous frame. Its position is known, so that it can be sampled from a cube map.
+// The colour of a hit that was not visible in the previous frame, sampled from a cube map by its position.
 vec4 not_shown(Ray ray) {
     if (hidden == hidden_black) return vec4(0.0);
     if (ray.endless) return vec4(sky_color(ray), 1.0);

@@ -1,5 +1,5 @@
-// Colour at the end of a ray (Mafia III talk, Color resolve shaders), as wide as the cone that the ray stands for. Next include of a
-// pass with the rows of sources.h, which calls load_active_centers().
+// Colour at the end of a ray (Mafia III talk, Color resolve shaders), filtered over the ray's cone. Next include of a pass with the rows of
+// sources.h, which calls load_active_centers().
 #include "shared/active.glsl"
 #include "shared/camera.glsl"
 #include "shared/cone.glsl"
@@ -8,9 +8,9 @@
 #include "shared/paraboloid.glsl"
 #include "shared/probe/record.glsl"
 
-const float LEAST_SHARE = 1.0 / 64.0; // a level with a smaller fraction of the wanted kind is mostly rounding error
+const float MIN_SHARE = 1.0 / 64.0; // a level with a smaller fraction of sky, or of surfaces, is mostly rounding error
 
-// A ray that has ended. `end`: camera-relative world, a unit direction when the ray went on for ever.
+// A traced ray. `end`: camera-relative world; a unit direction if the ray does not end.
 struct Ray {
     vec3 position, direction, end;
     float travelled_m, cone;
@@ -31,17 +31,17 @@ Ray ended_ray(vec3 position, vec3 normal, float travelled_m, float cone) {
 void probe_color(uint image, uint place, vec2 uv, float level, vec4 color) {
     probe(PROBE_color, vec4(image, place, uv * vec2(frame.size.xy)), vec4(level, color.rgb), vec4(color.a));
 }
-vec3 told_sky(uint image, float level, vec3 color) {
+vec3 record_sky(uint image, float level, vec3 color) {
     probe_color(image, ACTIVE_MOST, vec2(0.0), level, vec4(color, 1.0));
     return color;
 }
-vec3 told_picture(uint image, vec2 uv, float level, vec3 color) {
+vec3 record_picture(uint image, vec2 uv, float level, vec3 color) {
     probe_color(image, ACTIVE_MOST, uv, level, vec4(color, 1.0));
     return color;
 }
-// alone: what is no sky of a texel, by itself.
-vec4 told_cubemap(uint image, vec4 at, float level, vec4 color, bool alone) {
-    if (alone) color = vec4(color.rgb / max(color.a, LEAST_SHARE), 1.0);
+// alone: divides by the fraction of surfaces, without the sky.
+vec4 record_cubemap(uint image, vec4 at, float level, vec4 color, bool alone) {
+    if (alone) color = vec4(color.rgb / max(color.a, MIN_SHARE), 1.0);
     probe_color(image, uint(at.w), vec2(0.0), level, color);
     return color;
 }
@@ -50,13 +50,13 @@ vec3 sky_color(Ray ray) {
     if (!fact_sky_seen) return vec3(0.0);
     if (ray.cone > 0.0 && cone_cubemap && has_sky_mips) {
         float level = cone_level_cube(ray.cone, INFINITE, 1.0, float(frame.counts.w), texel_scale);
-        return told_sky(IMAGE_sky_mips, level, cube_levels(sky_mips, ray.direction, level).rgb);
+        return record_sky(IMAGE_sky_mips, level, cube_levels(sky_mips, ray.direction, level).rgb);
     }
-    return told_sky(IMAGE_sky, 0.0, cube_finest(sky, ray.direction).rgb);
+    return record_sky(IMAGE_sky, 0.0, cube_finest(sky, ray.direction).rgb);
 }
 
-// Interpolates those of the four texels around a point whose depth (+inf for sky) is within the tolerance, or takes the nearest one if none is.
-// a: whether one is.
+// Interpolates those of the four texels around a point whose depth (+inf for sky) is within the tolerance. a: 0 if there are none and the
+// nearest in depth is returned.
 vec4 joint_texels(texture2D image, texture2D depths_m, vec2 uv, float depth_m, float tolerance) {
     vec2 place = uv * vec2(frame.size.xy) - 0.5, corner = floor(place), part = place - corner;
     vec4 seen_m = textureGather(sampler2D(depths_m, nearest_clamp), (corner + 1.0) / vec2(frame.size.xy)).wzxy;
@@ -84,13 +84,13 @@ vec3 picture(vec2 uv, ivec2 pixel, Ray ray, float depth_m) {
                                         float(findMSB(max(frame.size.x, frame.size.y))));
         if (level > 0.0 && ray.endless && joint && has_sky_mips && frame.counts.w > 0u) return sky_color(ray);
         vec4 color = level > 0.0 ? textureLod(sampler2D(lit_mips, linear_clamp), uv, level) : vec4(0.0);
-        // A level without sky has no colour for it.
-        if (color.a > (ray.endless ? 1.0 - LEAST_SHARE : LEAST_SHARE)) return told_picture(IMAGE_lit_mips, uv, level, color.rgb / color.a);
+        // A level without sky at this place has no colour for a ray that does not end.
+        if (color.a > (ray.endless ? 1.0 - MIN_SHARE : MIN_SHARE)) return record_picture(IMAGE_lit_mips, uv, level, color.rgb / color.a);
     }
     vec3 color = joint          ? joint_texels(lit, depth_full, uv, ray.endless ? INFINITE : depth_m, depth_tolerance).rgb
                  : filter_color ? textureLod(sampler2D(lit, linear_clamp), uv, 0.0).rgb
                                 : texelFetch(lit, pixel, 0).rgb;
-    return told_picture(IMAGE_lit, uv, 0.0, color);
+    return record_picture(IMAGE_lit, uv, 0.0, color);
 }
 
 vec4 screen_color(Ray ray) {
@@ -115,7 +115,7 @@ vec4 paraboloid_texel(Ray ray, vec4 at, bool alone) {
         level = paraboloid_level(cone_tangent(ray.cone) * spread, d.z, float(frame.counts.z), texel_scale);
     }
     uv.z += 2.0 * at.w;
-    return told_cubemap(IMAGE_paraboloids, at, level, textureLod(sampler2DArray(paraboloids, linear_clamp), uv, level), alone);
+    return record_cubemap(IMAGE_paraboloids, at, level, textureLod(sampler2DArray(paraboloids, linear_clamp), uv, level), alone);
 }
 
 vec4 cubemap_texel(Ray ray, vec4 at, bool alone) {
@@ -123,11 +123,11 @@ vec4 cubemap_texel(Ray ray, vec4 at, bool alone) {
     if (ray.cone > 0.0 && cone_cubemap && has_cubemap_color_mips) {
         float level = cone_level_cube(ray.cone, ray.travelled_m, length(at.xyz), float(frame.counts.z), texel_scale);
         if (level > 0.0)
-            return told_cubemap(IMAGE_cubemap_color_mips, at, level, cube_levels(cubemap_color_mips, at, level), alone);
+            return record_cubemap(IMAGE_cubemap_color_mips, at, level, cube_levels(cubemap_color_mips, at, level), alone);
     }
     vec4 color = filter_color ? cube_finest(cubemap_color, at)
                               : textureLod(samplerCubeArray(cubemap_color, nearest_clamp), at, 0.0);
-    return told_cubemap(IMAGE_cubemap_color, at, 0.0, color, alone);
+    return record_cubemap(IMAGE_cubemap_color, at, 0.0, color, alone);
 }
 
 // Where three faces meet, a sampler's weights of eight bits may sum to 255/256, both in a level and in its lookup, which is not sky. The

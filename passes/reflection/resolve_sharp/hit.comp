@@ -36,13 +36,13 @@ End end_of(ivec2 texel) {
 
 bool hit_on_screen(End end) { return end.finished && end.travelled_m < LARGEST; }
 
-// What the picture shows where a point of the ray lies.
+// The surface that the depth buffer holds at the screen position of a point.
 struct Seen {
-    bool found;             // the point lies in the picture
-    float depth_m, point_m; // of the surface that is shown, +inf for sky, and of the point
+    bool found;             // the point is on screen
+    float depth_m, point_m; // of that surface, +inf for sky, and of the point
     vec3 position, normal;  // of that surface
 };
-Seen seen_at(vec3 point) {
+Seen visible_at(vec3 point) {
     precise vec3 view = mat3(frame.view_from_world) * point;
     Seen seen = Seen(false, INFINITE, view.z * frame.depth_range.z, vec3(0.0), vec3(0.0));
     vec2 uv = project(view, frame.uv_from_view, frame.depth_range.z), size = vec2(frame.size.xy);
@@ -58,16 +58,16 @@ Seen seen_at(vec3 point) {
     return seen;
 }
 
-// Where the pixel's own ray meets a surface near the place where a ray beside it hit one after `first_m`: it is cut with the
-// plane of the surface that is shown there, and again with that of what is shown at the cut, until the end lies on the
-// surface that is shown. 0 when it never does: only what is seen to be hit counts.
+// Intersects the pixel's own ray with the surface near the hit of a neighbouring ray at `first_m`: iteratively with the plane of the
+// surface that is visible at the previous intersection, until the intersection lies on the visible surface. 0 if it never does, since only
+// visible hits count.
 const int PLANES = 3;
-const float ON_SURFACE = 1e-3; // of the depth, twice the rounding of depths and normals in half floats
+const float ON_SURFACE = 1e-3; // relative to depth; twice the rounding of depths and normals in half floats
 float own_hit(vec3 position, vec3 direction, float first_m) {
     precise float travelled_m = first_m;
     for (int i = 0; i < PLANES && travelled_m > 0.0 && travelled_m < LARGEST; ++i) {
         precise vec3 end = position + direction * travelled_m;
-        Seen seen = seen_at(end);
+        Seen seen = visible_at(end);
         float toward = -dot(direction, seen.normal);
         if (!(toward > 0.0)) return 0.0;
         if (in_plane(end - seen.position, seen.normal, seen.depth_m, ON_SURFACE)) return travelled_m;
@@ -76,12 +76,12 @@ float own_hit(vec3 position, vec3 direction, float first_m) {
     return 0.0;
 }
 
-// At the outline of what is reflected, rays of neighbouring texels end on different surfaces, and which of them was chosen says
-// nothing of the pixel's own ray. The chosen ray's hit holds where the own ray has it, too. Otherwise the nearest hit of the four
-// rays around the pixel that the own ray meets takes its place, unless the chosen ray ended off screen before that. When there is
-// none, and the own ray is seen to pass in front of what the chosen one hit, it ends as a ray around that hit nothing on screen.
+// At silhouettes in the reflection, rays of neighbouring texels hit different surfaces, and the chosen texel's ray may differ from the
+// pixel's own. The chosen hit is kept if the own ray confirms it. Otherwise the nearest confirmed hit of the four surrounding texels replaces
+// it, unless the chosen ray ends off screen before that. If there is none, and the own ray visibly passes in front of the surface that the
+// chosen ray hit, it is treated like a surrounding ray without a hit on screen.
 const int AROUND = 4;
-const float APART = 1.005; // hits nearer to each other than that lead to the same surface, and the first of them is tried
+const float APART = 1.005; // ratio of distances below which two hits are of the same surface, so that only the first is tried
 End own_end(ivec2 pixel, ivec2 chosen, vec3 position, vec3 direction) {
     End end = end_of(chosen), past = end;
     if (end.finished && own_hit(position, direction, end.travelled_m) > 0.0) return end;
@@ -104,7 +104,7 @@ End own_end(ivec2 pixel, ivec2 chosen, vec3 position, vec3 direction) {
         tried_m = first_m;
     }
     if (!hit_on_screen(end)) return end;
-    Seen seen = seen_at(position + direction * end.travelled_m);
+    Seen seen = visible_at(position + direction * end.travelled_m);
     return seen.found && seen.point_m < seen.depth_m * (1.0 - ON_SURFACE) ? past : end;
 }
 

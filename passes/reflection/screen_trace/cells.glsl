@@ -3,18 +3,18 @@
 #include "screen_ray.glsl"
 
 struct CellRay {
-    vec2 start, across, per_across; // texels; 1/across, -1e30 for a component that is 0: its edges are never reached
+    vec2 start, across, per_across; // texels; 1/across, -1e30 for a component of 0, whose edges are never reached
     vec2 forward;                   // 1 for a component that grows, else 0
     float inverse, inverse_rate;    // 1/z = inverse + s · inverse_rate
-    float end, texel;               // texel: one of them, along the axis that the ray goes along
-    uint limit;                     // what lies at the end, as an end reason
+    float end, texel;               // texel: the length of s over one texel along the major axis
+    uint limit;                     // the end reason of a ray that reaches the end
 };
 
-// Texels are whole numbers in floats, which hold them exactly: conversions cost as much as a division.
-// Where the ray leaves one, one value an axis, by its far edges.
+// Texel coordinates are integers in floats, which is exact; conversions would cost as much as divisions. The values of s at which the ray
+// leaves a texel through its far edges, by axis.
 vec2 cell_exits(CellRay ray, vec2 cell) { return (cell + ray.forward - ray.start) * ray.per_across; }
 
-// The sample of a texel lies in its middle: other texels of a reduced picture may hold another pixel of their block.
+// A texel's sample is taken to lie at its centre, because other texels of a reduced image may hold another pixel of their block.
 CellRay cell_ray(ScreenRay ray, ivec2 texel) {
     CellRay cells;
     cells.start = vec2(texel) + 0.5;
@@ -23,7 +23,7 @@ CellRay cell_ray(ScreenRay ray, ivec2 texel) {
     cells.forward = vec2(greaterThan(cells.per_across, vec2(0.0)));
     cells.inverse = ray.inverse;
     cells.inverse_rate = ray.inverse_rate;
-    // Half a texel may lie between where the two leave the picture: a ray starts in its texel's middle here.
+    // The ray starts at the centre of its texel here, so it may leave the image half a texel earlier or later.
     vec2 border = cell_exits(cells, cells.forward * (vec2(frame.size.zw) - 1.0));
     float leaves = min(border.x, border.y);
     cells.end = min(ray.end, leaves);
@@ -34,7 +34,7 @@ CellRay cell_ray(ScreenRay ray, ivec2 texel) {
 
 float inverse_at(CellRay ray, float s) { return fma(s, ray.inverse_rate, ray.inverse); }
 
-// Where it came in, by the near edges.
+// The value of s at which the ray enters a texel through its near edges.
 float cell_entry(CellRay ray, vec2 cell) {
     vec2 entries = (cell + 1.0 - ray.forward - ray.start) * ray.per_across;
     return max(max(entries.x, entries.y), 0.0);
@@ -56,7 +56,7 @@ Crossing cross(CellRay ray, vec2 cell, float s_in, float s_out, float unseen, fl
     float at_start = ray.inverse - inverse - from.x - from.y, rise = ray.inverse_rate - rate.x - rate.y;
     float gap_in = at_start + s_in * rise, gap_out = at_start + s_out * rise;
     if (gap_out >= -bias * inverse) return Crossing(CELL_FRONT, s_out);
-    // Behind by d: a part thickness of the surface's depth, as 1/z - 1/(z + d) has it.
+    // Thickness relative to the surface's depth: 1/z - 1/(z + d) in inverse depths.
     float depth = thickness + thickness_m * inverse;
     float tolerance = inverse * depth / (1.0 + depth), reach = -unseen * rise;
     if (thickness_m < EVERYTHING_M && (gap_in < -tolerance - reach || rise >= 0.0)) return Crossing(CELL_BEHIND, s_in);
@@ -65,7 +65,7 @@ Crossing cross(CellRay ray, vec2 cell, float s_in, float s_out, float unseen, fl
     return Crossing(sure ? CELL_HIT : CELL_SEAM, max(s, 0.0));
 }
 
-// The texel that the ray comes from.
+// The texel before this one along the ray.
 vec2 cell_before(CellRay ray, vec2 cell) {
     vec2 entries = (cell + 1.0 - ray.forward - ray.start) * ray.per_across;
     return cell - (2.0 * ray.forward - 1.0) * (entries.x > entries.y ? vec2(1.0, 0.0) : vec2(0.0, 1.0));
@@ -75,7 +75,7 @@ float facet_inverse(CellRay ray, vec2 cell, float s, float inverse, vec2 slopes)
     return (1.0 + dot(slopes, ray.start + s * ray.across - cell - 0.5)) * inverse;
 }
 
-// Whether two texels' surfaces meet at the border that a ray crosses at s: both are near the ray there.
+// Whether the surfaces of two texels are continuous at the border that the ray crosses at s: both must be near the ray there.
 bool joined(CellRay ray, float s, vec2 cell, float inverse, vec2 slopes, vec2 before, float before_inverse,
                     vec2 before_slopes) {
     float here = inverse_at(ray, s);

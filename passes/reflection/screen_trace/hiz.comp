@@ -11,8 +11,8 @@
 // The coarsest level that rays go up to: the first whose smaller side is under 8 texels.
 int coarsest_level() { return max(findMSB(min(frame.size.z, frame.size.w)) - 2, 0); }
 
-// Whether the ray is behind every texel of a cell, and by so much that none can be hit: then the whole cell is
-// skipped. farthest, highest: inverse depths of the cell and of the ray within it.
+// Whether the ray is behind every texel of a cell by too much for a hit, so that the whole cell can be skipped. farthest, highest:
+// inverse depths of the cell and of the ray within it.
 bool passes_behind(inout Hidden hidden, CellRay ray, float s_in, float s_out, float farthest, float highest) {
     if (!pass_behind || highest * fma(thickness_m, farthest, 1.0 + thickness) >= 0.999999 * farthest) return false;
     Hidden ahead = hidden;
@@ -64,8 +64,8 @@ void probe_cell(ScreenRay ray, float s, float s_out, ivec2 cell, int level, vec2
 // numbered in the direction of the ray: with mirrored numbers -1 - x the cells stay the same, and texels ahead have larger numbers. A cell is
 // identified by its last texel.
 struct Walk {
-    vec2 start, across, per_across; // turned
-    ivec2 turn, last;               // turn: all bits of an axis, or none; last: turned
+    vec2 start, across, per_across; // mirrored
+    ivec2 turn, last;               // turn: all bits for a mirrored axis, else none; last: mirrored
     int level, width;               // of the cell; in texels
 };
 
@@ -126,7 +126,7 @@ Result march(ScreenRay ray, ivec2 texel) {
         result.steps++;
         result.fetches++;
         uint what = min(u_in, u_out) > range.x ? IN_FRONT : PASSED;
-        float highest = max(u_in - 0.5 * path.texel * path.inverse_rate, u_out); // a seam's reach before the cell
+        float highest = max(u_in - 0.5 * path.texel * path.inverse_rate, u_out); // a seam may connect to the texel before the cell
         if (what == PASSED && !passes_behind(hidden, path, s, s_out, range.y, highest)) {
             if (walk.level > 0) {
                 probe_cell(ray, s, s_out, cell, walk.level, range, DECISION_finer);

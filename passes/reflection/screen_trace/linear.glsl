@@ -3,7 +3,7 @@
 
 // Half-resolution texels. Texel `from` holds the pixel where the ray starts; other texels are assumed to hold the same pixel of their blocks.
 struct Grid {
-    vec2 from, across; // the ray's place in texels is from + s · across
+    vec2 from, across; // the position of the ray in texels is from + s · across
     vec2 offset;       // of a texel's pixel in its block, in full-resolution pixels
     float scale;       // full-resolution pixels of a texel
     vec2 last, per_size; // the last texel; 1/size

@@ -9,9 +9,9 @@
 #include "screen_ray.glsl"
 #include "shared/bayer.glsl"
 
-// Length of one unit of s in the source's space, uv and device depth. Device depth is (1/near - 1/z)/(1/near - 1/far),
-// whichever way the engine turns it, so it is linear in s too. The source takes the point 10 units along the ray, which
-// may lie behind the viewer; the direction on screen is the same.
+// The length of one unit of s in the source's space, uv and device depth. Device depth (1/near - 1/z)/(1/near - 1/far), reversed or not,
+// is linear in s, too. The source projects the point 10 units along the ray, which may lie behind the viewer; its direction on screen is the
+// same.
 precise float length_of_unit(ScreenRay ray) {
     float far = frame.depth_range.y < LARGEST ? 1.0 / frame.depth_range.y : 0.0;
     float device = ray.rate / ray.depth_m / (1.0 / frame.depth_range.x - far);

@@ -1,4 +1,4 @@
-// Every pixel that has a ray, for a variant that defines
+// Processes every pixel that has a ray. Next include of a variant that defines
 // Result trace(ivec2 pixel, float depth_m, vec3 normal).
 #define LIST_WORD(place) (has_screen_list ? texelFetch(screen_list, place).x : texelFetch(tile_list, place).x)
 #include "shared/work_list.glsl"

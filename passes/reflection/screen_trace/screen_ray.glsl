@@ -1,6 +1,6 @@
-// A ray in the picture. At parameter s its position is start + s · across (full-resolution pixels) and its inverse depth
-// is linear in s, like the position: with w for depth and P, D for projected origin and direction, the ray parameter is
-// t = s P.w/(1 - s D.w), so 1/w = (1 - s D.w)/P.w. Next include of a pass with the parameter length_m.
+// A ray on screen. At parameter s its position is start + s · across (full-resolution pixels), and its inverse depth is linear in s: with w
+// for depth and P, D for the projected origin and direction, the ray parameter is t = s P.w/(1 - s D.w), so 1/w = (1 - s D.w)/P.w.
+// Next include of a pass with the parameter length_m.
 #include "shared/camera.glsl"
 #include "shared/end_reasons.glsl"
 #include "shared/probe/record.glsl"
@@ -10,9 +10,9 @@ struct ScreenRay {
     vec2 start, across;
     float depth_m, rate; // P.w and D.w
     float inverse, inverse_rate;
-    float end;           // the last s inside the picture, before the near plane and within the length
-    uint limit;          // which of them, as an end reason
-    bool vanishes;       // the end is the ray's vanishing point, so that nothing lies beyond
+    float end;           // the last s on screen, in front of the near plane and within the length
+    uint limit;          // which of these limits it is, as an end reason
+    bool vanishes;       // the end is the ray's vanishing point, beyond which there is nothing
 };
 
 precise float travelled_at(ScreenRay ray, float s) { return s * ray.depth_m / (1.0 - s * ray.rate); }

@@ -1,5 +1,5 @@
-// From a texel to its ray's end, for a variant that defines Result march(ScreenRay ray, ivec2 texel). Next include of a
-// pass with the parameters length_m, viewer_limit and sky.
+// Traces the ray of a texel. Next include of a variant that defines Result march(ScreenRay ray, ivec2 texel) and has the parameters
+// length_m, viewer_limit and sky.
 Result trace(ivec2 pixel, float depth_m, vec3 normal) {
     vec2 start = picked_position(pixel, texelFetch(pick, pixel, 0).x, frame.size);
     vec3 view = view_position(start / vec2(frame.size.xy), depth_m, frame.view_from_uv, frame.depth_range.z);

@@ -47,7 +47,7 @@ void main() {
     if (age == 0.0) color = vec4(0.0);
     if (tile_works && center.shown && reflects(center.depth_m, center.normal.xyz)) {
         float bright = luminance(color.rgb), most = outlier < 1e6 ? outlier * around(pixel, center) : -1.0;
-        // Small bright features in a mirror are no outliers.
+        // Small bright features in mirrors are not outliers.
         most = mix(bright, most, fade(center.normal.w, fade_from, fade_to));
         if (most > 0.0 && bright > most) color.rgb *= most / bright;
         color = joined(past_of(pixel, center), color, age);

@@ -46,7 +46,7 @@ bool under_water(ivec2 pixel, float depth_m) {
     return has_composed_water && texelFetch(water_depth, pixel, 0).x < depth_m;
 }
 
-vec3 seen(ivec2 pixel) {
+vec3 composed_color(ivec2 pixel) {
     probe_pixel(pixel);
     vec3 behind = has_composed_water ? texelFetch(composed_water, pixel, 0).rgb : texelFetch(composed, pixel, 0).rgb;
     if (!tile_works) return behind;
@@ -66,5 +66,5 @@ vec3 seen(ivec2 pixel) {
 void main() {
     ivec2 pixel = tile_texel(1.0);
     if (any(greaterThanEqual(pixel, imageSize(composed_transparent)))) return;
-    imageStore(composed_transparent, pixel, vec4(seen(pixel), 1.0));
+    imageStore(composed_transparent, pixel, vec4(composed_color(pixel), 1.0));
 }

@@ -1,5 +1,5 @@
-// Every texel that has a ray, for a variant that defines vec4 color_of(Ray ray, bool finished, uint place, ivec2 texel).
-// Next include of a pass with the rows of this slot and those of reflection/resolve/sources.h.
+// Processes every texel that has a ray. Next include of a variant with the rows of this slot and of reflection/resolve/sources.h that defines
+// vec4 color_of(Ray ray, bool finished, uint place, ivec2 texel).
 #define LIST_WORD(place) texelFetch(transparent_tiles, place).x
 #include "shared/work_list.glsl"
 

@@ -1,6 +1,6 @@
 #include "shared/probe/record.glsl"
 
-// The last of the half-resolution images that the pipeline makes.
+// The last half-resolution image that the pipeline writes.
 vec4 half_color(ivec2 texel) {
     if (has_reflection_temporal) return texelFetch(reflection_temporal, texel, 0);
     if (has_reflection_blurred) return texelFetch(reflection_blurred, texel, 0);

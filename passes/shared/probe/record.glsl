@@ -14,35 +14,35 @@
 #include "images.h"
 #undef PROBE_IMAGE
 
-// words: the places that are probed, y << 16 | x, in order, texels of the pipeline's resolution and then pixels; the number
-// of records of each; then `capacity` records for each.
+// words: the probed positions as y << 16 | x in ascending order, of texels at the pipeline's resolution and then of pixels; the number of
+// records of each; then `capacity` records for each.
 layout(set = 1, binding = 3, std430) buffer Probes {
     uint texels, pixels, capacity;
     uint words[];
 } probes;
-const uint PROBE_WORDS = 16u; // of a record: kind, pass, ray, 0, and twelve values
+const uint PROBE_WORDS = 16u; // per record: kind, pass, ray, 0, and twelve values
 const uint UNPROBED = 0xFFFFFFFFu;
-uint probed = UNPROBED; // number of the place that this invocation works on; of several the first
-uint probed_last;       // and the last of them that may lie in `probed_home`, a texel of a coarser level
+uint probed = UNPROBED; // index of the position that this invocation works on; the first of several
+uint probed_last;       // and the last that may lie in `probed_home`, a texel of a coarser level
 ivec2 probed_home;
 int probed_level = 0;
 
 bool probing() { return probe_pass != 0u && probed != UNPROBED; }
 
 void probe_place(ivec2 place, uint first, uint count) {
-    uint wanted = uint(place.y) << 16u | uint(place.x), low = first, high = first + count;
+    uint key = uint(place.y) << 16u | uint(place.x), low = first, high = first + count;
     while (low < high) {
         uint middle = (low + high) / 2u;
-        if (probes.words[middle] < wanted) low = middle + 1u;
+        if (probes.words[middle] < key) low = middle + 1u;
         else high = middle;
     }
-    probed = low < first + count && probes.words[low] == wanted ? low : UNPROBED;
+    probed = low < first + count && probes.words[low] == key ? low : UNPROBED;
     probed_level = 0;
 }
 bool probed_there(uint i) {
     return probed_level == 0 || ivec2(probes.words[i] & 0xFFFFu, probes.words[i] >> 16u) >> probed_level == probed_home;
 }
-// From here on the invocation works on this texel of the pipeline's resolution; on this pixel.
+// Sets the texel of the pipeline's resolution, or the pixel, that the invocation works on from here on.
 void probe_texel(ivec2 texel) {
     if (probe_pass != 0u) probe_place(texel, 0u, probes.texels);
 }
@@ -50,7 +50,7 @@ void probe_pixel(ivec2 pixel) {
     if (probe_pass != 0u) probe_place(pixel, probes.texels, probes.pixels);
 }
 
-// On this texel of a coarser level, and for all texels of the pipeline's resolution in it.
+// Sets a texel of a coarser level: the invocation works for all texels of the pipeline's resolution in it.
 void probe_level(ivec2 texel, int level) {
     probe_texel(texel);
     if (probe_pass == 0u || level == 0) return;
@@ -74,7 +74,7 @@ void probe_of(uint place, uint kind, vec4 a, vec4 b, vec4 c) {
     probes.words[at + 2u] = frame.flags.w;
     for (uint i = 0u; i < 12u; ++i) probes.words[at + 4u + i] = floatBitsToUint(values[i]);
 }
-// Adds a record with its values in the order of its kind's rows.
+// Appends a record with its values in the order of its kind's rows.
 void probe(uint kind, vec4 a, vec4 b, vec4 c) {
     if (!probing()) return;
     for (uint i = probed; i <= (probed_level == 0 ? probed : probed_last); ++i)

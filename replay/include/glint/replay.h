@@ -79,12 +79,11 @@ const char *glint_pipeline_name(const struct glint_pipeline *pipeline);
 const char *glint_preset(size_t i);
 /* "slot=variant"; GLINT_NO_VARIANT removes the slot. Parameters that both variants have keep their values. */
 bool glint_pipeline_use(struct glint_pipeline *pipeline, const char *assignment, struct glint_error *err);
-/* "slot.parameter=value": the value is a number, true, false or the name of a choice. A value outside the parameter's range is
-   an error that states the range.
-   "pipeline.parameter=value": the same in every pass of the pipeline that has the parameter, if any.
-   "pipeline.rays=N": N rays a pixel, 1 to 1024. Slots that declare PER_RAY run once for each ray, and the images that they
-   accumulate become the mean.
-   "pipeline.first_ray=N": the index of the first ray, 0 by default. Rays of different indices use different random numbers. */
+/* "slot.parameter=value": the value is a number, true, false or the name of a choice. A value outside the parameter's range is an error
+   that states the range. "pipeline.parameter=value": the same in every pass of the pipeline that has the parameter, if any.
+   "pipeline.rays=N": N rays a pixel, 1 to 1024. Slots that declare PER_RAY run once for each ray, and the images that they accumulate
+   become the mean. "pipeline.first_ray=N": the index of the first ray, 0 by default. Rays of different indices use different random
+   numbers. */
 bool glint_pipeline_set(struct glint_pipeline *pipeline, const char *assignment, struct glint_error *err);
 /* "slot=file.comp" replaces the slot's shader by one compiled from this file. */
 bool glint_pipeline_shader(struct glint_pipeline *pipeline, const char *assignment, struct glint_error *err);
@@ -286,9 +285,8 @@ struct glint_bad_values {
     float value;
     uint64_t not_finite, clamped; /* numbers of values, not of pixels */
 };
-/* The images of the last run with invalid values: first those of the capture, then those of the passes in order of execution, so
-   that the first pass listed is where they arise. Reads images back that were not written yet. *list is valid until the next call
-   on `replay`. */
+/* The images of the last run with invalid values: first those of the capture, then those of the passes in order of execution, so that the
+   first pass listed is where they arise. Reads images back that were not written yet. *list is valid until the next call on `replay`. */
 bool glint_replay_bad_values(struct glint_replay *replay, const struct glint_bad_values **list, size_t *count,
                              struct glint_error *err);
 /* The run.json of the last run, without its files. The caller frees the text; NULL on failure. */

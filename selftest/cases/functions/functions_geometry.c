@@ -242,11 +242,10 @@ static void expect_orthonormal(const double *d, double *y) {
 
 /* clang-format off */
 #define CUBE {LINEAR, -1, 1, ZERO}, {LINEAR, -1, 1, ZERO}, {LINEAR, -1, 1, ZERO}
-#define LENGTH {LOG, 1e-32, 4e37, 0} /* whose inverse is a normal number too */
+#define LENGTH {LOG, 1e-32, 4e37, 0} /* the inverse must be a normal number, too */
 #define DIVISION "a division, 2.5 ULP (Vulkan) of up to 1, and a rounding"
 
-/* Within a face the texels around a direction have the place that it goes through as their mean, by their weights: faces of 8
-   texels, half a texel a unit. */
+/* Within a face the weighted mean of the four texels' positions is the direction's: faces of 8 texels, half a texel per unit. */
 static void expect_taps(const double *x, double *y) {
     for (int k = 0; k < 3; k++) y[k] = 8 * x[k];
     y[3] = 1;

@@ -89,7 +89,7 @@ static void fill_arguments(const struct function *f, size_t i, size_t points, fl
     if (f->make) f->make(x);
 }
 
-/* ---- What the device evaluates: a stand-in for compose/brdf, which reads eight floats of each pixel as they are ---- */
+/* ---- The shader that the device runs instead of compose/brdf, which reads the eight floats of each pixel unchanged ---- */
 
 static const char head[] = "#version 460\n"
                            "#extension GL_GOOGLE_include_directive : require\n"

@@ -91,7 +91,7 @@ static void expect_phong_spread(const double *x, double *y) {
     y[0] = x[0] <= 0 || l >= 0 ? 0 : 2 * (2 - (n + 1) * rest) / (n + 3);
 }
 
-/* ---- Cones: the filter's mean cosine (m + 1)/(m + 2) is what the mean direction lacks ---- */
+/* ---- Cones: the filter's mean cosine (m + 1)/(m + 2) is the ratio of both mean directions ---- */
 
 static void expect_filling(const double *x, double *y) {
     const double lacking = (x[1] - x[0]) / (1 - x[0]);

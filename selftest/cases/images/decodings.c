@@ -23,7 +23,7 @@ struct decoding {
     bool relative, packed;
 };
 
-/* Both ends, what is next to them, and what lies between. */
+/* Both ends of the range, the values next to them, and values in between. */
 static double ends(size_t i, double u) {
     const float next = 1 - FLT_EPSILON / 2;
     const double list[6] = {0, 1, (double)next, (double)FLT_MIN, 0.5, 1e-7};
@@ -66,7 +66,7 @@ static void store_distance(size_t i, double u, double v, double stored[3]) {
     (void)v;
     stored[0] = i == 0 ? (double)INFINITY : pow(10, 12 * u - 6);
 }
-/* 1/z is linear from the near plane, where it is 1/near, to the far one. */
+/* 1/z is linear from 1/near at the near plane to the far plane. */
 static double between(double part) {
     return part >= 1 ? (double)INFINITY : unit / ((1 - part) / near + part / far);
 }
@@ -109,7 +109,7 @@ static void to_world(const double v[3], double y[3]) {
     y[1] = v[1];
     y[2] = -sin(turn) * v[0] + cos(turn) * v[2];
 }
-/* Poles, axes, and where the lower half is folded along the rim; then the sphere. */
+/* Poles, axes, and the fold of the lower half along the rim; then the sphere. */
 static void direction(size_t i, double u, double v, double d[3]) {
     static const double special[10][3] = {{0, 0, 1},        {0, 0, -1},         {1, 0, 0},      {-1, 0, 0},
                                           {0, 1, 0},        {0, -1, 0},         {0.6, -0.8, 0}, {-0.6, 0.8, 0},
@@ -161,7 +161,7 @@ static void expect_unorm(const struct glint_frame *frame, const double stored[3]
     (void)frame;
     normalised(v, y);
 }
-/* Unfolded: beyond |x| + |y| = 1 the point is mirrored at that edge of its quarter. */
+/* Unfolds: beyond |x| + |y| = 1 the point is mirrored at that edge of its quadrant. */
 static void expect_octahedral(const struct glint_frame *frame, const double stored[3], double y[3]) {
     const double x = 2 * stored[0] - 1, z = 2 * stored[1] - 1, beyond = fabs(x) + fabs(z) - 1;
     double v[3] = {x, z, -beyond};
@@ -232,7 +232,7 @@ static void exposed(struct glint_frame *frame) {
 static void store_color(size_t i, double u, double v, double stored[3]) {
     stored[0] = i == 0 ? 0 : pow(10, 9 * u - 5);
     stored[1] = v;
-    stored[2] = i % 2 ? 0.04045 : 0.0404500008; /* either side of the curve's joint */
+    stored[2] = i % 2 ? 0.04045 : 0.0404500008; /* on both sides of the joint of the curve */
 }
 static void expect_exposed(const struct glint_frame *frame, const double stored[3], double y[3]) {
     for (int k = 0; k < 3; k++) y[k] = stored[k] / frame->pre_exposure;
@@ -246,7 +246,7 @@ static void expect_srgb(const struct glint_frame *frame, const double stored[3],
 /* ---- Writing and reading them ---- */
 
 struct table {
-    double stored[3][POINTS]; /* as the file has them */
+    double stored[3][POINTS]; /* as in the file */
     float floats[3][POINTS], other[POINTS], one[POINTS];
     uint16_t words[3][POINTS];
 };
@@ -266,7 +266,7 @@ static void fill_table(const struct decoding *d, struct table *t) {
     }
 }
 
-/* A part with all that its role asks for; of these, the decoding's own. */
+/* A part with all channels that its role requires, and those of the decoding. */
 static bool add_part(struct glint_writer *writer, const char *name, const struct decoding *d, const struct table *t,
                      struct glint_error *err) {
     static const char *const gbuffer[] = {
@@ -313,7 +313,7 @@ static bool write_capture(const char *path, const struct decoding *d, const stru
     return ok;
 }
 
-/* found: as many values a point as the decoding has channels. */
+/* found: for each point as many values as the decoding has channels. */
 static void compare_decoded(const struct decoding *d, const struct table *t, const struct glint_frame *info,
                             const float *found, struct glint_selftest_finding *finding) {
     size_t count = 0;
@@ -354,10 +354,10 @@ static bool check_decoding(struct frames *frames, const struct image_case *which
     return ok;
 }
 
-/* ---- What reaches the device: depth as decoded, in float; roughness rounded to half, ties to even ---- */
+/* ---- Data on the device: depth as decoded, in float; roughness rounded to half, ties to even ---- */
 
 static void store_ties(size_t i, double u, double v, double stored[3]) {
-    /* Halves of [2^e, 2^(e+1)] are 2^(e-10) apart: on them, between them, and next to there. */
+    /* Halves in [2^e, 2^(e+1)] are 2^(e-10) apart: values at halves, between them, and next to these. */
     const int exponent = -1 - (int)(u * 20);
     const double apart = ldexp(1, exponent < -14 ? -24 : exponent - 10),
                  half = ldexp(1, exponent) + apart * floor(v * 1023);

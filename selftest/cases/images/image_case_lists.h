@@ -1,4 +1,4 @@
-/* The lists of image cases, the second half of the group "functions". */
+/* The lists of image cases, the second part of the group "functions". */
 #ifndef GLINT_SELFTEST_IMAGE_CASE_LISTS_H
 #define GLINT_SELFTEST_IMAGE_CASE_LISTS_H
 

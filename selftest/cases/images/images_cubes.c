@@ -1,4 +1,4 @@
-/* Cases of cube_chain.glsl, cocoon.glsl and active.glsl: what is read of cube maps. */
+/* Cases of cube_chain.glsl, cocoon.glsl and active.glsl, which read cube maps. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -19,7 +19,7 @@ static void noise_with_holes(uint32_t cube, size_t texel, const double direction
     if (texel % 289 < 40 && texel / 289 == 2) out[0] = NAN; /* the first two rows of a face */
 }
 
-/* Part of the finer texel `i` that a coarser one covers. */
+/* The fraction of the finer texel `i` that a coarser texel covers. */
 static double share(size_t coarse, size_t size, size_t i, size_t finer) {
     const double wide = (double)finer / (double)size, low = (double)coarse * wide, high = low + wide;
     return fmax(0, fmin(high, (double)i + 1) - fmax(low, (double)i)) / wide;
@@ -75,7 +75,7 @@ static bool check_box(struct frames *frames, const struct image_case *which, str
     return ok;
 }
 
-/* ---- prefiltered: harmonics, of which an even lobe leaves what its moments say ---- */
+/* ---- prefiltered: spherical harmonics, which a symmetric lobe scales by its moments ---- */
 
 static void harmonics(uint32_t cube, size_t texel, const double d[3], float out[5]) {
     (void)texel;
@@ -86,11 +86,11 @@ static void harmonics(uint32_t cube, size_t texel, const double d[3], float out[
     out[4] = 1;
 }
 
-/* The mean over the lattice's points in the plane that touches the sphere, weighed by cosⁿ⁺³, of what lies there. */
+/* The mean over the lattice in the tangent plane of the sphere, weighted by cosⁿ⁺³. */
 static void expect_prefiltered(const double axis[3], uint32_t cube, size_t level, double y[4]) {
     enum { REACH = 3 };
     const double rim = exp2((double)level) * 3.5 * 2 / CUBE_FRAME_WIDEST, power = log(0.1) / log(cos(atan(rim)));
-    /* Two axes across, any: the lattice is symmetric enough for harmonics of these degrees only with the shader's own. */
+    /* Two perpendicular axes: harmonics of these degrees are reproduced only with the shader's own. */
     const double side = axis[2] >= 0 ? 1 : -1, a = -1 / (side + axis[2]), b = axis[0] * axis[1] * a;
     const double t[3] = {1 + side * axis[0] * axis[0] * a, side * b, -side * axis[0]};
     const double s[3] = {b, side + axis[1] * axis[1] * a, -axis[1]};
@@ -130,7 +130,7 @@ static bool check_prefiltered(struct frames *frames, const struct image_case *wh
             double axis[3], y[4];
             plain_direction((uint32_t)(i / size / size % 6), (double)(i % size), (double)(i / size % size), size, axis);
             expect_prefiltered(axis, (uint32_t)(i / size / size / 6), level, y);
-            const double scale = exp2(4.0 - (double)level); /* texels are so much narrower */
+            const double scale = exp2(4.0 - (double)level); /* texels are narrower by this factor */
             for (size_t k = 0; k < 4; k++)
                 image_compare(finding, scale * (double)found[4 * i + k], scale * y[k], scale * y[k],
                               "level %zu, texel %zu,%zu, layer %zu, channel %zu", level, i % size, i / size % size,
@@ -142,10 +142,10 @@ static bool check_prefiltered(struct frames *frames, const struct image_case *wh
     return ok;
 }
 
-/* ---- cocoon.glsl, by a stand-in for cubemap_trace/march, over points and directions that random4 draws ---- */
+/* ---- cocoon.glsl, run instead of cubemap_trace/march for random points and directions ---- */
 
 enum { COCOON = 32 };
-/* Samples lie on a face's borders too: 1 / distance along its axis of a room around the centre, a maximum of six planes'. */
+/* Samples include the borders of faces: 1 / distance along the axis in a room around the centre, the maximum of six planes. */
 static const double room[3][2] = {{2, 5}, {3, 3.5}, {8, 4}}; /* to the lower and the upper side of each axis */
 static double room_sample(size_t face, double x, double y) {
     double d[3], most = 0;
@@ -155,14 +155,14 @@ static double room_sample(size_t face, double x, double y) {
     for (int k = 0; k < 3; k++) most = fmax(most, d[k] < 0 ? -d[k] / room[k][0] : d[k] / room[k][1]);
     return most / major;
 }
-/* A box of 4 m to every side, whose samples are all one. */
+/* A box of 4 m in each direction, whose samples are all equal. */
 static double box_sample(size_t face, double x, double y) {
     (void)face, (void)x, (void)y;
     return 0.25;
 }
 typedef double (*cocoon_sample)(size_t face, double x, double y);
 
-/* Twice: the second one is four times as large. */
+/* Two cocoons: the second one is four times as large. */
 static void fill_cocoons(cocoon_sample sample, float *samples) {
     for (size_t i = 0; i < 12 * COCOON * COCOON; i++)
         samples[i] = (float)(sample(i / COCOON / COCOON % 6, (double)(i % COCOON), (double)(i / COCOON % COCOON)) /
@@ -181,7 +181,7 @@ static struct cocoon_point point_of(uint32_t x, uint32_t y) {
     struct cocoon_point p;
     double u[4], w[4], l = 0;
     random4_expected(x, y, 1, u), random4_expected(x, y, 2, w);
-    p.scale = u[3] < 0.05 ? 0 : u[3] < 0.2 ? 0.05 : u[3] < 0.5 ? 1 : 40; /* in the centre to far outside */
+    p.scale = u[3] < 0.05 ? 0 : u[3] < 0.2 ? 0.05 : u[3] < 0.5 ? 1 : 40; /* from the centre to far outside */
     p.place = w[3] < 0.5 ? 0 : 1;
     for (int k = 0; k < 3; k++) p.v[k] = (2 * u[k] - 1) * p.scale;
     for (int k = 0; k < 3; k++) l += (2 * w[k] - 1) * (2 * w[k] - 1);
@@ -190,13 +190,12 @@ static struct cocoon_point point_of(uint32_t x, uint32_t y) {
 }
 struct cocoon_case {
     cocoon_sample sample;
-    void (*expect)(const struct cocoon_point *point, double y[2]); /* either of the two */
+    void (*expect)(const struct cocoon_point *point, double y[2]); /* either of the two is right */
 };
 
-/* Between samples of the face that it looks at, as a straight line. */
+/* Interpolates linearly between the samples of the face. */
 static void expect_gauge(const struct cocoon_point *p, double y[2]) {
-    static const int across[6][2] = {{2, -1}, {2, 1}, {0, 1},
-                                     {0, 1},  {0, 1}, {0, -1}}; /* axis and sign of s, and of t */
+    static const int across[6][2] = {{2, -1}, {2, 1}, {0, 1}, {0, 1}, {0, 1}, {0, -1}}; /* axis and sign of s and t */
     static const int down[6][2] = {{1, -1}, {1, -1}, {2, 1}, {2, -1}, {1, -1}, {1, -1}};
     const double a[3] = {fabs(p->v[0]), fabs(p->v[1]), fabs(p->v[2])}, major = fmax(a[0], fmax(a[1], a[2]));
     y[0] = y[1] = 0;
@@ -209,7 +208,7 @@ static void expect_gauge(const struct cocoon_point *p, double y[2]) {
     const double lower = room_sample((size_t)face, i, j + 1) * (1 - u) + room_sample((size_t)face, i + 1, j + 1) * u;
     y[0] = y[1] = major * (upper * (1 - v) + lower * v) / (p->place ? 4 : 1) / fmax(p->scale, 0.05);
 }
-/* Where the ray leaves the box, by its slabs; -1: it never comes in. Within less than a step either will do. */
+/* Where the ray leaves the box, by slabs; -1: it misses. If it is inside for less than a step, both results are right. */
 enum { STEPS = 16 };
 static void expect_left(const struct cocoon_point *p, double y[2]) {
     double in = 0, out = INFINITY, reach = 0;
@@ -277,10 +276,10 @@ static bool check_cocoon(struct frames *frames, const struct image_case *which, 
     return ok;
 }
 
-/* ---- active.glsl, by a stand-in for cubemap_select/nearest ---- */
+/* ---- active.glsl, run instead of cubemap_select/nearest ---- */
 
-/* ---- The cocoon of a sphere with holes: the weighted maximum of what is one distance everywhere is that distance, however
-   wide its kernel, the widest of which looks at almost a right angle from its middle; of nothing but sky it is nothing ---- */
+/* ---- The cocoon of a sphere with holes: the weighted maximum of a constant distance is that distance for any kernel, the widest of
+   which reaches almost a right angle from its centre; of sky alone it is sky ---- */
 
 enum { SPHERE = 16, LEVELS = 5, COCOON_LEVEL = 2 };
 static bool is_hole(uint32_t cube, size_t texel) {
@@ -290,7 +289,7 @@ static void sphere_with_holes(uint32_t cube, size_t texel, const double directio
     nothing_special(cube, texel, direction, out);
     out[4] = is_hole(cube, texel) ? INFINITY : 3;
 }
-/* A texel of a level sees nothing but sky where all that it covers are holes; finer than the cocoon such a one is capped. */
+/* A texel of a level is sky if all texels that it covers are holes; levels finer than the cocoon are capped there. */
 static double expect_sphere(size_t i, uint32_t level) {
     const size_t size = SPHERE >> level, wide = (size_t)1 << level, layer = i / size / size;
     bool hole = true;
@@ -327,8 +326,7 @@ static bool check_sphere(struct frames *frames, const struct image_case *which, 
     for (size_t i = 0; ok && i < 12 * COCOON * COCOON; i++) {
         const double u = 2.0 * (double)(i % COCOON) / (COCOON - 1) - 1;
         const double v = 2.0 * (double)(i / COCOON % COCOON) / (COCOON - 1) - 1;
-        const double y =
-            i < 6 * COCOON * COCOON ? sqrt(1 + u * u + v * v) / 3 : 0; /* samples lie on the borders, too */
+        const double y = i < 6 * COCOON * COCOON ? sqrt(1 + u * u + v * v) / 3 : 0; /* samples include the borders */
         image_compare(finding, (double)found[i], y, y, "sample %zu,%zu, layer %zu", i % COCOON, i / COCOON % COCOON,
                       i / COCOON / COCOON);
     }
@@ -337,7 +335,7 @@ static bool check_sphere(struct frames *frames, const struct image_case *which, 
     return ok;
 }
 
-/* In the order of their distances from the camera, which is that of their places; up counts four times. */
+/* In the order of their distances from the camera, which is that of their indices; height counts four times. */
 static const double centers[CUBE_FRAME_MOST][3] = {{-1, 0, 0}, {2, 1, -1}, {-4, 3, 1}, {0, -4, 2}};
 
 static void expect_nearest(uint32_t x, uint32_t y, double best[2]) {

@@ -1,4 +1,4 @@
-/* Cases of work_list.glsl and list_maker.glsl: lists of tiles, and which texels invocations take from them. */
+/* Cases of work_list.glsl and list_maker.glsl: lists of tiles, and the texels that invocations take from them. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,7 +9,7 @@
 #include "oracles/noise.h"
 #include "oracles/plain_capture.h"
 
-/* ---- Pictures whose every pixel's class is drawn: sky, smooth or rough, in patches of 1 to all ---- */
+/* ---- Images with a random class for each pixel: sky, smooth or rough, in patches of 1 up to all pixels ---- */
 
 struct kind {
     uint32_t width, height;
@@ -67,7 +67,7 @@ static const char *const of_rays[] = {"classify=tiles", "downsample.jitter=false
 static const char *const whole_texels[] = {"classify_tiles=shown", "downsample.jitter=false", NULL};
 static const char *const half_texels[] = {"classify_tiles=shown", "downsample=pick", "downsample.jitter=false", NULL};
 
-/* In the order of the list: rough, rough and smooth, smooth, nothing. */
+/* In the order of the list: rough, rough and smooth, smooth, empty. */
 static int kind_of_tile(const struct kind *kind, uint32_t column, uint32_t row) {
     bool has[CLASSES + 1] = {false};
     for (uint32_t y = TILE * row; y < TILE * row + TILE && y < kind->height; y++)
@@ -76,7 +76,7 @@ static int kind_of_tile(const struct kind *kind, uint32_t column, uint32_t row) 
     return has[1] ? has[0] : has[0] ? 2 : 3;
 }
 
-/* The list of one picture's tiles by its definition. */
+/* Compares the list of an image's tiles with its definition. */
 static void compare_tiles(const uint32_t *list, size_t picture, struct glint_selftest_finding *finding) {
     const struct kind *kind = &kinds[picture];
     const uint32_t across = (kind->width + TILE - 1) / TILE, down = (kind->height + TILE - 1) / TILE;
@@ -91,7 +91,7 @@ static void compare_tiles(const uint32_t *list, size_t picture, struct glint_sel
             image_compare(finding, list[ITEMS + at], item, item, "picture %zu, tile %u", picture, at);
             at++;
         }
-    for (uint32_t i = 0; i < 6; i++) { /* shown, smooth, rough, each with the rest behind it */
+    for (uint32_t i = 0; i < 6; i++) { /* visible, smooth, rough, each followed by the rest */
         const uint32_t first[] = {0, ends[2], ends[0], ends[2], 0, ends[1]};
         const uint32_t end[] = {ends[2], count, ends[2], count + ends[0], ends[1], count};
         const uint32_t found[] = {list[128 + 2 * i], list[129 + 2 * i], list[12 * i],

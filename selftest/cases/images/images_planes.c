@@ -1,4 +1,4 @@
-/* Cases of reflection/cubemap_trace/texels.glsl: what the texels of a cube map show between them. */
+/* Cases of reflection/cubemap_trace/texels.glsl: the interpolation between texels of a cube map. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -9,8 +9,8 @@
 
 enum { SIZE = 4, CUBES = CUBE_FRAME_MOST };
 
-/* On each face a plane, from nearly across to so steep that neighbours differ by more than a factor of two; on a quarter of the
-   faces any texels. */
+/* A plane on each face, from nearly frontal to so steep that neighbours differ by more than a factor of two; arbitrary texels on a
+   quarter of the faces. */
 static void steep_planes(uint32_t cube, size_t texel, const double d[3], float out[5]) {
     const uint32_t face = (uint32_t)(texel / SIZE / SIZE) + 6 * cube;
     const double x = (double)(texel % SIZE) - 1.5, y = (double)(texel / SIZE % SIZE) - 1.5;

@@ -1,4 +1,4 @@
-/* Cases of shown.glsl: whether the picture shows a pixel's reflection. */
+/* Cases of shown.glsl: whether a pixel's reflection is visible. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -7,7 +7,7 @@
 #include "oracles/noise.h"
 #include "oracles/plain_capture.h"
 
-enum { WIDTH = 97, HEIGHT = 62 }; /* an odd width: the last blocks reach beyond it */
+enum { WIDTH = 97, HEIGHT = 62 }; /* odd, so that the last blocks exceed the image */
 
 static bool has_metal(uint32_t x, uint32_t y) {
     return noise(31, y << 16 | x) < 0.4;
@@ -26,7 +26,7 @@ static void paint(const struct plain *plain, float *values) {
     }
 }
 
-/* The pixel of a block, at the border the last one there is. */
+/* The pixel of a block, clamped to the image. */
 static bool is_shown(uint32_t x, uint32_t y) {
     x = x < WIDTH ? x : WIDTH - 1;
     y = y < HEIGHT ? y : HEIGHT - 1;

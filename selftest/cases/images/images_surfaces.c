@@ -1,4 +1,4 @@
-/* Cases of neighbour.glsl and facet_at.glsl: surfaces of any kind, picked from any place of their blocks. */
+/* Cases of neighbour.glsl and facet_at.glsl: all kinds of surfaces, picked from any pixel of their blocks. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -14,7 +14,7 @@ struct surfaces {
     uint32_t pick[TEXELS];
 };
 
-static double draw(size_t i, uint32_t what) {
+static double draw_value(size_t i, uint32_t what) {
     return noise(what, (uint32_t)i);
 }
 
@@ -25,14 +25,14 @@ static void make_surfaces(struct surfaces *s) {
     frame_ordinary(&s->frame, 1);
     frame_cameras(&s->frame, place, place, 0.3, 0.3);
     for (size_t i = 0; i < TEXELS; i++) {
-        const double x = (double)(i % WIDTH), y = (double)(i / WIDTH), bump = draw(i, 1) < 0.1 ? 1 : 0.12;
-        double n[3] = {0.3 + bump * (draw(i, 2) - 0.5), 0.2 + bump * (draw(i, 3) - 0.5), 1};
+        const double x = (double)(i % WIDTH), y = (double)(i / WIDTH), bump = draw_value(i, 1) < 0.1 ? 1 : 0.12;
+        double n[3] = {0.3 + bump * (draw_value(i, 2) - 0.5), 0.2 + bump * (draw_value(i, 3) - 0.5), 1};
         const double l = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-        s->depth[i] = (float)(4 + 0.06 * x + 0.02 * y + 0.02 * draw(i, 4) + (draw(i, 5) < 0.2 ? 0.3 : 0));
-        if (draw(i, 6) < 0.04) s->depth[i] = INFINITY;
-        for (int k = 0; k < 3; k++) s->normal[k][i] = (float)(draw(i, 7) < 0.03 ? 0.3 * n[k] : n[k] / l);
-        s->normal[3][i] = rough[(size_t)(7 * draw(i / 3, 8))];
-        s->pick[i] = (uint32_t)(5 * draw(i, 9));
+        s->depth[i] = (float)(4 + 0.06 * x + 0.02 * y + 0.02 * draw_value(i, 4) + (draw_value(i, 5) < 0.2 ? 0.3 : 0));
+        if (draw_value(i, 6) < 0.04) s->depth[i] = INFINITY;
+        for (int k = 0; k < 3; k++) s->normal[k][i] = (float)(draw_value(i, 7) < 0.03 ? 0.3 * n[k] : n[k] / l);
+        s->normal[3][i] = rough[(size_t)(7 * draw_value(i / 3, 8))];
+        s->pick[i] = (uint32_t)(5 * draw_value(i, 9));
     }
 }
 
@@ -59,8 +59,7 @@ static bool reflects(const struct surfaces *s, size_t i) {
     return isfinite((double)s->depth[i]) && square > 0.25 && square < 4;
 }
 
-/* The weight of a neighbour; a tie where it lies next to as far from the plane as it may, or the lobe is next to nothing that
-   a float holds. */
+/* The weight of a neighbour. A tie if its distance from the plane is close to the limit, or the lobe is close to the smallest float. */
 static double weight(const struct surfaces *s, size_t i, int x, int y, bool brdf, bool *tie) {
     const size_t there = (size_t)(y * WIDTH + x);
     *tie = false;
@@ -73,7 +72,7 @@ static double weight(const struct surfaces *s, size_t i, int x, int y, bool brdf
     }
     const double depth = (double)s->depth[i], r = (double)s->normal[3][i], beyond = fabs(aside) - 0.01 * depth;
     if (fabs(r - (double)s->normal[3][there]) > 0.1) return 0;
-    /* GGX's density beside its peak, which a normal that turned by a right angle has nothing of. */
+    /* GGX's density relative to its peak; 0 for normals at a right angle. */
     const double away = fmin(apart / 2, 1), sine2 = away * (2 - away), a2 = pow(r, 4);
     const double agreement = away < 1 ? pow(a2 / (sine2 + a2 * (1 - sine2)), 2) : 0;
     *tie = fabs(beyond) < 1e-5 || (agreement > 1e-46 && agreement < 2e-38);
@@ -84,7 +83,7 @@ static double weight(const struct surfaces *s, size_t i, int x, int y, bool brdf
 static void expect_position(const struct surfaces *s, size_t i, double y[4], double otherwise[4]) {
     position(s, i, y);
     y[3] = (double)s->normal[3][i];
-    if (!isfinite(y[2])) y[0] = y[1] = y[2] = 0; /* no place */
+    if (!isfinite(y[2])) y[0] = y[1] = y[2] = 0; /* outside of the screen */
     for (int k = 0; k < 4; k++) otherwise[k] = y[k];
 }
 static void expect_weights_by(const struct surfaces *s, size_t i, bool brdf, double y[4], double otherwise[4]) {
@@ -104,7 +103,7 @@ static void expect_alike(const struct surfaces *s, size_t i, double y[4], double
     expect_weights_by(s, i, false, y, otherwise);
 }
 
-/* 1 / depth goes on beyond the border as a straight line, to infinity at the most. */
+/* 1 / depth is extrapolated linearly beyond the border, at most to infinity. */
 static void beside(const struct surfaces *s, size_t i, int dx, int dy, double pair[2]) {
     const int x = (int)(i % WIDTH), y = (int)(i / WIDTH);
     bool inside[2];
@@ -125,7 +124,7 @@ static void expect_neighbours(const struct surfaces *s, size_t i, double y[4], d
         otherwise[k] = y[k];
     }
 }
-/* The flatter side where it is not far steeper than the normal says, which the other candidate is at a tie. */
+/* The flatter side unless it is far steeper than the normal implies; at a tie the other candidate is `otherwise`. */
 static void slope(double depth, const double pair[2], double by_normal, double *y, double *otherwise) {
     const double sides[2] = {1 - depth / pair[0], depth / pair[1] - 1};
     const int flat = fabs(sides[1]) < fabs(sides[0]);
@@ -152,7 +151,7 @@ static void expect_slopes(const struct surfaces *s, size_t i, double y[4], doubl
     }
 }
 
-/* ---- On the device: a stand-in for blur/plus ---- */
+/* ---- On the device, run instead of blur/plus ---- */
 
 typedef void (*expectation)(const struct surfaces *s, size_t i, double y[4], double otherwise[4]);
 struct with {

@@ -1,4 +1,4 @@
-/* The group "invariance": one open box under every convention that FORMAT.md allows, replayed to the same picture. */
+/* The group "invariance": one open box in every convention that FORMAT.md allows gives the same image. */
 #include <math.h>
 
 #include "cases/groups.h"
@@ -7,7 +7,7 @@
 
 /* ---- The world's axes ---- */
 
-/* One of the 24 ways to turn the world onto its axes; 24 more mirror it. */
+/* One of the 24 rotations of the world onto its axes; 24 more are mirrored. */
 static void turn_axes(uint32_t i, struct open_box *box) {
     static const int orders[6][3] = {{1, 2, 3}, {2, 3, 1}, {3, 1, 2}, {2, 1, 3}, {1, 3, 2}, {3, 2, 1}};
     const int *order = orders[i % 6];
@@ -110,7 +110,7 @@ static const struct convention_case moves[] = {
     {"packed motion of depth", "16 bits for metres", {.encodings.motion_depth = GLINT_MOTION_DEPTH_PACKED16}, 2e-5, .reason = ROUNDED},
 };
 
-/* Whole presets with a mirror: rough surfaces draw directions about the world's axes, and so does the cocoon of mafia3 its taps. */
+/* Whole presets with a mirror: directions of rough surfaces and the taps of mafia3's cocoon depend on the world's axes. */
 static const struct convention_case wholes[] = {
     {"anything, mafia3", "conventions drawn by chance, all at once, but for the world's axes", {0}, 6.5e-5, .reason = STORED, .variants = 6, .vary = anything_unturned},
 };

@@ -1,5 +1,4 @@
-/* Depth as engines store it, and projections: rays over the screen against a double replay of the very depths that were
-   stored. */
+/* Encodings of depth, and projections: screen rays compared with a replay in double precision of the stored depths. */
 #include "cases/numbers/numbers_depth.h"
 
 #include <math.h>
@@ -31,16 +30,16 @@ static const struct depth_case cases[] = {
 };
 /* clang-format on */
 
-/* Each way to trace the picture. Half resolution takes the same pixel of every block, so that texels lie evenly, and steps are
-   shorter than texels: a plane is met where it is. */
+/* The ways to trace the image. At half resolution the same pixel of every block is picked, so that texels are evenly spaced, and steps
+   are shorter than texels, so that a plane is hit exactly. */
 static const struct trace {
     const char *slots, *use, *set;
-    double steps; /* half ones of the stored depth, by which the surface of a texel may be off at its rim */
+    double steps; /* half steps of the stored depth by which a texel's surface may be off at its border */
 } traces[] = {
     {"", "screen_trace=linear", "screen_trace.steps=256", 1},
     {"\"hiz\": \"nearest\", ", "screen_trace=hiz", "screen_trace.cells=256", 3}, /* its own depth's and two slopes' */
 };
-static const double BIAS = 0.001; /* of depth, by which a ray must be behind a surface */
+static const double BIAS = 0.001; /* relative depth by which a ray must be behind a surface */
 static const double ROUNDINGS =
     8.0 / (1 << 24); /* half a float's last bit each: 1/z (5, by Vulkan), and its interpolation */
 
@@ -67,7 +66,7 @@ struct tally {
     struct glint_selftest_finding *finding;
 };
 
-static void note(struct tally *t, double error, const double place[2], double found, double expected) {
+static void record_error(struct tally *t, double error, const double place[2], double found, double expected) {
     t->finding->values++;
     if (error <= t->finding->worst) return;
     t->finding->worst = error;
@@ -75,7 +74,7 @@ static void note(struct tally *t, double error, const double place[2], double fo
              place[1] - 0.5, found, expected);
 }
 
-/* How far along itself a ray ends when depth on the wall there moves by `step`, and lengths across the picture round. */
+/* How far a ray's end moves along the ray if the wall's depth there changes by `step`, including the rounding of screen positions. */
 static double end_moves(const struct open_box *c, const struct open_box_ray *ray, double depth, double step) {
     double view[3], corner[3], length = 0;
     const int axis = ray->face / 2;
@@ -85,12 +84,12 @@ static double end_moves(const struct open_box *c, const struct open_box_ray *ray
     return (step * fabs(view[axis]) + ROUNDINGS * depth * sqrt(length)) / fabs(ray->direction[axis]);
 }
 
-/* How far within the picture a place is, in pixels; negative outside. */
+/* The distance of a position from the border of the image in pixels; negative outside. */
 static double within(const struct open_box *c, const double place[2]) {
     return fmin(fmin(place[0], c->width - place[0]), fmin(place[1], c->height - place[1]));
 }
 
-/* The texels that may say what is at a place, of half the resolution and so up to 3 pixels away. */
+/* The texels that may determine a position: at half resolution, so up to 3 pixels away. */
 struct around {
     bool one_wall, no_wall;
     double nearest, farthest;
@@ -109,7 +108,7 @@ static struct around look_around(const struct open_box *c, const double place[2]
     return around;
 }
 
-/* A ray to a wall in the picture. It has to get behind the wall by the bias, within the picture. */
+/* A ray that hits a visible wall: it must get behind the wall by the bias, on screen. */
 static void check_hit(struct tally *t, const struct open_box *c, const double place[2], const struct open_box_ray *ray,
                       bool finished, float travelled) {
     double depth, behind[3], behind_px[2];
@@ -122,10 +121,10 @@ static void check_hit(struct tally *t, const struct open_box *c, const double pl
     if (!open_box_seen_at(c, behind, behind_px) || within(c, behind_px) < 2 || within(c, ray->end_px) < 2) return;
     if (!around.one_wall || around.farthest > 2 * around.nearest) return;
     const double error = fabs((double)travelled - ray->distance) / end_moves(c, ray, depth, step);
-    note(t, finished ? error : (double)INFINITY, place, (double)travelled, ray->distance);
+    record_error(t, finished ? error : (double)INFINITY, place, (double)travelled, ray->distance);
 }
 
-/* A ray that ends outside of the picture, or in the sky; none that passes over a wall within a texel of its rim. */
+/* A ray that ends off screen or in the sky, and passes no wall within a texel of its border. */
 static void check_rest(struct tally *t, const struct open_box *c, const double place[2], const struct open_box_ray *ray,
                        bool finished, float travelled) {
     const bool sky = ray->distance == INFINITY, outside = !ray->in_front || within(c, ray->end_px) < -2;
@@ -133,7 +132,7 @@ static void check_rest(struct tally *t, const struct open_box *c, const double p
     if (sky && open_box_seen_at(c, ray->over, over) && !look_around(c, over, 0).no_wall) return;
     if (!outside && (within(c, ray->end_px) < 2 || !look_around(c, ray->end_px, 0).no_wall)) return;
     const bool right = outside ? !finished : finished && travelled > 1e30f;
-    note(t, right ? 0 : (double)INFINITY, place, (double)travelled, (double)INFINITY);
+    record_error(t, right ? 0 : (double)INFINITY, place, (double)travelled, (double)INFINITY);
 }
 
 static void check_ray(struct tally *t, const double place[2], float depth_found, bool finished, float travelled) {
@@ -142,8 +141,9 @@ static void check_ray(struct tally *t, const double place[2], float depth_found,
     int face;
     if (open_box_seen(&c, place, &true_depth, &face) != OPEN_BOX_FLOOR) return;
     const double depth = open_box_decode_depth(&c, (double)open_box_encode_depth(&c, true_depth));
-    /* Decoding is done in double, and rounds once. */
-    note(t, fabs((double)depth_found - depth) / ((1 + 1e-3) * depth * exp2(-24)), place, (double)depth_found, depth);
+    /* decoding is done in double and rounded once */
+    record_error(t, fabs((double)depth_found - depth) / ((1 + 1e-3) * depth * exp2(-24)), place, (double)depth_found,
+                 depth);
     const struct open_box_ray ray = open_box_mirror(&c, place, depth);
     const bool hits = ray.distance < INFINITY && ray.in_front && within(&c, ray.end_px) >= -2;
     (hits ? check_hit : check_rest)(t, &c, place, &ray, finished, travelled);

@@ -1,4 +1,4 @@
-/* The group "numbers": one picture, however its numbers are written down. */
+/* The group "numbers": one image in all representations of its values. */
 #include "cases/groups.h"
 #include "cases/numbers/numbers_depth.h"
 #include "cases/numbers/numbers_half.h"
@@ -36,7 +36,7 @@ static const struct convention_case places[] = {
 enum { PLACES = sizeof places / sizeof *places };
 static const struct convention_set kind = {.image = "composed", .cases = places, .count = PLACES};
 
-/* The group's parts, one after another. */
+/* The parts of the group, one after the other. */
 static size_t places_count(void) {
     return PLACES;
 }

@@ -1,4 +1,4 @@
-/* Images in half against the same in float, image by image. */
+/* Compares images in half with the same in float. */
 #include "cases/numbers/numbers_half.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@
 
 #include "harness/texture_filter.h"
 
-/* stores: how often a value was stored in half on the way from the capture to this image. */
+/* stores: how often a value was stored in half between the capture and this image. */
 struct half_case {
     const char *preset, *image, *name;
     uint32_t stores;
@@ -48,7 +48,7 @@ struct glint_selftest_case numbers_half_get(size_t i) {
         "way a device rounds is open"};
 }
 
-/* Images of one replay: those that a case is about, and all whole numbers, which are decisions. */
+/* The images of a replay: those of the case, and all integer images, which are decisions. */
 enum { IMAGES = 128 };
 struct images {
     char names[IMAGES][96];
@@ -99,7 +99,7 @@ static void compare_images(const struct images *expected, const struct images *f
 
 static bool run_preset(const struct case_context *context, const char *preset, const bool *selected,
                        struct glint_selftest_finding *findings, struct glint_error *err) {
-    static const struct open_box box = {0}; /* a mirror's rays have no directions that half could round */
+    static const struct open_box box = {0}; /* the rays of a mirror have no directions that half would round */
     struct pictures pictures = {0};
     struct images *images = calloc(2, sizeof *images);
     char path[4096];

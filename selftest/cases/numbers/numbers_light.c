@@ -1,4 +1,4 @@
-/* Light of all sizes, and what a replay reports of values that are no light. */
+/* Light of all magnitudes, and the report of invalid values. */
 #include "cases/numbers/numbers_light.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@ static bool mafia3(struct pictures *pictures, const struct case_context *context
            pictures_read(pictures, "composed", composed, err);
 }
 
-/* A factor on all light is one on the picture. */
+/* A factor on all light is a factor on the image. */
 static bool check_factor(const struct case_context *context, double light, struct glint_selftest_finding *finding,
                          struct glint_error *err) {
     struct pictures pictures = {0};
@@ -36,7 +36,7 @@ static void set_all(void *user, const char *part, const char *channel, float *pl
     for (size_t i = 0; i < (size_t)width * height; i++) plane[i] = *value;
 }
 
-/* Everything shines alike, by so little that a device may make 0 of it. */
+/* Everything emits the same light, small enough for a device to flush it to 0. */
 static bool check_even(const struct case_context *context, double light, struct glint_selftest_finding *finding,
                        struct glint_error *err) {
     struct pictures pictures = {0};
@@ -48,7 +48,7 @@ static bool check_even(const struct case_context *context, double light, struct 
         const double f = (double)found.values[i / 3 * 4 + i % 3];
         const double error = isnan(f) ? (double)INFINITY
                              : f < 0  ? -f
-                                      : fmax(f - 2.01 * light, 0); /* its own, and what is reflected of it */
+                                      : fmax(f - 2.01 * light, 0); /* its own light and its reflection */
         finding->values++;
         if (error <= finding->worst) continue;
         finding->worst = error;
@@ -85,7 +85,7 @@ static void expect_report(const struct glint_bad_values *list, size_t count, con
     expect_number(finding, "reports", (double)count, -1);
 }
 
-/* The box in half, whose light is all 10^6: what is stored is half's largest, and every one of it is counted. */
+/* The box in half with light of 10^6: stored values are half's largest, and each one is counted. */
 static bool check_clamped(const struct case_context *context, double light, struct glint_selftest_finding *finding,
                           struct glint_error *err) {
     struct pictures pictures = {0};
@@ -113,7 +113,7 @@ static bool check_clamped(const struct case_context *context, double light, stru
     return ok;
 }
 
-/* An open box whose picture has one bad pixel in channel G. */
+/* An open box whose lit image has one bad pixel in channel G. */
 static const uint32_t bad_pixel[2] = {64, 27};
 static void spoil_one(void *user, const char *part, const char *channel, float *plane, uint32_t width,
                       uint32_t height) {
@@ -122,9 +122,9 @@ static void spoil_one(void *user, const char *part, const char *channel, float *
     if (strcmp(part, "lit") == 0 && channel[0] == 'G') plane[bad_pixel[1] * width + bad_pixel[0]] = *value;
 }
 
-/* Light is bilinear: a ray brings the bad pixel's when it ends within a pixel of its middle. */
-static bool looks_there(const struct pictures *pictures, const struct open_box *box, uint32_t x, uint32_t y,
-                        struct glint_error *err) {
+/* Light is interpolated: a ray reads the bad pixel if it ends within a pixel of its centre. */
+static bool reads_bad_pixel(const struct pictures *pictures, const struct open_box *box, uint32_t x, uint32_t y,
+                            struct glint_error *err) {
     struct picture pick = {0};
     struct open_box_ray ray;
     if (!pictures_read(pictures, "pick", &pick, err)) return false;
@@ -135,7 +135,7 @@ static bool looks_there(const struct pictures *pictures, const struct open_box *
            fabs(ray.end_px[1] - bad_pixel[1] - 0.5) < 1.001;
 }
 
-/* The first pass that looks at the bad light makes the first bad values. */
+/* The first pass that reads the bad light writes the first bad values. */
 static bool check_report(const struct case_context *context, double bad, struct glint_selftest_finding *finding,
                          struct glint_error *err) {
     struct pictures pictures = {0};
@@ -157,7 +157,7 @@ static bool check_report(const struct case_context *context, double bad, struct 
         expect_number(finding, "resolve is the first pass", strcmp(list[first].pass->slot, "resolve") == 0, 1);
         expect_number(finding, "its first bad channel is G", strcmp(list[first].channel, "G") == 0, 1);
         expect_number(finding, "its first bad pixel looks there",
-                      looks_there(&pictures, &box, list[first].x, list[first].y, err), 1);
+                      reads_bad_pixel(&pictures, &box, list[first].x, list[first].y, err), 1);
     }
     pictures_end(&pictures);
     return ok;

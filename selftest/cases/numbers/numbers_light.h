@@ -1,4 +1,4 @@
-/* Light of all sizes, and images in half: a part of the group "numbers". */
+/* Light of all magnitudes: part of the group "numbers". */
 #ifndef GLINT_SELFTEST_NUMBERS_LIGHT_H
 #define GLINT_SELFTEST_NUMBERS_LIGHT_H
 

@@ -1,4 +1,4 @@
-/* Rays of pictures through cube maps of distances, each against a replay in double precision. */
+/* Rays through cube maps of distances, each compared with a replay in double precision. */
 #include "cases/rays/cube_rays.h"
 
 #include <math.h>
@@ -8,7 +8,7 @@
 
 #include "oracles/depth_traversal.h"
 
-/* Ways in which rounding may have gone. On a border between faces each sample of a march may have been of either. */
+/* The number of roundings that are tried. At a border between faces each sample of a march may be on either face. */
 enum { WAYS = 24, WAYS_MARCHED = 1000 };
 static const double direction_rounding = 5e-7, gap_rounding = 5e-7;
 
@@ -23,7 +23,7 @@ double room_distance(uint32_t number, const double d[3]) {
     return t;
 }
 
-/* ---- What a run was given and made ---- */
+/* ---- Inputs and results of a run ---- */
 
 struct traced {
     uint32_t width, height;
@@ -81,9 +81,9 @@ static void traced_free(struct traced *t) {
     for (size_t i = 0; i < CUBES_MOST; i++) free(t->cubes.distance_m[i]);
 }
 
-/* ---- Judging ---- */
+/* ---- Comparison ---- */
 
-/* Way 0 is the exact one. */
+/* Rounding 0 is the exact one. */
 static struct cube_end reference_end(const struct cube_rays *task, const struct traced *traced,
                                      const struct depth_ray *ray, uint32_t i, uint32_t way) {
     const struct depth_ray rounded = depth_ray_rounded(ray, way ? direction_rounding : 0, way);
@@ -92,7 +92,7 @@ static struct cube_end reference_end(const struct cube_rays *task, const struct 
     cubes.rounding = way ? gap_rounding : 0;
     cubes.way = way;
     for (int k = 0; k < 3; k++)
-        for (int r = 0; r < 3; r++) { /* the camera's axes are the rows */
+        for (int r = 0; r < 3; r++) { /* the rows are the camera's axes */
             world.origin[k] += traced->grid.rows[r][k] * rounded.origin[r];
             world.direction[k] += traced->grid.rows[r][k] * rounded.direction[r];
         }
@@ -122,7 +122,7 @@ static double error_beyond_rounding(const struct cube_rays *task, const struct t
     return low <= high ? distance_error(found->t, fmin(fmax(found->t, low), high)) : INFINITY;
 }
 
-/* How much farther the selected centre is from where the ray starts than the nearest is. */
+/* The difference between the distances of the selected centre and of the nearest one from the start of the ray. */
 static double farther(const struct traced *traced, const struct depth_ray *ray, uint32_t i) {
     double selected = INFINITY, least = INFINITY;
     for (uint32_t n = 0; n < traced->cubes.count; n++) {
@@ -174,11 +174,11 @@ static struct glint_cubemap cube_at(uint32_t number, enum glint_volume volume) {
     }
     cube.sphere_radius = 1.3;
     cube.sphere_center[0] = 0.2;
-    /* A hull between two planes along the screen, 0.75 m and 1.5 m before the camera, where surfaces are, and 6 m wide. */
+    /* A hull between two planes parallel to the screen, 0.75 m and 1.5 m in front of the camera, where surfaces are, 6 m wide. */
     static const double axes[3][3] = {{-0.36, -0.48, -0.8}, {0.48, 0.64, -0.6}, {-0.8, 0.6, 0}};
     static const double ends[3][2] = {{0.75, 1.5}, {-3, 3}, {-3, 3}};
     for (int i = 0; i < 6; i++) {
-        const double *axis = axes[i / 2], sign = i % 2 ? 2 : -1; /* one of length 2 */
+        const double *axis = axes[i / 2], sign = i % 2 ? 2 : -1; /* one axis of length 2 */
         for (int k = 0; k < 3; k++) {
             cube.planes[i][k] = sign * axis[k];
             cube.planes[i][3] += sign * axis[k] * (room_centers[number][k] - plane_scene_eye[k]);

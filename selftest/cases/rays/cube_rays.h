@@ -1,5 +1,5 @@
-/* Rays of pictures through cube maps of distances, each against a replay in double precision (cube_march.h) of the texels
-   that the pass read. Ties as in geometry_screen.c. */
+/* Rays through cube maps of distances, each compared with a replay in double precision (cube_march.h) of the texels that the pass read.
+   Ties are treated as in screen_rays.c. */
 #ifndef GLINT_SELFTEST_CUBE_RAYS_H
 #define GLINT_SELFTEST_CUBE_RAYS_H
 
@@ -7,7 +7,7 @@
 #include "oracles/cube_march.h"
 #include "oracles/plane_scene.h"
 
-/* A room around the camera and centres of cube maps in it, the first at the camera; in the world. */
+/* A room around the camera, and centres of cube maps in it, the first one at the camera; in world space. */
 extern const double room_low[3], room_high[3], room_centers[CUBES_MOST][3];
 double room_distance(uint32_t number, const double direction[3]);
 
@@ -17,25 +17,25 @@ double room_distance(uint32_t number, const double direction[3]);
 #define CUBE_MARCH CUBE_WORDS "cubemap_trace=march cubemap_trace.random_scale=false "
 #define CUBE_EXACT CUBE_WORDS "cubemap_trace=exact "
 #define CUBE_ALONE "screen_trace.length_m=0 "
-/* What errors are counted in, and why they may be so large. */
+/* The unit of errors, and the reason for their bound. */
 #define CUBE_UNIT "m, or of the distance"
 /* clang-format off */
 #define CUBE_REASON "a position is three sums of 2^-24 of its parts, a distance its square root; where a ray closes in on a surface slowly this grows, and the replays rounded otherwise say by how much"
 /* clang-format on */
 
 struct cube_rays {
-    const struct march_rules *rules; /* NULL: the exact tracer, with one cube map */
+    const struct march_rules *rules; /* NULL: the exact tracer with one cube map */
     double bound;
     enum plane_scene_rays rays;
-    double depths_m[2]; /* of the surfaces that they start from */
+    double depths_m[2]; /* of the surfaces where they start */
     bool rough;
     uint32_t width, height, cube_size, cube_count;
-    void (*cube)(uint32_t number, const double direction[3], float out[5]); /* as in struct plain, or: */
+    void (*cube)(uint32_t number, const double direction[3], float out[5]); /* as in struct plain; or: */
     double (*distance)(uint32_t number, const double direction[3]);
     void (*sky)(const double direction[3], float out[3]);
     enum glint_volume volume;
 };
-/* Pictures of so many seeds through the run's pipeline. */
+/* Renders this many seeds through the run's pipeline. */
 void cube_rays(struct case_run *run, const struct cube_rays *task, uint32_t seeds,
                struct glint_selftest_finding *finding);
 

@@ -1,4 +1,4 @@
-/* Rays through cube maps of distances, every one of a picture against a replay in double precision. */
+/* All rays of an image through cube maps of distances, compared with a replay in double precision. */
 #include <math.h>
 #include <string.h>
 
@@ -21,7 +21,7 @@ static void room_texel(uint32_t number, const double d[3], float out[5]) {
     out[4] = (float)room_distance(number, d);
 }
 
-/* The same with blocks before the walls, and holes in them. */
+/* The same with blocks in front of the walls, and holes in these. */
 static void pillar_texel(uint32_t number, const double d[3], float out[5]) {
     const double most = fmax(fabs(d[0]), fmax(fabs(d[1]), fabs(d[2])));
     uint32_t block = number;
@@ -37,7 +37,7 @@ static void sky_texel(uint32_t number, const double d[3], float out[5]) {
     out[4] = INFINITY;
 }
 
-/* All sky but for one texel. */
+/* Sky except for one texel. */
 static void speck_texel(uint32_t number, const double d[3], float out[5]) {
     const double half = 1.0 / COARSE_CUBE, at[2] = {half, -3 * half};
     const bool here = d[1] > 0 && fabs(d[0] / d[1] - at[0]) < half && fabs(d[2] / d[1] - at[1]) < half;
@@ -54,18 +54,18 @@ static void sky_color(const double d[3], float out[3]) {
 
 /* Values of `number`. */
 enum {
-    FROM_AROUND,  /* surfaces of all depths within the room */
+    FROM_AROUND,  /* surfaces at all depths within the room */
     FROM_CENTER,  /* a millionth of a metre to a millimetre from a centre */
-    FROM_MASS,    /* before the walls and some metres behind them */
+    FROM_MASS,    /* in front of the walls and some metres behind them */
     FROM_OUTSIDE, /* far outside */
-    FROM_BEFORE,  /* before all blocks */
-    FROM_WALL,    /* along the screen, so that rays on screen go on until that ends */
-    RAYS = 8,     /* times enum plane_scene_rays */
-    SCENE = 128,  /* times enum scene */
+    FROM_BEFORE,  /* in front of all blocks */
+    FROM_WALL,    /* parallel to the screen, so that screen rays continue to its border */
+    RAYS = 8,     /* factor of enum plane_scene_rays */
+    SCENE = 128,  /* factor of enum scene */
     ROUGH = 1024,
     OWN_SKY = 2048,
-    VOLUME = 4096, /* times enum glint_volume */
-    FACES = 32768  /* times their width; 0: the usual one */
+    VOLUME = 4096, /* factor of enum glint_volume */
+    FACES = 32768  /* factor of their width; 0: the default */
 };
 
 static void check_scene(struct case_run *run, const struct replay_case *c, const struct march_rules *rules,
@@ -74,7 +74,7 @@ static void check_scene(struct case_run *run, const struct replay_case *c, const
     static void (*const scenes[4])(uint32_t, const double[3], float[5]) = {room_texel, pillar_texel, sky_texel,
                                                                            speck_texel};
     const enum scene scene = (enum scene)(c->number / SCENE % 4);
-    const bool few = run->context->quick && !rules; /* the double replay takes long for these */
+    const bool few = run->context->quick && !rules; /* the replay in double takes long for these */
     struct cube_rays task = {.rules = rules,
                              .bound = c->bound,
                              .rays = (enum plane_scene_rays)(c->number / RAYS % 16),

@@ -18,7 +18,7 @@ static void three(const struct frame *frame, int n, size_t pixel, struct history
     (void)frame, (void)n, (void)pixel;
     past->longest = 3;
 }
-static void one(const struct frame *frame, int n, size_t pixel, struct history_texels *past) {
+static void fill_history(const struct frame *frame, int n, size_t pixel, struct history_texels *past) {
     (void)frame, (void)n, (void)pixel;
     past->longest = 1;
 }
@@ -130,7 +130,7 @@ static void from_there(const struct frame *frame, int n, size_t pixel, struct hi
 static const struct shot list[] = {
     {"mean of mirrors", "the new frame weighs 1/16", {OPEN}, .sharp = true, .frames = 6, .stage = mirrors, .bound = 5e-7, .reason = ONE},
     {"mean of mirrors, 3:1", "or a quarter", {OPEN, "temporal_sharp.history=3"}, .sharp = true, .frames = 6, .stage = mirrors, .past = three, .bound = 5e-7, .reason = ONE},
-    {"mean of mirrors, 1:1", "or a half", {OPEN, "temporal_sharp.history=1"}, .sharp = true, .frames = 4, .stage = mirrors, .past = one, .bound = 5e-7, .reason = ONE},
+    {"mean of mirrors, 1:1", "or a half", {OPEN, "temporal_sharp.history=1"}, .sharp = true, .frames = 4, .stage = mirrors, .past = fill_history, .bound = 5e-7, .reason = ONE},
     {"mirrors' history of none", "0 keeps nothing", {OPEN, "temporal_sharp.history=0"}, .sharp = true, .frames = 3, .stage = mirrors, .past = none, .bound = 0, .reason = "the frame's own bits"},
     {"mirrors' rays that found nothing", "without a source there is no history; with half of one there is", {OPEN}, .sharp = true, .frames = 3, .stage = alphas, .bound = 5e-7, .reason = ONE},
     {"mirrors after a cut", "nothing of the frames before it", {OPEN}, .sharp = true, .frames = 6, .stage = cut_mirrors, .past = nothing_at_4, .bound = 5e-7, .reason = ONE},

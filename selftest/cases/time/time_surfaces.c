@@ -7,7 +7,7 @@
 static size_t column(size_t pixel) {
     return pixel % FRAME_WIDTH;
 }
-static size_t row(size_t pixel) {
+static size_t row_of_pixel(size_t pixel) {
     return pixel / FRAME_WIDTH;
 }
 
@@ -21,7 +21,7 @@ static void nothing(const struct frame *frame, int n, size_t pixel, struct histo
     (void)frame, (void)n, (void)pixel;
     past->count = 0;
 }
-static void one(const struct frame *frame, int n, size_t pixel, struct history_texels *past) {
+static void fill_history(const struct frame *frame, int n, size_t pixel, struct history_texels *past) {
     (void)frame, (void)n, (void)pixel;
     past->longest = 1;
 }
@@ -98,7 +98,7 @@ static int board(int n, int x, int y) {
 }
 static void boards(struct frame *frame, int n) {
     EACH(i) {
-        const int which = board(n, (int)column(i), (int)row(i));
+        const int which = board(n, (int)column(i), (int)row_of_pixel(i));
         if (which & 1) frame->depth[i] = 2;
         if (which & 2) frame->normal[0][i] = 0.6f, frame->normal[2][i] = 0.8f;
         if (which) frame->motion[0][i] = -4.0f / FRAME_WIDTH;
@@ -106,7 +106,7 @@ static void boards(struct frame *frame, int n) {
 }
 static void what_it_was_on(const struct frame *frame, int n, size_t pixel, struct history_texels *past) {
     (void)frame;
-    const int x = (int)column(pixel), y = (int)row(pixel), which = board(n, x, y), from = which ? x - 4 : x;
+    const int x = (int)column(pixel), y = (int)row_of_pixel(pixel), which = board(n, x, y), from = which ? x - 4 : x;
     if (from < 0 || board(n - 1, from, y) != which) past->count = 0;
     else past->pixel[0] = (size_t)(y * FRAME_WIDTH + from);
 }
@@ -134,7 +134,7 @@ static void move(struct frame *frame, double x, double y) {
     EACH(i) frame->motion[0][i] = (float)(x / FRAME_WIDTH), frame->motion[1][i] = (float)(y / FRAME_HEIGHT);
 }
 static void from_there(size_t pixel, double x, double y, struct history_texels *past) {
-    x += (double)column(pixel) + 0.5, y += (double)row(pixel) + 0.5;
+    x += (double)column(pixel) + 0.5, y += (double)row_of_pixel(pixel) + 0.5;
     history_texels_at(past, x, y);
     if (!(x >= 0 && y >= 0 && x <= FRAME_WIDTH && y <= FRAME_HEIGHT)) past->count = 0;
 }
@@ -169,7 +169,7 @@ static void every_seventh(const struct frame *frame, int n, size_t pixel, struct
 
 static const float rows_roughness[4] = {0.04f, 0.1f, 0.5f, 0.45f};
 static void rough_by_rows(struct frame *frame, int n) {
-    EACH(i) frame->roughness[i] = rows_roughness[row(i) % 4];
+    EACH(i) frame->roughness[i] = rows_roughness[row_of_pixel(i) % 4];
     cut_at_4(frame, n);
 }
 /* Without history a pixel also uses the samples at the centres of the neighbouring pluses, a knight's move away. */
@@ -177,7 +177,7 @@ static void with_centres(const struct frame *frame, size_t pixel, bool has_past,
     static const int centres[4][2] = {{1, 2}, {2, -1}, {-1, -2}, {-2, 1}};
     const double own = (double)frame->roughness[pixel], part = fmin(fmax((own - 0.05) / 0.1, 0), 1);
     for (int i = 0; i < 4 && !has_past; i++) {
-        const int x = (int)column(pixel) + centres[i][0], y = (int)row(pixel) + centres[i][1];
+        const int x = (int)column(pixel) + centres[i][0], y = (int)row_of_pixel(pixel) + centres[i][1];
         const size_t there = (size_t)(y * FRAME_WIDTH + x);
         if (x < 0 || y < 0 || x >= FRAME_WIDTH || y >= FRAME_HEIGHT) continue;
         if (!(fabs((double)frame->roughness[there] - own) <= 0.1)) continue;
@@ -192,7 +192,7 @@ static void hot_pixels(struct frame *frame, int n) {
     EACH(i) {
         if ((i * 7 + (size_t)n * 5) % 23 == 0)
             for (int k = 0; k < 3; k++) frame->color[k][i] *= 100;
-        if (row(i) >= FRAME_HEIGHT / 2) frame->roughness[i] = 0.07f;
+        if (row_of_pixel(i) >= FRAME_HEIGHT / 2) frame->roughness[i] = 0.07f;
         if ((i + (size_t)n) % 29 == 0) frame->color[1][i] = NAN;
     }
 }
@@ -204,7 +204,7 @@ static void held_down(const struct frame *frame, size_t pixel, bool has_past, do
     double sum = 0, count = 0;
     only_finite(frame, pixel, has_past, color, samples);
     for (int i = 0; i < 4; i++) {
-        const int x = (int)column(pixel) + beside[i][0], y = (int)row(pixel) + beside[i][1];
+        const int x = (int)column(pixel) + beside[i][0], y = (int)row_of_pixel(pixel) + beside[i][1];
         const size_t there = (size_t)(y * FRAME_WIDTH + x);
         if (x < 0 || y < 0 || x >= FRAME_WIDTH || y >= FRAME_HEIGHT) continue;
         if (frame->roughness[there] != frame->roughness[pixel]) continue;
@@ -212,7 +212,7 @@ static void held_down(const struct frame *frame, size_t pixel, bool has_past, do
                                  (double)frame->color[2][there]};
         if (isfinite(other[1])) sum += luminance(other), count++;
     }
-    const double bright = luminance(color), rough = row(pixel) >= FRAME_HEIGHT / 2 ? 0.2 : 1;
+    const double bright = luminance(color), rough = row_of_pixel(pixel) >= FRAME_HEIGHT / 2 ? 0.2 : 1;
     const double most = bright + rough * (3 * sum / count - bright);
     for (int k = 0; k < 3 && count > 0 && bright > most; k++) color[k] *= most / bright;
 }
@@ -230,7 +230,7 @@ static const struct shot list[] = {
     {"one colour for ever", "variance zero: the mean neither rises nor falls in 48 frames", {ALONE}, .summed = true, .frames = 48, .stage = even_colour,
      .bound = 9e-6, .reason = ONE ": 16 frames' of 0.7"},
     {"history of none", "0 keeps nothing", {ALONE, "temporal.history=0"}, .frames = 3, .past = nothing, .bound = 0, .reason = "the frame's own bits"},
-    {"history of one", "leaves half of the frame before", {ALONE, "temporal.history=1"}, .frames = 3, .past = one, .bound = 1.6e-6, .reason = ONE},
+    {"history of one", "leaves half of the frame before", {ALONE, "temporal.history=1"}, .frames = 3, .past = fill_history, .bound = 1.6e-6, .reason = ONE},
     {"after a cut", "nothing of the frames before it, and all of those after it", {ALONE}, .frames = 6, .stage = cut_at_4, .past = nothing_at_4, .bound = 1.6e-6, .reason = ONE},
     {"after a gap", "frame numbers that do not follow are a cut", {ALONE}, .frames = 6, .stage = gap_at_4, .past = nothing_at_4, .bound = 1.6e-6, .reason = ONE},
     {"frame number 0", "the first of all frames has a history as every other", {ALONE}, .frames = 4, .stage = from_0, .bound = 1.6e-6, .reason = ONE},

@@ -1,4 +1,4 @@
-/* Bytes as texts of JSON. */
+/* Encodes bytes as JSON strings. */
 #include "draw/page/base64.h"
 
 #include <stdio.h>

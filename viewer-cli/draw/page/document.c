@@ -1,4 +1,4 @@
-/* Documents of pages: putting them together, storing them, finding them again. */
+/* Builds, stores and loads the documents of pages. */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,7 +8,7 @@
 #include "draw/page/page.h"
 #include "io/text_file.h"
 
-/* File names need not be UTF-8, JSON must be. */
+/* File names may not be UTF-8, but JSON must be. */
 static json_t *text_json(const char *text) {
     json_t *json = json_string(text ? text : "");
     char *copy = json ? NULL : strdup(text);

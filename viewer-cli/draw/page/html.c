@@ -1,4 +1,4 @@
-/* Documents as HTML pages that carry everything they need. */
+/* Renders documents as self-contained HTML pages. */
 #include "draw/page/page.h"
 
 #include <errno.h>
@@ -9,15 +9,15 @@
 #include "draw/blobs.h"
 #include "io/text_file.h"
 
-/* ---- Pictures: each once, named by its place ---- */
+/* ---- Pictures: each is stored once and referred to by its index ---- */
 
 struct files {
-    json_t *places; /* {file: place} */
+    json_t *places; /* {file: index} */
     json_t *uris;
     const char *folder;
 };
 
-/* Replaces the names of pictures by their places, wherever pictures are listed. */
+/* Replaces the file names of all pictures by their indices. */
 static void number_files(struct files *files, json_t *json) {
     size_t i;
     const char *key;
@@ -37,7 +37,7 @@ static void number_files(struct files *files, json_t *json) {
     }
 }
 
-/* The file's bytes, malloc'd. It lies below `folder`, wherever links lead: documents come from strangers. */
+/* Reads a file below `folder`, malloc'd. Links must not lead out of it, because documents may come from untrusted sources. */
 static uint8_t *read_below(const char *folder, const char *name, size_t *size, struct glint_error *err) {
     enum { LARGEST_BYTES = 256 << 20 };
     char *path = NULL, *root = folder ? realpath(folder, NULL) : NULL, *real = NULL;
@@ -77,7 +77,8 @@ static bool load_files(struct files *files, struct glint_error *err) {
     const char *name;
     json_t *place, *uri;
     size_t share = PAGE_PICTURE_BYTES / (json_object_size(files->places) + 1);
-    json_object_foreach(files->places, name, place) { /* in the order in which they were met, as their places are */
+    json_object_foreach(files->places, name,
+                        place) { /* jansson keeps the order of insertion, which is that of the indices */
         uri = strncmp(name, "data:", 5) == 0 ? json_string(name) : picture_file(files->folder, name, share, err);
         if (!uri) return false;
         json_array_append_new(files->uris, uri);
@@ -97,7 +98,7 @@ static void put_script(FILE *out, const unsigned char *begin, const unsigned cha
     fputs("</script>\n", out);
 }
 
-/* JSON has '<' in texts only: without it, nothing in them can end the element. */
+/* JSON contains '<' only in strings. Without it, no string can close the script element. */
 static int put_json(const char *text, size_t size, void *user) {
     FILE *out = user;
     for (const char *end = text + size; text < end;) {

@@ -1,41 +1,41 @@
-/* Reports as one self-contained HTML page, and charts as SVG files, both from one description.
+/* Reports as self-contained HTML pages, and charts as SVG files, from one description.
 
    A document is JSON:
      {"format": 1, "title": T,
       "facts": [[NAME, CELL], …]            provenance: tool, device, capture, command line
       "sections": [{"title": T, "blocks": [BLOCK, …]}, …]}
-   BLOCK, one of
-     {"text": T}  {"heading": T}  {"note": T}  {"code": T}  prose; a title within the section; a warning; a command line or JSON as it stands
+   BLOCK is one of
+     {"text": T}  {"heading": T}  {"note": T}  {"code": T}   note: a warning; code: preformatted, as a command line or JSON
      {"table": {"columns": [{"name": T, "unit": T, "help": T, "decimals": N, "bar": BOOL}, …], "rows": [[CELL, …], …]}}
-                                             bar: numbers also as bars in their cells
+                                             bar: draws numbers also as bars in their cells
      {"pictures": [PICTURE, …], "columns": N}
-                                             N in a row (default: as fit); one enlarged flips to the next in place
+                                             N per row (default: as many as fit); an enlarged picture is flipped in place
      {"stage": {"title": T, "pictures": [SHOWN, …]}}
-                                             pictures over each other: a slider between two, both beside each other or in
-                                             turns, one alone, and the values under the pointer
+                                             comparison of pictures: under a slider, side by side, alternating or one at a
+                                             time, with the values of the pixel under the pointer
      {"chart": CHART}
-   A document's "refresh", in seconds: the page loads itself again, as long as nobody is working with it.
-   CELL: text, number, boolean, null (not known), or {"value": number, "low": L, "high": H, "text": T}: with an interval, or
-   shown as T and sorted by value.
-   PICTURE: {"file": F, "caption": T}. F: a PNG in the document's folder, or what page_picture gave.
-   SHOWN: a PICTURE with "values": VALUES, or none; "alone": BOOL, it is not one of those that are compared (a heat map).
-   VALUES: {"channels": [T, …], "unit": T, "width": PX, "height": PX, "every": N, "data": what page_values gave}
-                                             every N-th pixel's, where more would be too much
+   "refresh" of a document, in seconds: the page reloads itself unless somebody is using it.
+   CELL: text, number, boolean, null (unknown), or {"value": number, "low": L, "high": H, "text": T}: a number with its
+   interval, or shown as T and sorted by value.
+   PICTURE: {"file": F, "caption": T}. F: a PNG in the document's folder, or the result of page_picture.
+   SHOWN: a PICTURE, optionally with "values": VALUES; "alone": BOOL, it is not compared with others (a heat map).
+   VALUES: {"channels": [T, …], "unit": T, "width": PX, "height": PX, "every": N, "data": the result of page_values}
+                                             the values of every N-th pixel, to limit the size
    CHART:
      {"title": T, "x": AXIS, "y": AXIS, "series": [SERIES, …], "marks": [MARK, …], "width": PX, "height": PX}
    AXIS: {"name": T, "unit": T, "scale": "linear" (default), "log" or "category", "min": A, "max": B, "ticks": [number, …],
-          "categories": [T, …]}                a category axis in y makes bars lie
-   SERIES: {"name": T, "kind": "scatter", "line", "bar" or "front" (points joined by the staircase of what they offer
-            at a cost x), "stack": T (bars of one name stand on each other), "muted": BOOL (greyed: others
-            matter more), "points": [POINT, …]}
+          "categories": [T, …]}              categories on the y axis make bars horizontal
+   SERIES: {"name": T, "kind": "scatter", "line", "bar" or "front" (points joined as a staircase: a Pareto front),
+            "stack": T (bars of the same name are stacked), "muted": BOOL (drawn grey), "points": [POINT, …]}
    POINT: [x, y], or {"x": X, "y": Y, "x_low", "x_high", "low", "high": intervals, "name": T,
-          "values": [[NAME, CELL, UNIT], …], "pictures": [PICTURE, …]}; kept together with those of its name in other charts
-                                             what the page shows of a point that is pointed at, clicked or reached by keys
-          x (y of lying bars) of a category axis: the category's place from 0.
-   MARK: {"x": X} or {"y": Y}: a line across; {"x": X, "y": Y}: a point; with "label": T.
-   Points at or below zero of a logarithmic axis are left out, and the page counts them. Unknown members are ignored.
+          "values": [[NAME, CELL, UNIT], …], "pictures": [PICTURE, …]}
+                                             a selected point shows its values and pictures, and points of the same name in
+                                             other charts are highlighted with it
+          x (y of horizontal bars) on a category axis is the index of the category.
+   MARK: {"x": X} or {"y": Y}: a line; {"x": X, "y": Y}: a point; with "label": T.
+   Points <= 0 on a logarithmic axis are skipped, and the page counts them. Unknown members are ignored.
 
-   Every text may come from a stranger's file: pages show texts as texts, run no script but their own and fetch nothing. */
+   Any text may come from an untrusted file: pages never interpret texts, run only their own scripts and load nothing. */
 #ifndef GLINT_VIEWER_PAGE_H
 #define GLINT_VIEWER_PAGE_H
 
@@ -44,48 +44,47 @@
 #include "draw/view/picture.h"
 #include "draw/view/source.h"
 
-/* ---- Writing; files appear complete or not at all ---- */
+/* ---- Writing; files are renamed when complete ---- */
 
-/* PAGE_PICTURE_BYTES for all pictures of a page together: each keeps its PNG if that fits its share, else it becomes a
-   JPEG and then a smaller one. */
+/* Limit for all pictures of a page together. A picture stays PNG if that fits into its share, else it becomes JPEG and then smaller. */
 enum { PAGE_PICTURE_BYTES = 14000000 };
 
-enum { PAGE_VALUE_BYTES = 16000000 }; /* for the values of all pixels of a page */
+enum { PAGE_VALUE_BYTES = 16000000 }; /* limit for all VALUES of a page */
 
-/* The document as HTML. Pictures' files are looked for below `folder`, never outside of it; NULL: there are none. One that
-   cannot be read is an error. */
+/* Writes the document as HTML. Files of pictures are read below `folder` only; NULL: there are none. A file that cannot be
+   read is an error. */
 bool page_write(const char *path, const json_t *document, const char *folder, struct glint_error *err);
-/* A CHART as SVG; takes some 0.4 s, whatever it shows. */
+/* Writes a CHART as SVG; takes about 0.4 s for any chart. */
 bool page_chart_write(const char *path, const json_t *chart, struct glint_error *err);
-/* FOLDER/page.json, which `glint report FOLDER` renders again. */
+/* Writes FOLDER/page.json, which `glint report FOLDER` renders again. */
 bool page_store(const char *folder, const json_t *document, struct glint_error *err);
-/* A stored document; NULL on failure. */
+/* Loads a stored document; NULL on failure. */
 json_t *page_load(const char *folder, struct glint_error *err);
 
-/* ---- Putting documents together. When memory is short, nothing is added, and page_write or page_store fails ---- */
+/* ---- Building documents. When out of memory, nothing is added, and page_write or page_store fails ---- */
 
-/* A document with its title and, as the first fact, the tool's version; the caller releases it. */
+/* A document with its title and the version of the tool as its first fact; the caller releases it. */
 json_t *page_create(const char *title);
 void page_fact(json_t *document, const char *name, const char *value);
-/* A new section's blocks, borrowed. */
+/* Adds a section and returns its blocks, borrowed. */
 json_t *page_section(json_t *document, const char *title);
 void page_text(json_t *blocks, const char *kind, const char *text); /* kind: "text", "heading", "note", "code" */
-void page_chart(json_t *blocks, json_t *chart);                     /* takes the chart */
-/* A new table, borrowed. */
+void page_chart(json_t *blocks, json_t *chart);                     /* takes ownership of the chart */
+/* Adds a table, borrowed. */
 json_t *page_table(json_t *blocks);
-/* Unit "" for none; '|' before it: its numbers also as bars. */
+/* Unit "" for none; a leading '|' draws bars. */
 void page_column(json_t *table, const char *name, const char *unit);
-/* Takes the row, an array of cells. */
+/* Takes ownership of the row, an array of cells. */
 void page_row(json_t *table, json_t *row);
 /* A number with its interval. */
 json_t *page_interval(double value, double low, double high);
-/* A picture as a text for "file", no longer than `bytes` of image; NULL on failure. */
+/* Encodes a picture in at most `bytes` as a data URI for "file"; NULL on failure. */
 json_t *page_picture(const struct picture *picture, size_t bytes, struct glint_error *err);
-/* The same of a PNG or JPEG file's bytes, which errors call `name`. */
+/* The same for the contents of a PNG or JPEG file; errors call it `name`. */
 json_t *page_picture_file(const char *name, uint8_t *file, size_t size, size_t bytes, struct glint_error *err);
-/* VALUES of a source, no longer than `bytes` if keeping one pixel of 64 × 64 comes to that. */
+/* VALUES of a source in at most `bytes`, if one pixel in 64 × 64 fits. */
 json_t *page_values(const struct source *source, size_t bytes);
-/* A new stage's pictures, borrowed. */
+/* Adds a stage and returns its pictures, borrowed. */
 json_t *page_stage(json_t *blocks, const char *title);
 
 #endif

@@ -1,4 +1,4 @@
-/* Pictures within pages: as PNG where there is room for it, as JPEG where not, as data URIs either way. */
+/* Encodes pictures in pages as data URIs: PNG if the size allows it, else JPEG. */
 #include <stdio.h> /* jpeglib.h needs FILE */
 
 #include <jpeglib.h>
@@ -36,7 +36,7 @@ _Noreturn static void leave(j_common_ptr info) {
     longjmp(jpeg->back, 1);
 }
 
-/* Colour at full resolution: edges of false colours are what people look at. */
+/* No chroma subsampling, which would blur the edges of false colours. */
 static bool encode_jpeg(const struct picture *p, int quality, struct bytes *out) {
     struct jpeg jpeg = {0};
     *out = (struct bytes){NULL, 0};
@@ -72,7 +72,7 @@ static json_t *data_uri(const char *type, const struct bytes *bytes) {
     return base64_json(before, bytes->data, bytes->size);
 }
 
-/* Coarser, then halved, until it fits; what is a few pixels wide is taken as it is. */
+/* Lowers the quality, then halves the size, until the result fits. Very small pictures are accepted as they are. */
 static bool encode_small(const struct picture *picture, size_t bytes, struct bytes *out, struct glint_error *err) {
     enum { SMALLEST_PX = 64, FINE = 90, COARSE = 75 };
     struct picture small = {0};

@@ -1,4 +1,4 @@
-/* Charts as SVG files: the scripts of the pages, run by Duktape. */
+/* Renders charts as SVG files by running the scripts of the pages in Duktape. */
 #include "draw/page/page.h"
 
 #include <duktape.h>
@@ -20,7 +20,7 @@ static void evaluate_script(duk_context *js, const char *name, const unsigned ch
     duk_pop(js);
 }
 
-/* The library asks for timers where it loads and never waits for one here. */
+/* ECharts requests timers while it loads, but needs none here. */
 static const char timers[] = "function setTimeout() { return 0; } function clearTimeout() {}";
 
 static duk_ret_t draw_chart(duk_context *js, void *user) {
@@ -47,7 +47,7 @@ static bool draw_all(struct drawing *drawing, const char *path, struct glint_err
 }
 
 bool page_chart_write(const char *path, const json_t *chart, struct glint_error *err) {
-    /* ASCII: what lies beyond 16 bits arrives as the pairs that JavaScript knows */
+    /* ASCII, because Duktape expects characters beyond 16 bits as surrogate pairs */
     struct drawing drawing = {.chart = json_dumps(chart, JSON_ENSURE_ASCII | JSON_COMPACT | JSON_ENCODE_ANY)};
     bool ok = drawing.chart ? draw_all(&drawing, path, err) && text_file_write(path, drawing.svg, err)
                             : glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);

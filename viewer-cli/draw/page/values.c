@@ -1,4 +1,4 @@
-/* Values of pixels in pages: those under the pointer are shown as numbers. */
+/* Encodes the values of pixels for pages, which show those under the pointer. */
 #include <libdeflate.h>
 #include <stdlib.h>
 #include <string.h>
@@ -6,8 +6,8 @@
 #include "draw/page/base64.h"
 #include "draw/page/page.h"
 
-/* Every `every`-th texel's bytes, planes of like bytes one after the other, each byte less the one to its left: what is smooth,
-   or was stored as half, then compresses well. */
+/* Takes every `every`-th texel and stores bytes of equal significance together, each as the difference to its left
+   neighbour. Smooth images, and floats that were stored as half, then compress well. */
 static void split_planes(uint8_t *planes, const struct source *s, uint32_t every, uint32_t width, uint32_t height) {
     const size_t plane = (size_t)width * height;
     for (uint32_t k = 0; k < s->components; k++)
@@ -25,7 +25,7 @@ static void split_planes(uint8_t *planes, const struct source *s, uint32_t every
         }
 }
 
-/* Compressed, malloc'd; NULL when memory is short. */
+/* Compresses the texels, malloc'd; NULL when out of memory. */
 static uint8_t *pack(const struct source *s, uint32_t every, uint32_t width, uint32_t height, size_t *size) {
     const size_t bytes = 4 * (size_t)width * height * s->components;
     struct libdeflate_compressor *compressor = libdeflate_alloc_compressor(6);

@@ -1,4 +1,4 @@
-/* A pixel's story as a drawing: the ray over the depths that it crossed, in the picture and in each cube map. */
+/* Draws the trace of a pixel: its rays over the depths that they pass, on screen and in each cube map. */
 #include "draw/probe/draw.h"
 
 #include <stdio.h>
@@ -29,26 +29,26 @@ static void legend_entry(FILE *out, double *x, double y, const char *shape, cons
     *x += 30 + 6.3 * (double)text_width(text);
 }
 
-/* Returns where it ends. */
-static double legend(const struct drawing *d, double y) {
+/* Returns the y of its last line. */
+static double draw_legend(const struct drawing *d, double y) {
     double x = 30;
     bool any = false;
-    for (size_t i = 0; i < DRAW_LOOKS; i++) any |= d->used[i];
+    for (size_t i = 0; i < DRAW_DECISIONS; i++) any |= d->used[i];
     if (!any) return y - 30;
     legend_entry(d->out, &x, y, "<path d=\"M-6 0H8\" class=\"ray\"/>", "ray");
     legend_entry(
         d->out, &x, y,
         "<rect x=\"-6\" y=\"-5\" width=\"14\" height=\"10\" class=\"solid\"/><path d=\"M-6 5H8\" class=\"surface\"/>",
         "behind the visible surface");
-    for (size_t i = 0; i < DRAW_LOOKS; i++) {
+    for (size_t i = 0; i < DRAW_DECISIONS; i++) {
         char shape[96];
         const char *text = "";
         for (float w = 0; glint_probe_label("decision", w).name; w++)
-            if (strcmp(glint_probe_label("decision", w).name, draw_looks[i].decision) == 0)
+            if (strcmp(glint_probe_label("decision", w).name, draw_decisions[i].decision) == 0)
                 text = glint_probe_label("decision", w).text;
         if (!d->used[i]) continue;
         if (x + 30 + 6.3 * (double)text_width(text) > DRAW_WIDTH) x = 30, y += 18;
-        snprintf(shape, sizeof shape, "<circle r=\"4.5\" cx=\"1\" fill=\"%s\"/>", draw_looks[i].color);
+        snprintf(shape, sizeof shape, "<circle r=\"4.5\" cx=\"1\" fill=\"%s\"/>", draw_decisions[i].color);
         legend_entry(d->out, &x, y, shape, text);
     }
     return y;
@@ -67,12 +67,12 @@ static char *draw_panels(struct drawing *d) {
     char *body = NULL;
     size_t size;
     if (!(d->out = open_memstream(&body, &size))) return NULL;
-    const struct glint_probe_trace *story = &d->probe->own.story;
+    const struct glint_probe_trace *trace = &d->probe->own.trace;
     draw_define(d);
-    for (size_t i = 0, end; i < story->count; i = end) {
-        const struct glint_probe_record *first = &story->records[i];
+    for (size_t i = 0, end; i < trace->count; i = end) {
+        const struct glint_probe_record *first = &trace->records[i];
         for (end = i;
-             end < story->count && story->records[end].pass == first->pass && story->records[end].ray == first->ray;)
+             end < trace->count && trace->records[end].pass == first->pass && trace->records[end].ray == first->ray;)
             end++;
         const struct ray_records records = {first, end - i};
         draw_picture(d, &records, DRAW_LEFT - 52, DRAW_AREA + 52);
@@ -88,7 +88,7 @@ bool probe_draw(const char *path, const struct probe *probe, struct glint_error 
     struct drawing d = {.probe = probe};
     char *text = NULL;
     size_t size;
-    if (probe->own.picture.texels && !(d.uri = draw_encode(probe, err))) return false;
+    if (probe->own.picture.texels && !(d.uri = draw_encode_picture(probe, err))) return false;
     d.points = calloc(DRAW_POINTS, sizeof *d.points);
     char *body = d.points ? draw_panels(&d) : NULL;
     const bool empty = body && d.top == 0;
@@ -96,7 +96,7 @@ bool probe_draw(const char *path, const struct probe *probe, struct glint_error 
     if (!body || !(d.out = open_memstream(&text, &size))) glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     else {
         write_svg_head(d.out, probe, HEAD + LEGEND + d.top);
-        const double below = legend(&d, HEAD) + LEGEND;
+        const double below = draw_legend(&d, HEAD) + LEGEND;
         fprintf(d.out, "<g transform=\"translate(0 %.0f)\">\n%s</g></svg>\n", below, body);
         fclose(d.out);
         ok = empty ? glint_fail(err, GLINT_ERROR_FORMAT, "%s: pixel %u,%u has no ray to draw", path, probe->pixel[0],

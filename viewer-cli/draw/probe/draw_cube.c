@@ -1,4 +1,4 @@
-/* The ray over the distances that a cube map sees from its centre. */
+/* Panels of a ray in cube maps: the distance of its points, and of what the faces show in their direction, from the centre. */
 #include <math.h>
 #include <stdio.h>
 
@@ -31,7 +31,7 @@ static double distance_at(const struct cube_ray *ray, double t, double at[3]) {
     return sqrt(at[0] * at[0] + at[1] * at[1] + at[2] * at[2]);
 }
 
-static double seen_at(const struct probe_image *faces, const struct cube_ray *ray, double t) {
+static double stored_distance_at(const struct probe_image *faces, const struct cube_ray *ray, double t) {
     double at[3], u, v;
     distance_at(ray, t, at);
     const int face = cube_face_of(at, &u, &v);
@@ -40,16 +40,16 @@ static double seen_at(const struct probe_image *faces, const struct cube_ray *ra
     return (double)faces->texels[((6 * (size_t)ray->place + (size_t)face) * size + y) * size + x];
 }
 
-static bool is_look(const struct glint_probe_record *record, uint32_t place) {
+static bool is_step(const struct glint_probe_record *record, uint32_t place) {
     return glint_probe_is(record, "cubemap_texel") && draw_value(record, "place") == place;
 }
 
-/* The part of the way to show: that of the steps in this cube map; of a tracer without steps, up to its end or the reference's. */
-static bool set_span(const struct cube_ray *ray, double reference_m, double span[2]) {
+/* The range of t that a panel shows: that of the steps in this cube map, or up to the hit if the tracer records no steps. */
+static bool set_ray_range(const struct cube_ray *ray, double reference_m, double span[2]) {
     span[0] = INFINITY, span[1] = 0;
     for (size_t i = 0; i < ray->records->count; i++) {
         const double t = draw_value(&ray->records->records[i], "travelled_m");
-        if (!is_look(&ray->records->records[i], ray->place) || !isfinite(t)) continue;
+        if (!is_step(&ray->records->records[i], ray->place) || !isfinite(t)) continue;
         span[0] = fmin(span[0], t), span[1] = fmax(span[1], t);
     }
     if (span[0] > span[1]) {
@@ -63,16 +63,16 @@ static bool set_span(const struct cube_ray *ray, double reference_m, double span
     return by_decades;
 }
 
-/* Fills the points with what is seen, and sets the axes. */
+/* Fills the points with the distances that the faces store, and sets the axes. */
 static void set_axes(struct drawing *d, struct panel *panel, const struct cube_ray *ray, double reference_m) {
     double span[2], at[3], low = INFINITY, high = 0;
-    const bool by_decades = set_span(ray, reference_m, span);
+    const bool by_decades = set_ray_range(ray, reference_m, span);
     for (size_t i = 0; i < DRAW_POINTS; i++) {
         const double part = (double)i / (DRAW_POINTS - 1);
         const double t = by_decades ? span[0] * pow(span[1] / span[0], part) : span[0] + part * (span[1] - span[0]);
         const double distance = distance_at(ray, t, at);
         d->points[i][0] = t;
-        d->points[i][1] = seen_at(&d->probe->own.cubemap_distance, ray, t);
+        d->points[i][1] = stored_distance_at(&d->probe->own.cubemap_distance, ray, t);
         low = fmin(low, fmin(distance, d->points[i][1]));
         high = fmax(high, distance);
     }
@@ -83,7 +83,7 @@ static void set_axes(struct drawing *d, struct panel *panel, const struct cube_r
                                    log_y ? 0.8 * low : 0, 1.3 * high};
 }
 
-/* Where a tracer without steps ends its ray. */
+/* Marks the end of the ray if the tracer records no steps. */
 static void draw_ending(const struct panel *panel, const struct cube_ray *ray) {
     double at[3], number = 0;
     const double t = draw_value(ray_records_last(ray->records, "cubemap_end"), "travelled_m");
@@ -103,13 +103,13 @@ static void draw_cube(struct drawing *d, const struct ray_records *records, uint
     set_axes(d, &panel, &ray, reference_m);
     snprintf(text, sizeof text, "In %s", probe_cubemap(&d->probe->own, place));
     draw_begin(&panel, text, records, "cubemap_end");
-    draw_seen(d, &panel);
+    draw_surface(d, &panel);
     for (size_t i = 0; i < DRAW_POINTS; i++) d->points[i][1] = distance_at(&ray, d->points[i][0], at);
     panel_line(&panel, (const double(*)[2])d->points, DRAW_POINTS, "class=\"ray\"");
     for (size_t i = 0, number = 0; i < records->count; i++) {
         const struct glint_probe_record *step = &records->records[i];
         number += glint_probe_is(step, "cubemap_texel");
-        if (is_look(step, place))
+        if (is_step(step, place))
             draw_step(d, &panel, step, draw_value(step, "travelled_m"), draw_value(step, "ray_m"), number);
     }
     draw_ending(&panel, &ray);
@@ -120,7 +120,7 @@ static void draw_cube(struct drawing *d, const struct ray_records *records, uint
     draw_end(d, &panel);
 }
 
-/* One panel for each cube map, in the order in which the ray came to them. */
+/* Draws a panel for each cube map, in the order in which they are traced. */
 void draw_cubes(struct drawing *d, const struct ray_records *records) {
     const struct probe_side *side = &d->probe->own;
     bool drawn[PLACES] = {false};

@@ -1,4 +1,4 @@
-/* What a pass mixed in: texels and places on the picture, and how much of the mixture each is. */
+/* Draws what a pass averages or blends: texels and sample positions on the picture, and the weight of each. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,10 +9,10 @@
 
 enum { PICTURE = 300, GAP = 24, ROW = 17, MOST_ROWS = 10, MOST_PARTS = 128, BAR = 150, TITLE = 40, LAYERS = 4 };
 
-/* A texel, or a place. */
+/* A texel or a sample position. */
 struct part {
     const struct glint_probe_record *record;
-    double x, y, size; /* in full-resolution pixels, the corner; size 0: a place between texels */
+    double x, y, size; /* top left corner in full-resolution pixels; size 0: a position between texels */
     double share;
 };
 struct mixture {
@@ -25,7 +25,7 @@ static const char *image_of(const struct glint_probe_record *record) {
     return word.name ? word.name : "";
 }
 
-/* Texels of coarser levels are as large as those of the finest that they stand for. */
+/* Texels of coarser levels are drawn as large as the pixels that they cover. */
 static struct part part_of(const struct probe *probe, const struct glint_probe_record *record) {
     struct part part = {.record = record};
     if (glint_probe_is(record, "sample")) {
@@ -38,31 +38,32 @@ static struct part part_of(const struct probe *probe, const struct glint_probe_r
     return part;
 }
 
-static int by_share(const void *a, const void *b) {
+static int compare_shares(const void *a, const void *b) {
     const double x = ((const struct part *)a)->share, y = ((const struct part *)b)->share;
     return (x < y) - (x > y);
 }
 
-/* The records with a weight that come after one another from *at on, the heaviest first. */
-static void gather(const struct probe *probe, const struct ray_records *records, size_t *at, struct mixture *mixture) {
+/* Collects consecutive records with a weight, starting from *at, the largest weight first. */
+static void gather_weights(const struct probe *probe, const struct ray_records *records, size_t *at,
+                           struct mixture *mixture) {
     double total = 0;
     mixture->count = 0;
     while (*at < records->count && isnan(draw_value(&records->records[*at], "weight"))) ++*at;
     for (; *at < records->count && mixture->count < MOST_PARTS; ++*at) {
         struct part part = part_of(probe, &records->records[*at]);
-        const double held = draw_value(part.record, "part"), weight = draw_value(part.record, "weight");
+        const double fraction = draw_value(part.record, "part"), weight = draw_value(part.record, "weight");
         if (isnan(weight)) break;
-        part.share = weight * (isnan(held) ? 1 : held);
+        part.share = weight * (isnan(fraction) ? 1 : fraction);
         total += part.share;
         mixture->parts[mixture->count++] = part;
     }
     for (size_t i = 0; i < mixture->count; i++) mixture->parts[i].share /= total > 0 ? total : 1;
-    qsort(mixture->parts, mixture->count, sizeof mixture->parts[0], by_share);
+    qsort(mixture->parts, mixture->count, sizeof mixture->parts[0], compare_shares);
 }
 
 /* ---- On the picture ---- */
 
-static void grow(double low[2], double high[2], double x, double y, double size) {
+static void extend_bounds(double low[2], double high[2], double x, double y, double size) {
     low[0] = fmin(low[0], x), low[1] = fmin(low[1], y);
     high[0] = fmax(high[0], x + size), high[1] = fmax(high[1], y + size);
 }
@@ -71,7 +72,7 @@ static void draw_places(struct drawing *d, const struct mixture *mixture, double
     const uint32_t *full = d->probe->full, *pixel = d->probe->pixel;
     double low[2] = {pixel[0], pixel[1]}, high[2] = {pixel[0] + 1.0, pixel[1] + 1.0};
     for (size_t i = 0; i < mixture->count; i++)
-        grow(low, high, mixture->parts[i].x, mixture->parts[i].y, mixture->parts[i].size);
+        extend_bounds(low, high, mixture->parts[i].x, mixture->parts[i].y, mixture->parts[i].size);
     const double wide = fmax(fmax((high[0] - low[0]) * 1.3, (high[1] - low[1]) * 1.3 * full[0] / full[1]), 12);
     const double tall = wide * full[1] / full[0], scale = wide / PICTURE;
     const double x = (low[0] + high[0] - wide) / 2, y = (low[1] + high[1] - tall) / 2;
@@ -81,17 +82,17 @@ static void draw_places(struct drawing *d, const struct mixture *mixture, double
             left, d->top, PICTURE, height, x, y, wide, tall, x, y, wide, tall);
     for (size_t i = mixture->count; i-- > 0;) {
         const struct part *p = &mixture->parts[i];
-        const double shown = 0.25 + 0.75 * sqrt(p->share);
+        const double opacity = 0.25 + 0.75 * sqrt(p->share);
         if (p->size > 0)
             fprintf(d->out,
                     "<rect x=\"%.2f\" y=\"%.2f\" width=\"%.2f\" height=\"%.2f\" fill=\"none\" stroke=\"#ffd23f\" "
                     "stroke-width=\"%.3f\" opacity=\"%.2f\"/>",
-                    p->x, p->y, p->size, p->size, (1 + 2.5 * sqrt(p->share)) * scale, shown);
+                    p->x, p->y, p->size, p->size, (1 + 2.5 * sqrt(p->share)) * scale, opacity);
         else
             fprintf(d->out,
                     "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"%.3f\" fill=\"#ffd23f\" stroke=\"#222\" stroke-width=\"%.3f\" "
                     "opacity=\"%.2f\"/>",
-                    p->x, p->y, (3 + 6 * sqrt(p->share)) * scale, scale, shown);
+                    p->x, p->y, (3 + 6 * sqrt(p->share)) * scale, scale, opacity);
     }
     fprintf(d->out,
             "<rect x=\"%u\" y=\"%u\" width=\"1\" height=\"1\" fill=\"none\" stroke=\"#fff\" stroke-width=\"%.3f\"/>"
@@ -101,8 +102,8 @@ static void draw_places(struct drawing *d, const struct mixture *mixture, double
 
 /* ---- As bars ---- */
 
-/* Radiance as a colour of the screen, toned so that nothing is too bright. */
-static int shown(double radiance) {
+/* Tone maps radiance and encodes it as sRGB. */
+static int tone_map(double radiance) {
     const double v = radiance > 0 ? radiance / (1 + radiance) : 0;
     return (int)(255 * (v <= 0.0031308 ? 12.92 * v : 1.055 * pow(v, 1 / 2.4) - 0.055) + 0.5);
 }
@@ -113,8 +114,8 @@ static void draw_bar(struct drawing *d, double left, double y, const double rgb[
             "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"12\" class=\"bar\"/>"
             "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"end\" class=\"tick\">%s %%</text>"
             "<text x=\"%.1f\" y=\"%.1f\" class=\"tick\">",
-            left, y, shown(rgb[0]), shown(rgb[1]), shown(rgb[2]), left + 72, y, fmax(share * BAR, 0.5), left + 64,
-            y + 10, number_text(round(1000 * share) / 10), left + 72 + BAR + 10, y + 10);
+            left, y, tone_map(rgb[0]), tone_map(rgb[1]), tone_map(rgb[2]), left + 72, y, fmax(share * BAR, 0.5),
+            left + 64, y + 10, number_text(round(1000 * share) / 10), left + 72 + BAR + 10, y + 10);
     svg_text(d->out, text);
     fputs("</text>\n", d->out);
 }
@@ -140,7 +141,7 @@ static void draw_heading(struct drawing *d, const struct ray_records *records, c
             records->records->pass->slot, records->records->pass->variant, what);
 }
 
-/* What follows says what was made of it. */
+/* The record after the weights names the texel that they were combined into. */
 static void title_of(const struct ray_records *records, size_t next, char *text, size_t size) {
     const struct glint_probe_record *made = next < records->count ? &records->records[next] : NULL;
     if (made && glint_probe_is(made, "made"))
@@ -151,7 +152,8 @@ static void title_of(const struct ray_records *records, size_t next, char *text,
 
 static void draw_weights(struct drawing *d, const struct ray_records *records, size_t next,
                          const struct mixture *mixture) {
-    const bool elsewhere = strcmp(image_of(mixture->parts[0].record), "planar_color") == 0; /* a picture of its own */
+    const bool elsewhere =
+        strcmp(image_of(mixture->parts[0].record), "planar_color") == 0; /* an image that is not in screen space */
     const double height = elsewhere ? 0 : PICTURE * (double)d->probe->full[1] / d->probe->full[0];
     const double left = elsewhere ? 24 : 24 + PICTURE + GAP;
     const size_t rows = mixture->count < MOST_ROWS ? mixture->count : MOST_ROWS;
@@ -188,10 +190,10 @@ void draw_mixtures(struct drawing *d, const struct ray_records *records) {
     struct mixture mixture;
     for (size_t at = 0, next; at < records->count; at = next) {
         next = at;
-        gather(d->probe, records, &next, &mixture);
+        gather_weights(d->probe, records, &next, &mixture);
         for (; at < next; at++)
             if (glint_probe_is(&records->records[at], "layer")) draw_layer(d, records, &records->records[at]);
-        const bool place = mixture.count && mixture.parts[0].size == 0; /* one is worth a look, too */
+        const bool place = mixture.count && mixture.parts[0].size == 0; /* one sample between texels is drawn, too */
         if ((mixture.count > 1 || place) && d->uri) draw_weights(d, records, next, &mixture);
     }
 }

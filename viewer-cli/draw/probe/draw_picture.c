@@ -1,4 +1,4 @@
-/* Where the ray is: on the picture that the pipeline made, whole and near. */
+/* Draws the ray on the pipeline's final image, as a whole and enlarged around its steps. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,9 +8,9 @@
 #include "draw/view/pixels.h"
 #include "draw/view/render.h"
 
-enum { GAP = 16, TITLE = 40 /* that it has none of */, WIDEST = 1600, MOST_BYTES = 600000 };
+enum { GAP = 16, TITLE = 40, MAX_WIDTH = 1600, MAX_BYTES = 600000 };
 
-json_t *draw_encode(const struct probe *probe, struct glint_error *err) {
+json_t *draw_encode_picture(const struct probe *probe, struct glint_error *err) {
     const struct probe_image *image = &probe->own.picture;
     const struct glint_pixels pixels = {image->width, image->height, image->components, image->texels};
     const struct source source = pixels_source(&pixels, "composed");
@@ -20,8 +20,8 @@ json_t *draw_encode(const struct probe *probe, struct glint_error *err) {
     size_t invalid;
     json_t *text = NULL;
     if (render_plain(&picture, &legend, &source, &options, &invalid, err) &&
-        picture_shrink(&picture, 1 + image->width / WIDEST, true, err))
-        text = page_picture(&picture, MOST_BYTES, err);
+        picture_shrink(&picture, 1 + image->width / MAX_WIDTH, true, err))
+        text = page_picture(&picture, MAX_BYTES, err);
     picture_finish(&picture);
     return text;
 }
@@ -34,11 +34,7 @@ void draw_define(struct drawing *d) {
                 d->probe->full[0], d->probe->full[1], json_string_value(d->uri));
 }
 
-static bool is_look(const struct glint_probe_record *record) {
-    return glint_probe_is(record, "screen_texel") || glint_probe_is(record, "screen_cell");
-}
-
-/* What is shown near: all looks with some room, of the shape of the picture. */
+/* The enlarged part of the image: all steps with a margin, in the aspect ratio of the image. */
 struct window {
     double x, y, width, height;
 };
@@ -46,7 +42,7 @@ static struct window window_of(const struct ray_records *records, const uint32_t
     const struct glint_probe_record *ray = ray_records_last(records, "screen_ray");
     double low[2] = {draw_value(ray, "start_x"), draw_value(ray, "start_y")}, high[2] = {low[0], low[1]};
     for (size_t i = 0; i < records->count; i++)
-        for (int k = 0; k < 2 && is_look(&records->records[i]); k++) {
+        for (int k = 0; k < 2 && draw_is_screen_step(&records->records[i]); k++) {
             const double at = draw_value(&records->records[i], k ? "y" : "x");
             low[k] = fmin(low[k], at), high[k] = fmax(high[k], at);
         }
@@ -57,7 +53,7 @@ static struct window window_of(const struct ray_records *records, const uint32_t
     return w;
 }
 
-/* The window at x, `width` wide, with the ray's looks; `scale`: pixels of the picture to one of the drawing. */
+/* Draws the window at x, `width` wide, with the steps of the ray. `scale` is the number of image pixels per unit of the drawing. */
 static void draw_window(const struct drawing *d, const struct ray_records *records, double x, double width,
                         const struct window *w) {
     const double height = width * w->height / w->width, scale = w->width / width;
@@ -68,11 +64,11 @@ static void draw_window(const struct drawing *d, const struct ray_records *recor
     const struct glint_probe_record *ray = ray_records_last(records, "screen_ray");
     fprintf(d->out, "M%.2f %.2f", draw_value(ray, "start_x"), draw_value(ray, "start_y"));
     for (size_t i = 0; i < records->count; i++)
-        if (is_look(&records->records[i]))
+        if (draw_is_screen_step(&records->records[i]))
             fprintf(d->out, "L%.2f %.2f", draw_value(&records->records[i], "x"), draw_value(&records->records[i], "y"));
     fprintf(d->out, "\" fill=\"none\" stroke=\"#fff\" stroke-width=\"%.3f\" opacity=\"0.8\"/>", 1.5 * scale);
     for (size_t i = 0; i < records->count; i++)
-        if (is_look(&records->records[i]))
+        if (draw_is_screen_step(&records->records[i]))
             fprintf(d->out,
                     "<circle cx=\"%.2f\" cy=\"%.2f\" r=\"%.3f\" fill=\"%s\" stroke=\"#fff\" stroke-width=\"%.3f\"/>",
                     draw_value(&records->records[i], "x"), draw_value(&records->records[i], "y"), 3.5 * scale,

@@ -1,4 +1,4 @@
-/* The ray over the depths of the picture that it crossed. */
+/* The panel of a ray in screen space: its depth, and the depth of the surfaces that it passes. */
 #include <math.h>
 #include <string.h>
 
@@ -7,61 +7,58 @@
 struct screen_ray {
     const struct ray_records *records;
     const struct glint_probe_record *record;
-    double start[2], across[2], length_px; /* across: a pixel of the way */
-    double inverse, inverse_rate;          /* of the depth, by the way in px */
+    double start[2], direction[2], length_px; /* direction: per pixel of the projected ray */
+    double inverse, inverse_rate;             /* 1/z at the start, and its change per pixel */
 };
 
-static bool is_look(const struct glint_probe_record *record) {
-    return glint_probe_is(record, "screen_texel") || glint_probe_is(record, "screen_cell");
-}
-
-static double way_of(const struct screen_ray *ray, const struct glint_probe_record *step) {
+static double step_px(const struct screen_ray *ray, const struct glint_probe_record *step) {
     return hypot(draw_value(step, "x") - ray->start[0], draw_value(step, "y") - ray->start[1]);
 }
 
-/* How deep the ray is along its way follows from one step, since 1/z is linear in the picture. */
+/* 1/z is linear in screen space, so that the depths at the start and at one step suffice. */
 static bool screen_ray_of(const struct ray_records *records, struct screen_ray *ray) {
     *ray = (struct screen_ray){.records = records, .record = ray_records_last(records, "screen_ray")};
     if (!ray->record) return false;
     const double end[2] = {draw_value(ray->record, "end_x"), draw_value(ray->record, "end_y")};
     ray->start[0] = draw_value(ray->record, "start_x"), ray->start[1] = draw_value(ray->record, "start_y");
     ray->length_px = hypot(end[0] - ray->start[0], end[1] - ray->start[1]);
-    for (int k = 0; k < 2; k++) ray->across[k] = (end[k] - ray->start[k]) / fmax(ray->length_px, 1e-9);
+    for (int k = 0; k < 2; k++) ray->direction[k] = (end[k] - ray->start[k]) / fmax(ray->length_px, 1e-9);
     ray->inverse = 1 / draw_value(ray->record, "depth_m");
     for (size_t i = 0; i < records->count; i++) {
-        const double way = is_look(&records->records[i]) ? way_of(ray, &records->records[i]) : 0;
-        if (way > 0) ray->inverse_rate = (1 / draw_value(&records->records[i], "ray_m") - ray->inverse) / way;
+        const double px = draw_is_screen_step(&records->records[i]) ? step_px(ray, &records->records[i]) : 0;
+        if (px > 0) ray->inverse_rate = (1 / draw_value(&records->records[i], "ray_m") - ray->inverse) / px;
     }
     return ray->length_px > 0;
 }
 
-static double seen_at(const struct probe *probe, const struct screen_ray *ray, double way) {
+static double depth_at(const struct probe *probe, const struct screen_ray *ray, double px) {
     const struct probe_image *image = &probe->own.depth_half;
     size_t at[2];
     for (int k = 0; k < 2; k++) {
-        const double texel = floor((ray->start[k] + way * ray->across[k]) * probe->half[k] / probe->full[k]);
+        const double texel = floor((ray->start[k] + px * ray->direction[k]) * probe->half[k] / probe->full[k]);
         if (!(texel >= 0 && texel < (k ? image->height : image->width))) return NAN;
         at[k] = (size_t)texel;
     }
     return (double)image->texels[at[1] * image->width + at[0]];
 }
 
-/* How far along the way something is that lies t metres along the ray. */
-static double way_at(const struct screen_ray *ray, double t) {
+/* The distance on screen of the point at t metres along the ray. */
+static double position_px(const struct screen_ray *ray, double t) {
     const double z = draw_value(ray->record, "z"), along = draw_value(ray->record, "direction_z") * (z < 0 ? -1 : 1);
     return (1 / (1 / ray->inverse + t * along) - ray->inverse) / ray->inverse_rate;
 }
 
-static double shown_way(const struct screen_ray *ray) {
-    double most = 0;
+static double shown_length_px(const struct screen_ray *ray) {
+    double longest = 0;
     for (size_t i = 0; i < ray->records->count; i++)
-        if (is_look(&ray->records->records[i])) most = fmax(most, way_of(ray, &ray->records->records[i]));
-    return fmin(1.15 * most, ray->length_px);
+        if (draw_is_screen_step(&ray->records->records[i]))
+            longest = fmax(longest, step_px(ray, &ray->records->records[i]));
+    return fmin(1.15 * longest, ray->length_px);
 }
 
-/* Depths worth showing: those of the ray, and of what it went behind unless that is far nearer. */
-static void set_depths(const struct screen_ray *ray, double way, struct panel_axis *axis) {
-    const double end = fmax(ray->inverse + way * ray->inverse_rate, 1e-9);
+/* The depth axis covers the ray, and surfaces in front of it unless they are far nearer. */
+static void set_depth_axis(const struct screen_ray *ray, double px, struct panel_axis *axis) {
+    const double end = fmax(ray->inverse + px * ray->inverse_rate, 1e-9);
     const double nearest = fmax(ray->inverse, end), low = fmin(ray->inverse, end);
     double high = nearest;
     for (size_t i = 0; i < ray->records->count; i++) {
@@ -74,10 +71,11 @@ static void set_depths(const struct screen_ray *ray, double way, struct panel_ax
     axis->high = low - room > 0.02 * high ? 1 / (low - room) : INFINITY;
 }
 
-/* The part of the ray that a step looked at, and how far the surface is from it. */
-static void draw_look(struct drawing *d, const struct panel *panel, const struct screen_ray *ray,
-                      const struct glint_probe_record *step, size_t number) {
-    const double at = way_of(ray, step), depth = draw_value(step, "ray_m"), from_depth = draw_value(step, "ray_from_m");
+/* Draws the segment of the ray that a step tests, and the gap to the surface. */
+static void draw_screen_step(struct drawing *d, const struct panel *panel, const struct screen_ray *ray,
+                             const struct glint_probe_record *step, size_t number) {
+    const double at = step_px(ray, step), depth = draw_value(step, "ray_m"),
+                 from_depth = draw_value(step, "ray_from_m");
     const double surface = draw_value(step, "surface_m"), from = (1 / from_depth - ray->inverse) / ray->inverse_rate;
     const double crossed[2][2] = {{from, from_depth}, {at, depth}}, gap[2][2] = {{at, depth}, {at, surface}};
     char style[96];
@@ -92,22 +90,23 @@ static void draw_look(struct drawing *d, const struct panel *panel, const struct
 void draw_screen(struct drawing *d, const struct ray_records *records) {
     struct screen_ray ray;
     if (!d->probe->own.depth_half.texels || !screen_ray_of(records, &ray)) return;
-    const double way = shown_way(&ray), reference_m = draw_reference_m(d, records, "screen_end");
-    if (!(way > 0)) return;
+    const double px = shown_length_px(&ray), reference_m = draw_reference_m(d, records, "screen_end");
+    if (!(px > 0)) return;
     struct panel panel = draw_panel(d);
-    panel.x = (struct panel_axis){"distance on screen in pixels", PANEL_LINEAR, 0, way};
+    panel.x = (struct panel_axis){"distance on screen in pixels", PANEL_LINEAR, 0, px};
     panel.y = (struct panel_axis){"depth in m, linear in 1/z", PANEL_INVERSE, 0, 0};
-    set_depths(&ray, way, &panel.y);
+    set_depth_axis(&ray, px, &panel.y);
     draw_begin(&panel, "Screen space", records, "screen_end");
     for (size_t i = 0; i < DRAW_POINTS; i++) {
-        d->points[i][0] = way * (double)i / (DRAW_POINTS - 1);
-        d->points[i][1] = seen_at(d->probe, &ray, d->points[i][0]);
+        d->points[i][0] = px * (double)i / (DRAW_POINTS - 1);
+        d->points[i][1] = depth_at(d->probe, &ray, d->points[i][0]);
     }
-    draw_seen(d, &panel);
-    const double line[2][2] = {{0, 1 / ray.inverse}, {way, 1 / fmax(ray.inverse + way * ray.inverse_rate, 1e-9)}};
+    draw_surface(d, &panel);
+    const double line[2][2] = {{0, 1 / ray.inverse}, {px, 1 / fmax(ray.inverse + px * ray.inverse_rate, 1e-9)}};
     panel_line(&panel, line, 2, "class=\"ray\"");
     for (size_t i = 0, number = 0; i < records->count; i++)
-        if (is_look(&records->records[i])) draw_look(d, &panel, &ray, &records->records[i], ++number);
-    draw_reference(&panel, way_at(&ray, reference_m), reference_m);
+        if (draw_is_screen_step(&records->records[i]))
+            draw_screen_step(d, &panel, &ray, &records->records[i], ++number);
+    draw_reference(&panel, position_px(&ray, reference_m), reference_m);
     draw_end(d, &panel);
 }

@@ -1,4 +1,4 @@
-/* What the panels of a pixel's drawing share: places, colours of decisions, steps, the reference's ray. */
+/* The common parts of all panels: layout, colours of decisions, steps, the hit of the reference. */
 #include "draw/probe/drawing.h"
 
 #include <math.h>
@@ -7,17 +7,21 @@
 
 #include "io/table.h"
 
-const struct draw_look draw_looks[DRAW_LOOKS] = {
+const struct draw_decision draw_decisions[DRAW_DECISIONS] = {
     {"front", "#3b7dd8"},   {"hit", "#1a9850"},    {"behind", "#d95f02"},  {"back_face", "#b5179e"},
     {"absent", "#8d5a2b"},  {"finer", "#9aa5b1"},  {"hidden", "#a06cd5"},  {"closing", "#e6a817"},
     {"resting", "#5c6b7a"}, {"unseen", "#c1121f"}, {"skipped", "#7fb3e6"}, {"sky", "#00a6c8"},
 };
 
-static size_t look_of(const struct glint_probe_record *record) {
+static size_t decision_of(const struct glint_probe_record *record) {
     const struct glint_probe_label word = glint_probe_label("decision", glint_probe_value(record, "decision"));
-    for (size_t i = 0; i < DRAW_LOOKS; i++)
-        if (word.name && strcmp(word.name, draw_looks[i].decision) == 0) return i;
+    for (size_t i = 0; i < DRAW_DECISIONS; i++)
+        if (word.name && strcmp(word.name, draw_decisions[i].decision) == 0) return i;
     return 0;
+}
+
+bool draw_is_screen_step(const struct glint_probe_record *record) {
+    return glint_probe_is(record, "screen_texel") || glint_probe_is(record, "screen_cell");
 }
 
 double draw_value(const struct glint_probe_record *record, const char *name) {
@@ -25,7 +29,7 @@ double draw_value(const struct glint_probe_record *record, const char *name) {
 }
 
 const char *draw_decision_color(const struct glint_probe_record *step) {
-    return draw_looks[look_of(step)].color;
+    return draw_decisions[decision_of(step)].color;
 }
 
 const struct glint_probe_record *ray_records_last(const struct ray_records *records, const char *kind) {
@@ -38,7 +42,7 @@ struct panel draw_panel(const struct drawing *d) {
     return (struct panel){.out = d->out, .left = DRAW_LEFT, .top = d->top, .width = DRAW_AREA, .height = DRAW_HEIGHT};
 }
 
-static const char *end_of(const struct glint_probe_record *end) {
+static const char *end_reason_text(const struct glint_probe_record *end) {
     const struct glint_probe_label why = glint_probe_label("end reason", (float)draw_value(end, "end"));
     return why.text ? why.text : "";
 }
@@ -47,21 +51,21 @@ void draw_begin(const struct panel *panel, const char *title, const struct ray_r
     const struct glint_probe_record *end = ray_records_last(records, kind);
     char text[256];
     snprintf(text, sizeof text, "%s/%s: %s at %s m after %.0f steps", records->records->pass->slot,
-             records->records->pass->variant, end_of(end), number_text(draw_value(end, "travelled_m")),
+             records->records->pass->variant, end_reason_text(end), number_text(draw_value(end, "travelled_m")),
              draw_value(end, "steps"));
     panel_begin(panel, title, text);
 }
 
-void draw_seen(const struct drawing *d, const struct panel *panel) {
+void draw_surface(const struct drawing *d, const struct panel *panel) {
     panel_solid(panel, (const double(*)[2])d->points, DRAW_POINTS, "class=\"solid\"");
     panel_line(panel, (const double(*)[2])d->points, DRAW_POINTS, "class=\"surface\"");
 }
 
 double draw_reference_m(const struct drawing *d, const struct ray_records *records, const char *kind) {
-    const struct glint_probe_trace *story = &d->probe->reference.story;
+    const struct glint_probe_trace *trace = &d->probe->reference.trace;
     const struct glint_probe_record *end = NULL;
-    for (size_t i = 0; i < story->count; i++) {
-        const struct glint_probe_record *record = &story->records[i];
+    for (size_t i = 0; i < trace->count; i++) {
+        const struct glint_probe_record *record = &trace->records[i];
         if (glint_probe_is(record, kind) && record->ray == records->records->ray &&
             strcmp(record->pass->slot, records->records->pass->slot) == 0)
             end = record;
@@ -83,12 +87,12 @@ void draw_end(struct drawing *d, const struct panel *panel) {
 
 void draw_step(struct drawing *d, const struct panel *panel, const struct glint_probe_record *record, double x,
                double y, size_t number) {
-    const size_t look = look_of(record);
+    const size_t decision = decision_of(record);
     const struct glint_probe_label word = glint_probe_label("decision", glint_probe_value(record, "decision"));
-    const bool hit = strcmp(draw_looks[look].decision, "hit") == 0;
+    const bool hit = strcmp(draw_decisions[decision].decision, "hit") == 0;
     char style[96], hint[200];
-    d->used[look] = true;
-    snprintf(style, sizeof style, "fill=\"%s\" stroke=\"#fff\" stroke-width=\"%s\"", draw_looks[look].color,
+    d->used[decision] = true;
+    snprintf(style, sizeof style, "fill=\"%s\" stroke=\"#fff\" stroke-width=\"%s\"", draw_decisions[decision].color,
              hit ? "1.5" : "0.8");
     snprintf(hint, sizeof hint, "step %zu: %s m along the ray; ray at %s m, surface at %s m: %s", number,
              number_text(draw_value(record, "travelled_m")), number_text(draw_value(record, "ray_m")),

@@ -4,25 +4,25 @@
 
 #include "io/table.h"
 
-static double place(const struct panel_axis *axis, double value) {
+static double axis_position(const struct panel_axis *axis, double value) {
     if (axis->scale == PANEL_LOG) return log(fmax(value, 1e-30) / axis->low) / log(axis->high / axis->low);
     if (axis->scale == PANEL_INVERSE) return (1 / axis->low - 1 / value) / (1 / axis->low - 1 / axis->high);
     return (value - axis->low) / (axis->high - axis->low);
 }
 
-/* Far outside of the panel, numbers may be of any size. */
-static double held(double part) {
+/* Coordinates far outside of a panel are clamped, as SVG viewers do not render very large numbers. */
+static double clamp_position(double part) {
     return fmin(fmax(part, -2), 3);
 }
 
 double panel_x(const struct panel *panel, double value) {
-    return panel->left + panel->width * held(place(&panel->x, value));
+    return panel->left + panel->width * clamp_position(axis_position(&panel->x, value));
 }
 double panel_y(const struct panel *panel, double value) {
-    return panel->top + panel->height * (1 - held(place(&panel->y, value)));
+    return panel->top + panel->height * (1 - clamp_position(axis_position(&panel->y, value)));
 }
 bool panel_shows(const struct panel *panel, double x) {
-    const double part = place(&panel->x, x);
+    const double part = axis_position(&panel->x, x);
     return part >= -1e-9 && part <= 1 + 1e-9;
 }
 
@@ -36,19 +36,20 @@ void svg_text(FILE *out, const char *text) {
     }
 }
 
-static void label(const struct panel *p, double x, double y, const char *anchor, const char *style, const char *text) {
+static void draw_label(const struct panel *p, double x, double y, const char *anchor, const char *style,
+                       const char *text) {
     fprintf(p->out, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\" %s>", x, y, anchor, style);
     svg_text(p->out, text);
     fputs("</text>\n", p->out);
 }
 
-static void tick(const struct panel *p, bool is_x, double value) {
+static void draw_tick(const struct panel *p, bool is_x, double value) {
     const double at = is_x ? panel_x(p, value) : panel_y(p, value), right = p->left + p->width,
                  bottom = p->top + p->height;
     if (is_x) fprintf(p->out, "<path d=\"M%.1f %.1fV%.1f\" class=\"grid\"/>", at, p->top, bottom);
     else fprintf(p->out, "<path d=\"M%.1f %.1fH%.1f\" class=\"grid\"/>", p->left, at, right);
-    label(p, is_x ? at : p->left - 7, is_x ? bottom + 16 : at + 4, is_x ? "middle" : "end", "class=\"tick\"",
-          isinf(value) ? "sky" : number_text(value));
+    draw_label(p, is_x ? at : p->left - 7, is_x ? bottom + 16 : at + 4, is_x ? "middle" : "end", "class=\"tick\"",
+               isinf(value) ? "sky" : number_text(value));
 }
 
 static double rounded_step(double span, int most) {
@@ -56,7 +57,7 @@ static double rounded_step(double span, int most) {
     return raw / unit <= 1 ? unit : raw / unit <= 2 ? 2 * unit : raw / unit <= 5 ? 5 * unit : 10 * unit;
 }
 
-/* 1, 2 and 5 times powers of ten, unless they stand too close. */
+/* Ticks are at 1, 2 and 5 times powers of ten, except where labels would overlap. */
 static void ticks_by_decades(const struct panel *p, bool is_x, const struct panel_axis *axis, double apart_px) {
     const double high = isinf(axis->high) ? axis->low * 1e6 : axis->high;
     double last = -1e9;
@@ -66,10 +67,10 @@ static void ticks_by_decades(const struct panel *p, bool is_x, const struct pane
             const double at = is_x ? panel_x(p, value) : -panel_y(p, value);
             if (value < axis->low || value > high || at - last < apart_px) continue;
             if (isinf(axis->high) && -panel_y(p, INFINITY) - at < apart_px) continue;
-            tick(p, is_x, value);
+            draw_tick(p, is_x, value);
             last = at;
         }
-    if (isinf(axis->high)) tick(p, is_x, INFINITY);
+    if (isinf(axis->high)) draw_tick(p, is_x, INFINITY);
 }
 
 static void ticks(const struct panel *p, bool is_x) {
@@ -81,18 +82,18 @@ static void ticks(const struct panel *p, bool is_x) {
     }
     const double step = rounded_step(axis->high - axis->low, is_x ? 12 : 6);
     for (double value = ceil(axis->low / step) * step; value <= axis->high * (1 + 1e-9); value += step)
-        tick(p, is_x, fabs(value) < 1e-9 * step ? 0 : value);
+        draw_tick(p, is_x, fabs(value) < 1e-9 * step ? 0 : value);
 }
 
 void panel_begin(const struct panel *p, const char *title, const char *subtitle) {
     const double bottom = p->top + p->height;
-    label(p, p->left - 52, p->top - 30, "start", "class=\"title\"", title);
-    label(p, p->left - 52, p->top - 12, "start", "class=\"tick\"", subtitle);
+    draw_label(p, p->left - 52, p->top - 30, "start", "class=\"title\"", title);
+    draw_label(p, p->left - 52, p->top - 12, "start", "class=\"tick\"", subtitle);
     fprintf(p->out, "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" class=\"area\"/>\n", p->left, p->top,
             p->width, p->height);
     ticks(p, true);
     ticks(p, false);
-    label(p, p->left + p->width / 2, bottom + 36, "middle", "class=\"axis\"", p->x.name);
+    draw_label(p, p->left + p->width / 2, bottom + 36, "middle", "class=\"axis\"", p->x.name);
     fprintf(p->out, "<g transform=\"translate(%.1f %.1f) rotate(-90)\"><text text-anchor=\"middle\" class=\"axis\">",
             p->left - 46, p->top + p->height / 2);
     svg_text(p->out, p->y.name);
@@ -142,5 +143,5 @@ void panel_across(const struct panel *p, double x, int row, const char *text, co
             "<path d=\"M%.1f %.1fV%.1f\" fill=\"none\" stroke=\"%s\" stroke-width=\"1.5\" stroke-dasharray=\"5 4\"/>\n",
             at, p->top, p->top + p->height, color);
     snprintf(style, sizeof style, "class=\"tick\" style=\"fill:%s\"", color);
-    label(p, right ? at - 5 : at + 5, p->top + 14 + 15 * row, right ? "end" : "start", style, text);
+    draw_label(p, right ? at - 5 : at + 5, p->top + 14 + 15 * row, right ? "end" : "start", style, text);
 }

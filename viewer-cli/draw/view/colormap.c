@@ -1,8 +1,8 @@
-/* Colours that stand for values. */
+/* Colour maps of false-colour images. */
 #include "draw/view/colormap.h"
 
-/* Viridis (Smith and van der Walt, 2015, CC0) as the sixth-degree fit by Matt Zucker (2019, CC0,
-   shadertoy.com/view/WlfXRN): within 1/255 of the table but for the ends. */
+/* Viridis (Smith and van der Walt, 2015, CC0) by Matt Zucker's polynomial of degree six (2019, CC0,
+   shadertoy.com/view/WlfXRN), which is within 1/255 of the table except at both ends. */
 struct rgb colormap_viridis(double t) {
     static const double c[7][3] = {
         {0.2777273272234177, 0.005407344544966578, 0.3340998053353061},
@@ -31,7 +31,7 @@ struct rgb colormap_category(uint32_t index) {
     };
     if (index == 0) return palette[0];
     struct rgb c = palette[1 + (index - 1) % 10];
-    /* Further rounds through the palette are darker. */
+    /* each repetition of the palette is darker */
     uint32_t round = (index - 1) / 10 % 3;
     return (struct rgb){(uint8_t)(c.r * (4 - round) / 4), (uint8_t)(c.g * (4 - round) / 4),
                         (uint8_t)(c.b * (4 - round) / 4)};

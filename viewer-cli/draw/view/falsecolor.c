@@ -1,4 +1,4 @@
-/* Values as colours. */
+/* Draws values as false colours. */
 #include "draw/view/falsecolor.h"
 
 #include <math.h>
@@ -23,8 +23,8 @@ enum kind kind_of(const struct source *s) {
     return KIND_DISTANCE;
 }
 
-/* What is drawn of a texel: the first channel, or the length of a vector. */
-static double scalar(const struct source *s, size_t texel) {
+/* The value that is drawn: the first channel, or the length of a vector. */
+static double drawn_value(const struct source *s, size_t texel) {
     const float *v = s->texels + texel * s->components;
     if (s->components >= 2 && source_channel(s, "X") == 0 && source_channel(s, "Y") == 1) {
         double z = s->components >= 3 && source_channel(s, "Z") == 2 ? (double)v[2] : 0;
@@ -33,7 +33,7 @@ static double scalar(const struct source *s, size_t texel) {
     return (double)v[0];
 }
 
-/* Percentiles of at most 250,000 texels, evenly taken, of which `positive` takes those above 0. */
+/* Percentiles of at most 250,000 evenly spaced texels; with `positive`, of those above 0. */
 static bool percentiles(const struct source *s, bool positive, const struct falsecolor_options *options, double *low,
                         double *high, struct glint_error *err) {
     const double first = options->percentiles_given ? options->percentiles[0] / 100 : 0.005,
@@ -42,7 +42,7 @@ static bool percentiles(const struct source *s, bool positive, const struct fals
     float *values = malloc((texels / step + 1) * sizeof *values);
     if (!values) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     for (size_t i = 0; i < texels; i += step) {
-        double v = scalar(s, i);
+        double v = drawn_value(s, i);
         if (isfinite(v) && (!positive || v > 0)) values[count++] = (float)v;
     }
     glint_sort_floats(values, count);
@@ -52,9 +52,9 @@ static bool percentiles(const struct source *s, bool positive, const struct fals
     return true;
 }
 
-/* Fills the legend's ends, and decides whether its scale is logarithmic. */
-static bool find_scale(struct legend *legend, const struct source *s, const struct falsecolor_options *options,
-                       struct glint_error *err) {
+/* Computes the range of the legend and chooses between a linear and a logarithmic scale. */
+static bool choose_scale(struct legend *legend, const struct source *s, const struct falsecolor_options *options,
+                         struct glint_error *err) {
     bool length = !strcmp(s->unit, "m"), may = options->scale == SCALE_LOG || (options->scale == SCALE_AUTO && length);
     if (options->range_given) {
         legend->low = options->low;
@@ -107,7 +107,7 @@ static struct rgb normal_color(struct legend *l, const float *v) {
                         to_byte((double)v[2] * 0.5 + 0.5)};
 }
 
-/* Whole numbers; 255 is "none" in images of places. */
+/* Indices are integers; in images of cube-map indices, 255 is "none". */
 static struct rgb index_color(struct legend *l, double v, double share) {
     if (!(v >= 0 && v < 4294967296.0)) {
         l->has_invalid = true;
@@ -118,14 +118,14 @@ static struct rgb index_color(struct legend *l, double v, double share) {
     return index == 255 ? COLOR_BACKGROUND : colormap_category(l->kind == KIND_REASON ? index : index + 1);
 }
 
-/* Where a texel is no number in any channel; the rest is grey by its value. */
+/* Marks texels with a non-finite channel; all others are grey, by value. */
 static struct rgb invalid_color(struct legend *l, const struct source *s, size_t i) {
     for (uint32_t k = 0; k < s->components; k++)
         if (!isfinite(s->texels[i * s->components + k])) {
             l->has_invalid = true;
             return isnan(s->texels[i * s->components + k]) ? COLOR_INVALID : COLOR_INFINITE;
         }
-    const uint8_t grey = to_byte(0.35 * position(l, scalar(s, i)));
+    const uint8_t grey = to_byte(0.35 * position(l, drawn_value(s, i)));
     return (struct rgb){grey, grey, grey};
 }
 
@@ -155,17 +155,17 @@ static struct rgb texel_color(struct legend *l, const struct source *s, size_t i
     case KIND_RAW:
         return raw_color(l, s, v);
     default:
-        return distance_color(l, scalar(s, i));
+        return distance_color(l, drawn_value(s, i));
     }
 }
 
-/* A kind that is another one with a scale of its own. */
+/* Reduces kinds with a fixed scale to the kind that draws them, and sets the scale. */
 static enum kind plain_kind(enum kind kind, const struct source *s, struct falsecolor_options *options) {
     const bool free_range = !options->range_given;
     if (kind == KIND_DEPTH && options->scale == SCALE_AUTO) options->scale = SCALE_LOG;
     if (kind == KIND_WEIGHT && free_range) options->high = 1;
     for (size_t i = 0; kind == KIND_STEPS && free_range && i < (size_t)s->width * s->height; i++) {
-        const double v = scalar(s, i);
+        const double v = drawn_value(s, i);
         options->high = isfinite(v) ? fmax(options->high, v) : options->high;
     }
     options->range_given = options->range_given || kind == KIND_WEIGHT || kind == KIND_STEPS;
@@ -187,7 +187,7 @@ bool falsecolor_prepare(struct legend *l, const struct source *s, enum kind kind
         l->low = options->low;
         l->high = options->high;
     }
-    return (kind != KIND_DISTANCE && kind != KIND_INVALID) || find_scale(l, s, options, err);
+    return (kind != KIND_DISTANCE && kind != KIND_INVALID) || choose_scale(l, s, options, err);
 }
 
 bool falsecolor_draw(struct picture *picture, struct legend *legend, const struct source *source, enum kind kind,

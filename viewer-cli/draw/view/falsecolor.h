@@ -1,11 +1,11 @@
-/* Values as colours, with a legend that says what they mean. */
+/* Draws values as false colours, with a legend. */
 #ifndef GLINT_VIEWER_FALSECOLOR_H
 #define GLINT_VIEWER_FALSECOLOR_H
 
 #include "draw/view/picture.h"
 #include "draw/view/source.h"
 
-/* Depth, steps and weight are distances with a scale of their own: logarithmic, from 0, 0 to 1. */
+/* Depth, steps and weights are drawn like distances with a fixed scale: logarithmic, from 0, and from 0 to 1. */
 enum kind {
     KIND_AUTO,
     KIND_COLOR,
@@ -21,40 +21,40 @@ enum kind {
 };
 extern const char *const kind_names[]; /* "auto", "color", …, NULL */
 
-enum scale { SCALE_AUTO, SCALE_LINEAR, SCALE_LOG }; /* auto: logarithmic for lengths over more than 1 : 20 */
+enum scale { SCALE_AUTO, SCALE_LINEAR, SCALE_LOG }; /* auto: logarithmic for lengths whose range is more than 1 : 20 */
 
 struct falsecolor_options {
     enum scale scale;
     bool range_given;
     double low, high;
-    bool percentiles_given; /* else 0.5 and 99.5 */
+    bool percentiles_given; /* else the percentiles 0.5 and 99.5 */
     double percentiles[2];
 };
 
-/* What a source most likely is: from its unit and the names of its channels. */
+/* Guesses the kind of a source from its unit and channel names. */
 enum kind kind_of(const struct source *source);
 
-/* A scale for `falsecolor_draw`: what its legend will say. */
+/* The scale of a false-colour picture, as its legend shows it. */
 struct legend {
     enum kind kind;
     char title[400];
     double low, high;
     bool logarithmic, has_infinite, has_invalid, has_none; /* has_none: texels without a value, -inf */
-    bool has_zero;                                         /* 0 or less on a logarithmic scale */
-    double shares[257];                                    /* of each index, the last for all others; sums to 1 */
+    bool has_zero;                                         /* values <= 0 on a logarithmic scale */
+    double shares[257]; /* fraction of each index, the last one of all others; the sum is 1 */
 };
 
-/* Every kind but KIND_COLOR. Without a range, percentiles of the finite values. */
+/* Draws every kind but KIND_COLOR. Without a range, percentiles of the finite values are used. */
 bool falsecolor_draw(struct picture *picture, struct legend *legend, const struct source *source, enum kind kind,
                      const struct falsecolor_options *options, struct glint_error *err);
-/* Its legend alone: the range, and whether it is logarithmic. */
+/* Computes the legend only: the range and the scale. */
 bool falsecolor_prepare(struct legend *legend, const struct source *source, enum kind kind,
                         const struct falsecolor_options *options, struct glint_error *err);
-/* A colour image's name, and nothing else. */
+/* The legend of a colour image, which has only a title. */
 struct legend legend_of_color(const struct source *source);
-/* Puts "LABEL: " before its title; the label ends at a slash. */
+/* Puts "LABEL: " before the title; LABEL ends at a slash. */
 void legend_label(struct legend *legend, const char *label);
-/* Adds the legend below the picture. */
+/* Appends the legend below the picture. */
 bool legend_add(struct picture *picture, const struct legend *legend, struct glint_error *err);
 
 #endif

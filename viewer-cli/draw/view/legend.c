@@ -23,16 +23,16 @@ void legend_label(struct legend *legend, const char *label) {
     memcpy(legend->title, title, sizeof title);
 }
 
-/* "left screen" of left_screen: short enough for a narrow picture. */
+/* "left screen" for left_screen, short enough for narrow pictures. */
 static void reason_label(uint32_t reason, char label[64]) {
     snprintf(label, 64, "%s", reasons[reason]);
     for (char *p = label; (p = strchr(p, '_')) != NULL;) *p = ' ';
 }
 
-/* Where the next item goes; items flow to the next line when the width is used up. */
+/* The position of the next item; items wrap at the width of the picture. */
 struct flow {
     struct text *text;
-    struct picture *picture; /* NULL: only measure */
+    struct picture *picture; /* NULL: measure only */
     int x, y, width;
 };
 
@@ -56,13 +56,13 @@ static void title(struct flow *flow, const char *string) {
     flow->x = MARGIN_PX;
 }
 
-/* The value at a place of the bar, with as many digits as neighbouring ticks need to differ. */
+/* Formats the value at a position of the bar with enough digits to tell neighbouring ticks apart. */
 static void tick_label(const struct legend *l, double t, char label[32]) {
     double v = l->logarithmic ? l->low * pow(l->high / l->low, t) : l->low + (l->high - l->low) * t;
     snprintf(label, 32, "%.3g", fabs(v) < 1e-12 * fmax(fabs(l->low), fabs(l->high)) ? 0 : v);
 }
 
-/* As many as leave room between the labels; those at the ends do not stick out, and come half a label nearer. */
+/* The largest number of ticks whose labels do not overlap. The outermost labels are moved inwards by half their width. */
 static int intervals_that_fit(const struct flow *flow, const struct legend *l, int width) {
     int intervals = 4, widest = 0;
     for (int i = 0; i <= intervals; i++) {
@@ -110,8 +110,8 @@ static void shares(struct flow *flow, const struct legend *l) {
     }
 }
 
-/* Draws, or measures with flow->picture NULL; flow->y ends below the last line. */
-static void layout(struct flow *flow, const struct legend *l) {
+/* Draws the legend, or measures it if flow->picture is NULL. flow->y ends below the last line. */
+static void lay_out_legend(struct flow *flow, const struct legend *l) {
     title(flow, l->title);
     bool scaled = l->kind == KIND_DISTANCE || l->kind == KIND_RAW;
     if (scaled) bar(flow, l);
@@ -147,12 +147,12 @@ bool legend_add(struct picture *picture, const struct legend *legend, struct gli
     if (!flow.text) return false;
     int top = (int)picture->height + MARGIN_PX / 2;
     flow.y = top;
-    layout(&flow, legend);
+    lay_out_legend(&flow, legend);
     bool ok = picture_init(&canvas, width, (uint32_t)flow.y, COLOR_BACKGROUND, err);
     if (ok) {
         picture_paste(&canvas, picture, 0, 0);
         flow = (struct flow){flow.text, &canvas, MARGIN_PX, top, (int)width};
-        layout(&flow, legend);
+        lay_out_legend(&flow, legend);
         picture_finish(picture);
         *picture = canvas;
     }

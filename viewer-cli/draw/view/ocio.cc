@@ -1,4 +1,4 @@
-// Colour through OpenColorIO. Exceptions stop here.
+// Colour conversion through OpenColorIO. Exceptions must not leave this file.
 #include "draw/view/ocio.h"
 
 #include <OpenColorIO/OpenColorIO.h>
@@ -23,40 +23,40 @@ OCIO::ConstConfigRcPtr open_config(const char *path) {
     return OCIO::Config::CreateFromStream(text);
 }
 
-// The name as the config writes it; throws with the known names and the nearest.
-std::string known(const char *what, const char *wanted, const std::vector<std::string> &names) {
-    struct nearest near = nearest_to(wanted);
+// Returns the name as the config spells it, or throws with the known names and the nearest one.
+std::string find_name(const char *what, const char *name, const std::vector<std::string> &names) {
+    struct nearest near = nearest_to(name);
     std::string list;
     for (const std::string &name : names) {
-        if (name == wanted) return name;
+        if (name == name) return name;
         nearest_offer(&near, name.c_str());
         list += (list.empty() ? "" : ", ") + name;
     }
-    throw std::invalid_argument(std::string("there is no ") + what + " " + wanted + nearest_text(&near) +
+    throw std::invalid_argument(std::string("there is no ") + what + " " + name + nearest_text(&near) +
                                 "; the configuration has " + list);
 }
 
-std::string choose_display(const OCIO::ConstConfigRcPtr &config, const char *wanted) {
-    if (!wanted) return config->getDefaultDisplay();
+std::string choose_display(const OCIO::ConstConfigRcPtr &config, const char *name) {
+    if (!name) return config->getDefaultDisplay();
     std::vector<std::string> names;
     for (int i = 0; i < config->getNumDisplays(); i++) names.push_back(config->getDisplay(i));
-    return known("display", wanted, names);
+    return find_name("display", name, names);
 }
 
-std::string choose_view(const OCIO::ConstConfigRcPtr &config, const std::string &display, const char *wanted) {
-    if (!wanted) return config->getDefaultView(display.c_str());
+std::string choose_view(const OCIO::ConstConfigRcPtr &config, const std::string &display, const char *name) {
+    if (!name) return config->getDefaultView(display.c_str());
     std::vector<std::string> names;
     for (int i = 0; i < config->getNumViews(display.c_str()); i++) names.push_back(config->getView(display.c_str(), i));
-    return known("view", wanted, names);
+    return find_name("view", name, names);
 }
 
-// Linear Rec. 709 goes by several names; a config without any of them has its scene-linear role taken for it.
-std::string choose_input(const OCIO::ConstConfigRcPtr &config, const char *wanted) {
-    if (wanted) {
-        if (config->getColorSpace(wanted)) return wanted;
+// Linear Rec. 709 has several names. In a config without any of them, pixels are taken to be in its scene-linear role.
+std::string choose_input(const OCIO::ConstConfigRcPtr &config, const char *name) {
+    if (name) {
+        if (config->getColorSpace(name)) return name;
         std::vector<std::string> names;
         for (int i = 0; i < config->getNumColorSpaces(); i++) names.push_back(config->getColorSpaceNameByIndex(i));
-        return known("colour space", wanted, names);
+        return find_name("colour space", name, names);
     }
     for (const char *name : {"lin_rec709", "Linear Rec.709 (sRGB)", "Utility - Linear - Rec.709",
                              "Utility - Linear - sRGB", "lin_srgb", "Linear"})

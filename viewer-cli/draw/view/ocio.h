@@ -1,4 +1,4 @@
-/* Colour through OpenColorIO: scene-linear pixels to a display's view. */
+/* Colour conversion through OpenColorIO: scene-linear pixels to a view of a display. */
 #ifndef GLINT_VIEWER_OCIO_H
 #define GLINT_VIEWER_OCIO_H
 
@@ -15,9 +15,9 @@ struct ocio_options {
     const char *view;    /* NULL: the display's default */
 };
 
-/* Converts width × height RGBA floats in place; alpha is kept. Unknown names are errors that list the known ones. */
+/* Converts width × height RGBA floats in place, except alpha. An unknown name is an error that lists the known ones. */
 bool ocio_apply(const struct ocio_options *options, float *rgba, size_t width, size_t height, struct glint_error *err);
-/* "ACES, sRGB, raw": the built-in configuration's views. malloc'd; NULL on failure. */
+/* "ACES, sRGB, raw": the views of the built-in configuration, malloc'd; NULL on failure. */
 char *ocio_builtin_views(void);
 
 #ifdef __cplusplus

@@ -124,8 +124,8 @@ bool picture_cross(struct picture *picture, struct glint_error *err) {
     return true;
 }
 
-/* The place in a column of faces that a direction meets. */
-static void face_place(const double d[3], uint32_t size, uint32_t *x, uint32_t *y) {
+/* The position of a direction in a column of six faces. */
+static void face_position(const double d[3], uint32_t size, uint32_t *x, uint32_t *y) {
     double u, v;
     const int face = cube_face_of(d, &u, &v);
     u *= size, v *= size;
@@ -144,7 +144,7 @@ bool picture_latlong(struct picture *picture, struct glint_error *err) {
                          longitude = 2 * pi * ((column + 0.5) / width - 0.5);
             const double d[3] = {cos(latitude) * sin(longitude), sin(latitude), cos(latitude) * cos(longitude)};
             uint32_t x, y;
-            face_place(d, n, &x, &y);
+            face_position(d, n, &x, &y);
             memcpy(pixel_at(&map, column, row), pixel_at(picture, x, y + row / height * 6 * n), 4);
         }
     replace(picture, &map);

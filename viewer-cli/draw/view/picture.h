@@ -1,4 +1,4 @@
-/* A picture of 8-bit RGBA, sRGB, rows from the top. */
+/* A picture of 8-bit RGBA in sRGB, rows from top to bottom. */
 #ifndef GLINT_VIEWER_PICTURE_H
 #define GLINT_VIEWER_PICTURE_H
 
@@ -22,29 +22,30 @@ struct picture {
     uint8_t *rgba;
 };
 
-/* Filled with one colour. */
+/* Creates a picture filled with one colour. */
 bool picture_init(struct picture *picture, uint32_t width, uint32_t height, struct rgb color, struct glint_error *err);
 void picture_finish(struct picture *picture);
 void picture_set(struct picture *picture, uint32_t x, uint32_t y, struct rgb color);
-/* Mixes a colour in; outside the picture is nothing. */
+/* Blends a colour over a pixel; pixels outside of the picture are ignored. */
 void picture_blend(struct picture *picture, int x, int y, struct rgb color, uint8_t coverage);
 void picture_fill(struct picture *picture, int x, int y, int width, int height, struct rgb color);
-/* Copies a whole picture to a place inside another. */
+/* Copies a picture to a position inside of another. */
 void picture_paste(struct picture *to, const struct picture *from, uint32_t x, uint32_t y);
 
-/* Whether x, y, width, height lie inside. */
+/* Whether the rectangle x, y, width, height lies inside. */
 bool picture_holds(uint32_t width, uint32_t height, const uint32_t crop[4], struct glint_error *err);
-/* These replace the picture. */
+/* The following functions replace the picture. */
 bool picture_crop(struct picture *picture, const uint32_t crop[4], struct glint_error *err);
 bool picture_zoom(struct picture *picture, uint32_t factor, struct glint_error *err);
-/* Each pixel the mean of factor × factor, or its first; what is left over at the right and below is cut. */
+/* Reduces blocks of factor × factor pixels to their mean, or to their first pixel. Incomplete blocks at the right and
+   bottom are cut off. */
 bool picture_shrink(struct picture *picture, uint32_t factor, bool mean, struct glint_error *err);
-/* Six faces below each other, +X −X +Y −Y +Z −Z as Vulkan orients them, become a horizontal cross with +Z in the middle;
-   several cubes become crosses below each other. */
+/* Arranges columns of six faces (+X −X +Y −Y +Z −Z in Vulkan's orientation) as horizontal crosses with +Z in the
+   middle, one below the other. */
 bool picture_cross(struct picture *picture, struct glint_error *err);
-/* The same faces as longitude and latitude: +Z in the middle, +X to the right of it, +Y at the top. */
+/* Converts the same faces to longitude and latitude: +Z in the middle, +X to its right, +Y at the top. */
 bool picture_latlong(struct picture *picture, struct glint_error *err);
-/* Pictures beside each other, the first as it is and the others below each other to its right. */
+/* Places the first picture on the left, and the others below each other on its right. */
 bool picture_chain(struct picture *chain, const struct picture *pictures, size_t count, struct glint_error *err);
 
 #ifdef __cplusplus

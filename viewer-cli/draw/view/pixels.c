@@ -1,4 +1,4 @@
-/* Pictures of pixels in memory. */
+/* Draws pixels in memory. */
 #include "draw/view/pixels.h"
 
 #include <math.h>

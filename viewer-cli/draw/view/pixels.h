@@ -1,22 +1,22 @@
-/* Pictures of pixels in memory, at the width of a sheet's cells. */
+/* Draws pixels in memory, as wide as the cells of a sheet. */
 #ifndef GLINT_VIEWER_PIXELS_H
 #define GLINT_VIEWER_PIXELS_H
 
 #include "glint/judge.h"
 #include "draw/view/sheet.h"
 
-/* An image of the last run as floats. */
+/* Reads an image of the last run as floats. */
 bool pixels_read(struct glint_replay *replay, const struct glint_image *image, struct glint_pixels *pixels,
                  struct glint_error *err);
-/* How far two images of R G B are apart: |a - b| over their sum. Not compared, -inf, where `mask` is 0 or the relative
-   error of the second is infinite, as that of a truth without weight; NULL: it is known everywhere. */
+/* The relative difference |a - b| / (a + b) of two RGB images. It is -inf (no value) where `mask` is 0, or where `error`, the relative
+   error of the second image, is infinite, as of a truth whose samples have no weight. A NULL `error` is 0 everywhere. */
 bool pixels_difference(const struct glint_pixels *a, const struct glint_pixels *b, const float *error,
                        const uint8_t *mask, struct glint_pixels *difference, struct glint_error *err);
-/* As what is shown, borrowing the values. */
+/* A source that borrows the values. */
 struct source pixels_source(const struct glint_pixels *pixels, const char *title);
-/* From 0 to 1. */
+/* Options with the range 0 to 1. */
 struct render_options pixels_options(void);
-/* Colour, or one channel in false colour from 0 to 1, with its title below; `label` goes before it. */
+/* Draws a colour image, or one channel in false colours from 0 to 1, with its title below, preceded by `label`. */
 bool pixels_draw(struct picture *picture, const struct glint_pixels *pixels, const char *title, const char *label,
                  struct glint_error *err);
 

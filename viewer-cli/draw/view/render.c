@@ -1,11 +1,11 @@
-/* A source as a finished picture. */
+/* Renders a source as a picture. */
 #include "draw/view/render.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-/* RGBA with the exposure applied; one channel stands for all three. */
+/* RGBA with the exposure applied; a single channel becomes grey. */
 static float *linear_rgba(const struct source *s, double exposure_ev) {
     size_t texels = (size_t)s->width * s->height;
     float *rgba = malloc(texels * 4 * sizeof *rgba), scale = (float)exp2(exposure_ev);
@@ -73,9 +73,9 @@ bool render_plain(struct picture *picture, struct legend *legend, const struct s
     return ok;
 }
 
-/* Zoom and legend, where they are wanted. */
-static bool finish(struct picture *picture, const struct legend *legend, const struct render_options *options,
-                   struct glint_error *err) {
+/* Applies zoom and legend if requested. */
+static bool finish_picture(struct picture *picture, const struct legend *legend, const struct render_options *options,
+                           struct glint_error *err) {
     return picture_zoom(picture, options->zoom, err) &&
            (legend->kind == KIND_COLOR || options->no_legend || legend_add(picture, legend, err));
 }
@@ -83,14 +83,16 @@ static bool finish(struct picture *picture, const struct legend *legend, const s
 bool render(struct picture *picture, const struct source *source, const struct render_options *options, size_t *invalid,
             struct glint_error *err) {
     struct legend legend;
-    return render_plain(picture, &legend, source, options, invalid, err) && finish(picture, &legend, options, err);
+    return render_plain(picture, &legend, source, options, invalid, err) &&
+           finish_picture(picture, &legend, options, err);
 }
 
 enum { LEVELS_MAX = 16 };
 
-/* One of the coarser levels; false without an error when the chain has no such level. */
-static bool level(struct picture *picture, const struct source_choice *choice, const struct source *finest,
-                  size_t number, const struct render_options *options, size_t *invalid, struct glint_error *err) {
+/* Draws one of the coarser levels; false without an error if the image has no such level. */
+static bool render_level(struct picture *picture, const struct source_choice *choice, const struct source *finest,
+                         size_t number, const struct render_options *options, size_t *invalid,
+                         struct glint_error *err) {
     char name[300];
     struct source_choice of_level = *choice;
     struct source source;
@@ -116,11 +118,12 @@ bool render_levels(struct picture *picture, const struct source *finest, const s
     same.falsecolor.range_given = legend.low < legend.high;
     same.falsecolor.low = legend.low;
     same.falsecolor.high = legend.high;
-    while (ok && count < LEVELS_MAX && level(&levels[count], choice, finest, count, &same, invalid, err)) count++;
+    while (ok && count < LEVELS_MAX && render_level(&levels[count], choice, finest, count, &same, invalid, err))
+        count++;
     ok = ok && err->code == GLINT_OK;
     if (ok && count == 1)
         ok = glint_fail(err, GLINT_ERROR_USAGE, "%s: image %s has one level", choice->path, finest->title);
-    ok = ok && picture_chain(picture, levels, count, err) && finish(picture, &legend, options, err);
+    ok = ok && picture_chain(picture, levels, count, err) && finish_picture(picture, &legend, options, err);
     for (size_t i = 0; i < LEVELS_MAX; i++) picture_finish(&levels[i]);
     return ok;
 }

@@ -1,4 +1,4 @@
-/* A source as a finished picture: colour through OpenColorIO or false colour, cross, crop, zoom, legend. */
+/* Renders a source as a picture: colour through OpenColorIO or false colours, cross, crop, zoom, legend. */
 #ifndef GLINT_VIEWER_RENDER_H
 #define GLINT_VIEWER_RENDER_H
 
@@ -10,31 +10,31 @@ struct render_options {
     struct falsecolor_options falsecolor;
     struct ocio_options ocio;
     double exposure_ev;
-    bool faces;    /* cube maps as they are stored, not as a cross */
-    bool latlong;  /* cube maps by longitude and latitude */
+    bool faces;    /* cube maps as stored, not as a cross */
+    bool latlong;  /* cube maps in longitude and latitude */
     bool has_crop; /* x, y, width, height */
     uint32_t crop[4], zoom;
     bool no_legend;
 };
 
-/* What is asked for, or what the source calls for. */
+/* The requested kind, or the one that suits the source. */
 enum kind render_kind(const struct source *source, const struct render_options *options);
-/* Without zoom and legend. *invalid receives how many pixels of a colour image are NaN or infinite. */
+/* Renders without zoom and legend. *invalid receives the number of pixels of a colour image that are NaN or infinite. */
 bool render_plain(struct picture *picture, struct legend *legend, const struct source *source,
                   const struct render_options *options, size_t *invalid, struct glint_error *err);
-/* Widens `range` to hold what this source alone would be shown over; begin with +inf, -inf. Kinds without a range leave it. */
+/* Extends `range` by the range in which this source alone would be drawn; start with +inf, -inf. Kinds without a range do not change it. */
 bool render_range(const struct source *source, const struct render_options *options, double range[2],
                   struct glint_error *err);
-/* With them; colour explains itself and gets no legend. */
+/* Renders with zoom and legend; colour images have no legend. */
 bool render(struct picture *picture, const struct source *source, const struct render_options *options, size_t *invalid,
             struct glint_error *err);
 
-/* A run's image, which is open, and its coarser levels on one picture, by one range of values. */
+/* Renders an image of an open run and its coarser levels as one picture, with one range of values. */
 bool render_levels(struct picture *picture, const struct source *finest, const struct source_choice *choice,
                    const struct render_options *options, size_t *invalid, struct glint_error *err);
 
-/* All images of a run, or those of a NULL-terminated list, in rows of one width, each with its name or legend below.
-   Several runs: a row for each image of the first, a column for each run, one range of values in a row. */
+/* Renders all images of a run, or those of a NULL-terminated list, in rows, each with its name or legend below. With
+   several runs, there is a row for each image of the first run, with a column for each run and one range of values. */
 bool render_sheet(struct picture *sheet, const char *const *runs, size_t run_count, const char *const *images,
                   const struct render_options *options, struct glint_error *err);
 

@@ -1,4 +1,4 @@
-/* Many images on one picture: those of a run, or the same images of several runs beside each other. */
+/* Arranges many images as one picture: those of a run, or the same images of several runs side by side. */
 #include "draw/view/sheet.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@
 #include "glint/replay.h"
 #include "threads.h"
 
-enum { CELL_PX = 480, CELL_HEIGHT_PX = 270, GAP_PX = 12, WORKERS = 8 /* each holds an image */ };
+enum { CELL_PX = 480, CELL_HEIGHT_PX = 270, GAP_PX = 12, WORKERS = 8 /* each holds an image in memory */ };
 
 struct cell {
     const char *run, *image;
@@ -37,7 +37,7 @@ bool sheet_fit(struct picture *picture, const struct legend *legend, struct glin
            picture_zoom(picture, wide < high ? wide : high, err) && legend_add(picture, legend, err);
 }
 
-/* How many texels of colours become one, along each axis; blocks of a cube map stay within a face. */
+/* The number of texels along each axis that are averaged in colour images. Blocks of cube maps stay within a face. */
 static uint32_t color_block(const struct source *source, const struct render_options *options) {
     const uint32_t width = source->cube && !options->faces ? 4 * source->width : source->width;
     uint32_t block = (width + CELL_PX - 1) / CELL_PX;
@@ -46,8 +46,8 @@ static uint32_t color_block(const struct source *source, const struct render_opt
     return block;
 }
 
-/* Means of light, before it becomes colours of a display: much less to convert, and a texel that is no number spoils its block,
-   so that it is seen. */
+/* Averages radiance before the conversion to display colours, which is far less to convert. A non-finite texel makes
+   its whole block invalid, so that it stays visible. */
 static bool shrink_light(struct source *small, const struct source *source, uint32_t block, struct glint_error *err) {
     *small = *source;
     small->width = source->width / block ? source->width / block : 1;
@@ -98,13 +98,13 @@ static bool run_has(const char *path, const char *image, bool *has, struct glint
     return ok;
 }
 
-/* The range that holds all of a row's, so that equal colours mean equal values. */
-static bool common_range(const struct cell *cells, const bool *there, uint32_t columns, struct render_options *options,
-                         struct glint_error *err) {
+/* The union of all ranges of a row, so that equal colours mean equal values. */
+static bool common_range(const struct cell *cells, const bool *present, uint32_t columns,
+                         struct render_options *options, struct glint_error *err) {
     double range[2] = {INFINITY, -INFINITY};
     for (uint32_t i = 0; i < columns; i++) {
         struct source source;
-        if (!there[i]) continue;
+        if (!present[i]) continue;
         if (!open_cell(&source, &cells[i], err)) return false;
         const bool ok = render_range(&source, options, range, err);
         source_finish(&source);
@@ -116,24 +116,24 @@ static bool common_range(const struct cell *cells, const bool *there, uint32_t c
     return true;
 }
 
-/* The same image of every run. A run that lacks it leaves its place empty, if another has it. */
+/* Draws one image of every run. The cell of a run without this image stays empty if another run has it. */
 static bool draw_row(struct picture *pictures, const char *const *runs, uint32_t columns, const char *image,
                      const struct render_options *options, struct glint_error *err) {
     struct render_options row = *options;
     struct cell *cells = calloc(columns, sizeof *cells);
-    bool *there = calloc(columns, sizeof *there), ok = cells && there, any = false;
+    bool *present = calloc(columns, sizeof *present), ok = cells && present, any = false;
     if (!ok) glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     for (uint32_t i = 0; ok && i < columns; i++) {
         cells[i] = (struct cell){runs[i], image, columns > 1};
-        ok = run_has(runs[i], image, &there[i], err);
-        any = any || there[i];
+        ok = run_has(runs[i], image, &present[i], err);
+        any = any || present[i];
     }
-    if (ok && !any) there[0] = true; /* opening it names what there is */
-    if (ok && columns > 1 && !options->falsecolor.range_given) ok = common_range(cells, there, columns, &row, err);
+    if (ok && !any) present[0] = true; /* the attempt to open it reports the names that exist */
+    if (ok && columns > 1 && !options->falsecolor.range_given) ok = common_range(cells, present, columns, &row, err);
     for (uint32_t i = 0; ok && i < columns; i++)
-        if (there[i]) ok = draw_cell(&pictures[i], &cells[i], &row, err);
+        if (present[i]) ok = draw_cell(&pictures[i], &cells[i], &row, err);
     free(cells);
-    free(there);
+    free(present);
     return ok;
 }
 
@@ -195,7 +195,7 @@ static bool fill_row(void *user, uint32_t worker, size_t i) {
     return draw_row(&f->sheet->cells[i * f->run_count], f->runs, f->run_count, image, f->options, &f->errors[worker]);
 }
 
-/* Rows are drawn at the same time, as many as there are cores for. */
+/* Rows are drawn in parallel, one on each core. */
 static bool fill_rows(struct filling *filling, size_t count, struct glint_error *err) {
     uint32_t workers = glint_loop_workers(count, 0);
     if (workers > WORKERS) workers = WORKERS;
@@ -214,7 +214,7 @@ bool sheet_fill(struct sheet *sheet, const char *const *runs, size_t run_count, 
     *sheet = (struct sheet){0};
     if (ok && count == 0) ok = glint_fail(err, GLINT_ERROR_FORMAT, "%s: the run has no images", runs[0]);
     if (ok) {
-        /* a run alone: as many columns as rows */
+        /* a single run: about as many columns as rows */
         uint32_t columns = run_count > 1 ? (uint32_t)run_count : (uint32_t)ceil(sqrt((double)count));
         uint32_t rows = run_count > 1 ? (uint32_t)count : (uint32_t)((count + columns - 1) / columns);
         ok = sheet_init(sheet, columns, rows, err);

@@ -1,26 +1,26 @@
-/* A picture of many: cells of one width in rows, each with its name or legend below. */
+/* Many pictures as one: cells of equal width in rows, each with its name or legend below. */
 #ifndef GLINT_VIEWER_SHEET_H
 #define GLINT_VIEWER_SHEET_H
 
 #include "draw/view/render.h"
 
 struct sheet {
-    struct picture *cells; /* row by row; those that stay empty leave their place empty */
+    struct picture *cells; /* row by row; empty pictures leave their cells empty */
     uint32_t columns, rows;
 };
 bool sheet_init(struct sheet *sheet, uint32_t columns, uint32_t rows, struct glint_error *err);
 void sheet_finish(struct sheet *sheet);
 bool sheet_lay_out(struct picture *picture, const struct sheet *sheet, struct glint_error *err);
 
-/* What render_sheet lays out. Release the sheet whether or not this succeeds. */
+/* Renders the cells of render_sheet. Release the sheet even if this fails. */
 bool sheet_fill(struct sheet *sheet, const char *const *runs, size_t run_count, const char *const *images,
                 const struct render_options *options, struct glint_error *err);
 
-/* A path from its last name on. */
+/* The last component of a path. */
 const char *sheet_name(const char *path);
-/* A finished picture at the sheet's width, with its legend. Colours are averaged; categories must not be mixed. */
+/* Fits a finished picture with its legend into a cell. Colours are averaged, categories are not. */
 bool sheet_fit(struct picture *picture, const struct legend *legend, struct glint_error *err);
-/* One image at the sheet's width, with its legend, which names `run` unless it is NULL. */
+/* Renders one image with its legend as a cell. The legend names `run` unless it is NULL. */
 bool sheet_cell(struct picture *picture, const struct source *source, const char *run,
                 const struct render_options *options, struct glint_error *err);
 

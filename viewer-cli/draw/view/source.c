@@ -1,4 +1,4 @@
-/* What to show: finds the layer that the user means and reads it. */
+/* Finds and reads the layer that the user names. */
 #include "draw/view/source.h"
 
 #include <stdio.h>
@@ -42,7 +42,7 @@ static void select_layer(struct selection *selection, const struct glint_channel
                 selection->channels[selection->count++] = &channels[i];
 }
 
-/* Colour without a layer's name is a part's own picture; otherwise albedo, or the first layer. */
+/* The default is the part's own colour, else albedo, else the first layer. */
 static void default_layer(char layer[256], const struct glint_channel_info *channels, size_t count) {
     layer[0] = '\0';
     for (size_t i = 0; i < count; i++)
@@ -74,7 +74,7 @@ static bool allocate(struct source *source, struct glint_error *err) {
     return source->texels || glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", source->title);
 }
 
-/* Whole numbers become floats: exact to 2^24, and what is shown has far fewer levels. */
+/* Converts integers to floats, which is exact up to 2^24; a picture has far fewer levels. */
 static void integers_to_float(struct source *source) {
     size_t count = (size_t)source->width * source->height * source->components;
     for (size_t i = 0; i < count; i++) {
@@ -98,7 +98,7 @@ static void fill_source(struct source *source, const char *part, const char *lay
                                                      : 0));
 }
 
-/* ---- Captures: decoded to canonical values ---- */
+/* ---- Captures: decoded values ---- */
 
 static const char *role_unit(const struct glint_part_info *part, const char *channel) {
     for (size_t i = 0; part->role && i < part->role->channel_count; i++)
@@ -118,7 +118,7 @@ static const struct glint_part_info *find_part(const struct glint_capture *captu
     return NULL;
 }
 
-/* Octahedral normals are stored as X Y and decode to X Y Z. */
+/* Octahedral normals are stored as X Y and decoded to X Y Z. */
 static bool read_capture(struct source *source, struct glint_capture *capture, const char *part_name,
                          const char *layer_name, struct glint_error *err) {
     const struct glint_part_info *part = find_part(capture, part_name ? part_name : "lit", err);
@@ -148,7 +148,7 @@ static bool read_capture(struct source *source, struct glint_capture *capture, c
     return true;
 }
 
-/* ---- Any other EXR file ---- */
+/* ---- Other EXR files ---- */
 
 static bool find_exr_part(const struct glint_exr *exr, const char *path, const char *name, size_t *found,
                           struct glint_error *err) {
@@ -165,7 +165,7 @@ static bool find_exr_part(const struct glint_exr *exr, const char *path, const c
         }
         nearest_offer(&near, part->name);
     }
-    if (!name && count) return true; /* no colour anywhere: the first */
+    if (!name && count) return true; /* no part has colour: the first one */
     return glint_fail(err, GLINT_ERROR_USAGE, "%s: no part %s%s; glint info lists them", path, name ? name : "at all",
                       nearest_text(&near));
 }
@@ -194,7 +194,7 @@ static bool read_exr(struct source *source, struct glint_exr *exr, const struct 
     return true;
 }
 
-/* A file with a G-buffer is a capture and is decoded as one. */
+/* A file with a G-buffer is a capture and is decoded. */
 static bool read_file(struct source *source, const struct source_choice *choice, struct glint_error *err) {
     struct glint_exr *exr = glint_exr_open(choice->path, NULL, err);
     if (!exr) return false;
@@ -268,7 +268,7 @@ char *source_split(const char *text, char **part, char **layer) {
     struct stat info;
     char *path = strdup(text);
     *part = *layer = NULL;
-    /* A colon cuts only where the text before it is there and the whole is not. */
+    /* A colon separates only if the text before it is an existing path and the whole text is not. */
     for (char *colon = path ? strchr(path, ':') : NULL; colon && stat(text, &info) != 0;
          colon = strchr(colon + 1, ':')) {
         *colon = '\0';

@@ -1,4 +1,4 @@
-/* Statistics and histograms, by channel. */
+/* Computes statistics and histograms of each channel. */
 #include "draw/view/statistics.h"
 
 #include <math.h>
@@ -12,7 +12,7 @@
 
 enum { BAR_COLUMNS = 40 };
 
-/* One channel: its finite values in order, and how many are something else. */
+/* The sorted finite values of a channel, and the numbers of all others. */
 struct channel {
     const char *name;
     float *sorted;
@@ -39,7 +39,7 @@ static bool gather(struct channel *c, const struct source *s, uint32_t k, struct
     return true;
 }
 
-/* The value that a share of the finite ones does not exceed. */
+/* The value below which this fraction of the finite values lies. */
 static double percentile(const struct channel *c, double share) {
     return c->count ? (double)c->sorted[(size_t)((double)(c->count - 1) * share + 0.5)] : (double)NAN;
 }
@@ -101,7 +101,7 @@ static bool fill_histogram(struct histogram *h, const struct channel *c, const s
         free(h->counts);
         return glint_fail(err, GLINT_ERROR_USAGE, "a logarithmic scale needs a positive range");
     }
-    uint32_t bin = 0; /* values and edges both rise */
+    uint32_t bin = 0; /* values and edges are both sorted */
     for (size_t i = 0; i < c->count; i++) {
         const double v = (double)c->sorted[i];
         h->under += v < h->low;
@@ -113,7 +113,7 @@ static bool fill_histogram(struct histogram *h, const struct channel *c, const s
     return true;
 }
 
-/* Eighths of a column. */
+/* A bar in steps of an eighth of a column. */
 static void bar_text(double share, char text[4 * BAR_COLUMNS]) {
     static const char *const eighths[] = {"", "▏", "▎", "▍", "▌", "▋", "▊", "▉"};
     const int length = (int)lround(share * BAR_COLUMNS * 8);

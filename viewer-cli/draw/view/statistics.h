@@ -1,4 +1,4 @@
-/* What the values of an image are, in numbers. */
+/* Statistics of the values of an image. */
 #ifndef GLINT_VIEWER_VIEW_STATISTICS_H
 #define GLINT_VIEWER_VIEW_STATISTICS_H
 
@@ -11,10 +11,10 @@ enum { STATISTICS_BINS_MAX = 4096 };
 struct statistics_options {
     bool table, histogram, json;
     uint32_t bins;
-    struct falsecolor_options range; /* ends and scale of histograms; without them, all finite values */
+    struct falsecolor_options range; /* range and scale of histograms; default: all finite values */
 };
 
-/* Prints what is asked for, by channel, to stdout. */
+/* Prints the requested statistics of each channel to stdout. */
 bool statistics_print(const struct source *source, const struct statistics_options *options, struct glint_error *err);
 
 #endif

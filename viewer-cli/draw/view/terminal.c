@@ -1,4 +1,4 @@
-/* Pictures in the terminal. */
+/* Draws pictures in the terminal. */
 #include "draw/view/terminal.h"
 
 #include <chafa.h>
@@ -38,7 +38,7 @@ static ChafaPixelMode pixel_mode(enum terminal_mode mode, const ChafaTermInfo *i
                                                                        : CHAFA_PIXEL_MODE_SYMBOLS;
 }
 
-/* Pictures of pixels need true colour; blocks take what there is. */
+/* Pixel protocols need true colour; blocks use what the terminal supports. */
 static ChafaCanvasMode color_mode(ChafaPixelMode pixels, enum terminal_mode mode, const ChafaTermInfo *info) {
     if (pixels != CHAFA_PIXEL_MODE_SYMBOLS || mode == TERMINAL_BLOCKS) return CHAFA_CANVAS_MODE_TRUECOLOR;
     if (chafa_term_info_have_seq(info, CHAFA_TERM_SEQ_SET_COLOR_FGBG_DIRECT)) return CHAFA_CANVAS_MODE_TRUECOLOR;
@@ -52,7 +52,7 @@ static ChafaCanvasConfig *configure(const struct picture *picture, enum terminal
     ChafaCanvasConfig *config = chafa_canvas_config_new();
     const ChafaPixelMode pixels = pixel_mode(mode, known);
     ChafaSymbolMap *symbols = chafa_symbol_map_new();
-    gint columns = area.columns, rows = area.rows > 2 ? area.rows - 1 : area.rows; /* a line for the prompt */
+    gint columns = area.columns, rows = area.rows > 2 ? area.rows - 1 : area.rows; /* leaves a line for the prompt */
     chafa_calc_canvas_geometry((gint)picture->width, (gint)picture->height, &columns, &rows,
                                (gfloat)area.cell_width_px / (gfloat)area.cell_height_px, TRUE, FALSE);
     chafa_symbol_map_add_by_tags(symbols, CHAFA_SYMBOL_TAG_BLOCK | CHAFA_SYMBOL_TAG_SPACE);
@@ -73,7 +73,7 @@ bool terminal_draw(const struct picture *picture, enum terminal_mode mode, struc
                   *rest = chafa_term_db_get_fallback_info(database);
     ChafaCanvasConfig *config = configure(picture, mode, info);
     ChafaCanvas *canvas = chafa_canvas_new(config);
-    /* from here on: modes that are asked for although the terminal is not known to have them */
+    /* enables modes that the user requests although the terminal is not known to support them */
     chafa_term_info_supplement(info, rest);
     chafa_canvas_draw_all_pixels(canvas, CHAFA_PIXEL_RGBA8_UNASSOCIATED, picture->rgba, (gint)picture->width,
                                  (gint)picture->height, (gint)picture->width * 4);

@@ -1,4 +1,4 @@
-/* Images to a running tev. A message is its length in bytes, its kind, and what belongs to that; little-endian. */
+/* Sends images to a running tev. A message is its length in bytes, its type and its fields, all little-endian. */
 #include "draw/view/tev.h"
 
 #include <errno.h>
@@ -42,9 +42,9 @@ static void put_text(struct message *m, const char *text) {
 
 static void begin_message(struct message *m, int kind, const char *name) {
     m->length = 0;
-    put_number(m, 0, 4); /* the length, in the end */
+    put_number(m, 0, 4); /* placeholder for the length */
     put_number(m, (uint64_t)kind, 1);
-    put_number(m, 1, 1); /* show it */
+    put_number(m, 1, 1); /* selects the image */
     put_text(m, name);
 }
 
@@ -87,8 +87,8 @@ static bool send_message(int socket, struct message *m, const char *host, struct
     return true;
 }
 
-/* Cuts "HOST:PORT" and "[HOST]:PORT". */
-static void cut(char *host, const char **name, const char **port) {
+/* Splits "HOST:PORT" and "[HOST]:PORT". */
+static void split_host(char *host, const char **name, const char **port) {
     char *colon = strrchr(host, ':'), *bracket = strrchr(host, ']');
     *port = "14158";
     *name = *host == '[' ? host + 1 : host;
@@ -106,7 +106,7 @@ static int connect_to(const char *host, struct glint_error *err) {
     struct addrinfo *list = NULL;
     int found = -1;
     snprintf(text, sizeof text, "%s", host);
-    cut(text, &name, &port);
+    split_host(text, &name, &port);
     const int code = getaddrinfo(name, port, &hints, &list);
     for (const struct addrinfo *a = list; a && found < 0; a = a->ai_next) {
         found = socket(a->ai_family, a->ai_socktype | SOCK_CLOEXEC, a->ai_protocol);

@@ -1,4 +1,4 @@
-/* Text on pictures through FreeType. */
+/* Draws text on pictures through FreeType. */
 #include "draw/view/text.h"
 
 #include <stdlib.h>
@@ -36,7 +36,7 @@ void text_destroy(struct text **text) {
     *text = NULL;
 }
 
-/* The next code point of well-formed UTF-8; other bytes stand for themselves. */
+/* The next code point of UTF-8; invalid bytes are taken as code points. */
 static FT_ULong next_character(const char **string) {
     const unsigned char *p = (const unsigned char *)*string;
     int more = *p >= 0xF0 ? 3 : *p >= 0xE0 ? 2 : *p >= 0xC0 ? 1 : 0;

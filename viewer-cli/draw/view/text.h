@@ -1,4 +1,4 @@
-/* Text on pictures, in the font that is built in (DejaVu Sans). */
+/* Draws text on pictures in the built-in font, DejaVu Sans. */
 #ifndef GLINT_VIEWER_TEXT_H
 #define GLINT_VIEWER_TEXT_H
 
@@ -7,7 +7,7 @@
 struct text;
 struct text *text_create(uint32_t height_px, struct glint_error *err);
 void text_destroy(struct text **text);
-/* Width of a UTF-8 string in pixels. */
+/* The width of a UTF-8 string in pixels. */
 int text_measure(struct text *text, const char *string);
 /* Draws with the baseline at y. */
 void text_draw(struct text *text, struct picture *picture, int x, int y, const char *string, struct rgb color);

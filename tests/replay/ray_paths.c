@@ -1,4 +1,4 @@
-#include "ways.h"
+#include "ray_paths.h"
 
 #include <math.h>
 #include <setjmp.h>
@@ -8,8 +8,8 @@
 
 #include <cmocka.h>
 
-/* Where a pixel's surface is, relative to the world's origin, and the unit vector in which a mirror there sends what is seen. Inverts
-   rows (a 0 c 0), (0 b d 0), (0 0 0 ±1) of the projection, and the rotation. */
+/* The surface of a pixel relative to the world's origin, and the unit direction of its mirror ray. Inverts the rows (a 0 c 0), (0 b d
+   0), (0 0 0 ±1) of the projection, and the rotation. */
 static void mirror_ray(const struct glint_frame *frame, const double uv[2], const float *surface, double origin[3],
                        double direction[3]) {
     const double *clip = frame->camera.view_to_clip, *m = frame->camera.world_to_view, front = clip[14],
@@ -35,9 +35,9 @@ static unsigned face_of(const double v[3]) {
     return 2 * axis + (v[axis] < 0);
 }
 
-void check_ways(const struct glint_survey *survey, const char *path) {
+void check_ray_paths(const struct glint_survey *survey, const char *path) {
     static const char *const names[] = {"depth.Z", "normal.X", "normal.Y", "normal.Z", "material.metalness"};
-    static float pixels[WAYS_WIDTH * WAYS_HEIGHT][5];
+    static float pixels[PATHS_WIDTH * PATHS_HEIGHT][5];
     struct glint_error err = {0};
     struct glint_capture *capture = glint_capture_open(path, NULL, &err);
     const bool read = capture && glint_capture_read(capture, glint_capture_find(capture, "gbuffer"), names, 5,
@@ -51,9 +51,9 @@ void check_ways(const struct glint_survey *survey, const char *path) {
         const struct glint_part_info *part = glint_capture_find(capture, name);
         assert_non_null(part);
         unsigned faces = 0;
-        for (int p = 0; p < WAYS_WIDTH * WAYS_HEIGHT; p++) {
+        for (int p = 0; p < PATHS_WIDTH * PATHS_HEIGHT; p++) {
             if (!(pixels[p][4] > 0)) continue;
-            const double uv[2] = {(p % WAYS_WIDTH + 0.5) / WAYS_WIDTH, (p / WAYS_WIDTH + 0.5) / WAYS_HEIGHT};
+            const double uv[2] = {(p % PATHS_WIDTH + 0.5) / PATHS_WIDTH, (p / PATHS_WIDTH + 0.5) / PATHS_HEIGHT};
             double origin[3], direction[3], at[3];
             mirror_ray(glint_capture_frame(capture), uv, pixels[p], origin, direction);
             for (double t = 0; t < 1e5; t = 1.05 * t + 0.01) {
