@@ -26,7 +26,7 @@ CUBES = ("cubemap_trace=march cubemap_trace.count=strides cubemap_trace.surfaces
          "cubemap_trace.fallback=lookup cubemap_trace.exhausted=fallback")
 THICK = CUBES.replace("surfaces=exact cubemap_trace.bias=0", "surfaces=thick")
 # The march's own limit: the reference's tracer, following the same cube maps by a fifth of its steps; and by those that it has.
-CHAIN = "cubemap_trace.maps=chain cubemap_trace.unseen=stop cubemap_active.chain=8"
+CHAIN = "cubemap_trace.maps=chain cubemap_trace.occluded=stop cubemap_active.chain=8"
 OWN = f"{CHAIN} cubemap_trace.texel_part=0.1 cubemap_trace.skip=false cubemap_trace.steps=1000000"
 CURVES = {
     "screen": ("`linear_facets`", SCREEN, "screen_trace.steps"),

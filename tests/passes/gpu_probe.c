@@ -29,7 +29,7 @@ static const char *const ways[][PROBED_WORDS] = {
 };
 enum { WAYS = sizeof ways / sizeof ways[0] };
 
-/* ---- What a story must agree with ---- */
+/* ---- What a trace must agree with ---- */
 
 static void check_depth(const struct glint_probe_record *record, const struct images *images) {
     const uint32_t x = number(record, "texel_x"), y = number(record, "texel_y");
@@ -104,14 +104,14 @@ struct tally {
     size_t stories, rays, depths, screen_hits, cube_hits;
 };
 
-static void check_story(const struct glint_probe_trace *story, const struct images *images, const uint32_t pixel[2],
+static void check_story(const struct glint_probe_trace *trace, const struct images *images, const uint32_t pixel[2],
                         struct tally *tally) {
     struct last last = {0};
     const struct glint_probe_record *ray = NULL;
-    assert_int_equal(story->dropped, 0);
-    tally->stories += story->count > 0;
-    for (size_t i = 0; i < story->count; i++) {
-        const struct glint_probe_record *record = &story->records[i];
+    assert_int_equal(trace->dropped, 0);
+    tally->stories += trace->count > 0;
+    for (size_t i = 0; i < trace->count; i++) {
+        const struct glint_probe_record *record = &trace->records[i];
         const bool texel = glint_probe_is(record, "screen_texel") || glint_probe_is(record, "cubemap_texel");
         check_depth(record, images);
         if (glint_probe_is(record, "screen_ray")) ray = record;
@@ -146,10 +146,10 @@ static void test_stories(void **state) {
         probed_run(gpu, pixels, false, &probed);
         same_images(&plain, &probed);
         for (size_t i = 0; i < PIXELS; i++) {
-            struct glint_probe_trace story;
-            check(glint_replay_probe(gpu->replay, i, &story, &err), &err);
-            check_story(&story, &plain, pixels[i], &tally);
-            free(story.records);
+            struct glint_probe_trace trace;
+            check(glint_replay_probe(gpu->replay, i, &trace, &err), &err);
+            check_story(&trace, &plain, pixels[i], &tally);
+            free(trace.records);
         }
         print_message("# %s: %zu stories, %zu depths, hits %zu on screen, %zu in cube maps\n", ways[w][0],
                       tally.stories, tally.depths, tally.screen_hits, tally.cube_hits);
@@ -164,12 +164,12 @@ static void test_stories(void **state) {
 /* ---- What later passes tell adds up to what they made ---- */
 
 /* The weighted mean of what was mixed in is the image, where anything was. */
-static size_t check_mixture(const struct glint_probe_trace *story, const char *slot, const struct kept *image,
+static size_t check_mixture(const struct glint_probe_trace *trace, const char *slot, const struct kept *image,
                             const uint32_t at[2]) {
     static const char *const channels[] = {"r", "g", "b"};
     double sum[3] = {0}, total = 0, largest = 0;
     size_t count = 0, i = 0;
-    for (const struct glint_probe_record *record; (record = of_slot(story, slot, "neighbour", &i)); count++) {
+    for (const struct glint_probe_record *record; (record = of_slot(trace, slot, "neighbour", &i)); count++) {
         const double weight = (double)glint_probe_value(record, "weight");
         total += weight;
         for (int c = 0; c < 3; c++) {
@@ -184,19 +184,19 @@ static size_t check_mixture(const struct glint_probe_trace *story, const char *s
 }
 
 /* A single colour is what the ray found; where a cube map shows some sky, both are recorded. */
-static size_t check_color(const struct glint_probe_trace *story, const struct kept *image, const uint32_t at[2]) {
+static size_t check_color(const struct glint_probe_trace *trace, const struct kept *image, const uint32_t at[2]) {
     static const char *const channels[] = {"r", "g", "b"};
     size_t i = 0;
-    const struct glint_probe_record *first = of_slot(story, "resolve", "color", &i);
-    if (!first || of_slot(story, "resolve", "color", &i)) return 0;
+    const struct glint_probe_record *first = of_slot(trace, "resolve", "color", &i);
+    if (!first || of_slot(trace, "resolve", "color", &i)) return 0;
     for (uint32_t c = 0; c < 3; c++) same(first, channels[c], image, at[0], at[1], c);
     return 1;
 }
 
-static size_t check_composed(const struct glint_probe_trace *story, const struct images *images, const uint32_t at[2]) {
+static size_t check_composed(const struct glint_probe_trace *trace, const struct images *images, const uint32_t at[2]) {
     static const char *const channels[] = {"r", "g", "b"};
     size_t i = 0;
-    const struct glint_probe_record *weight = of_slot(story, "compose", "reflectance", &i);
+    const struct glint_probe_record *weight = of_slot(trace, "compose", "reflectance", &i);
     for (uint32_t c = 0; c < 3 && weight; c++) {
         const double lit = held(find(images, "lit"), at, c), w = (double)glint_probe_value(weight, channels[c]);
         const double sum = lit + w * held(find(images, "reflection"), at, c);
@@ -218,15 +218,15 @@ static void test_sums(void **state) {
     arrange(gpu, words);
     probed_run(gpu, pixels, true, &images);
     for (size_t i = 0; i < PIXELS; i++) {
-        struct glint_probe_trace story;
+        struct glint_probe_trace trace;
         const uint32_t texel[2] = {pixels[i][0] / 2, pixels[i][1] / 2};
-        check(glint_replay_probe(gpu->replay, i, &story, &err), &err);
-        blurred += check_mixture(&story, "blur", find(&images, "reflection_blurred"), texel) > 1;
-        joined += check_mixture(&story, "temporal", find(&images, "reflection_temporal"), texel) > 1;
-        upscaled += check_mixture(&story, "upscale", find(&images, "reflection"), pixels[i]) == 1;
-        colored += check_color(&story, find(&images, "reflection_half"), texel);
-        composed += check_composed(&story, &images, pixels[i]);
-        free(story.records);
+        check(glint_replay_probe(gpu->replay, i, &trace, &err), &err);
+        blurred += check_mixture(&trace, "blur", find(&images, "reflection_blurred"), texel) > 1;
+        joined += check_mixture(&trace, "temporal", find(&images, "reflection_temporal"), texel) > 1;
+        upscaled += check_mixture(&trace, "upscale", find(&images, "reflection"), pixels[i]) == 1;
+        colored += check_color(&trace, find(&images, "reflection_half"), texel);
+        composed += check_composed(&trace, &images, pixels[i]);
+        free(trace.records);
     }
     free_images(&images);
     print_message("# %zu blurred, %zu joined, %zu upscaled, %zu colours, %zu composed\n", blurred, joined, upscaled,
@@ -237,7 +237,7 @@ static void test_sums(void **state) {
 static void test_errors(void **state) {
     struct gpu *gpu = *state;
     struct glint_error err = {0};
-    struct glint_probe_trace story;
+    struct glint_probe_trace trace;
     static const uint32_t outside[][2] = {{3, 3}, {WIDTH, 3}}, one[][2] = {{3, 3}};
     probed_scene(gpu, "street");
     gpu_reset(gpu);
@@ -248,9 +248,9 @@ static void test_errors(void **state) {
     assert_false(glint_replay_run(gpu->replay, gpu->pipeline, &options, NULL, NULL, &err));
     options.repeat = 0;
     assert_true(glint_replay_run(gpu->replay, gpu->pipeline, &options, NULL, NULL, &err));
-    assert_false(glint_replay_probe(gpu->replay, 1, &story, &err));
+    assert_false(glint_replay_probe(gpu->replay, 1, &trace, &err));
     assert_true(glint_replay_run(gpu->replay, gpu->pipeline, NULL, NULL, NULL, &err));
-    assert_false(glint_replay_probe(gpu->replay, 0, &story, &err));
+    assert_false(glint_replay_probe(gpu->replay, 0, &trace, &err));
 }
 
 int main(void) {

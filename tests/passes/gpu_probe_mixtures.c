@@ -12,7 +12,7 @@
 
 #include "probed.h"
 
-static const char *const rgb[] = {"r", "g", "b"}, *const below[] = {"below_r", "below_g", "below_b"};
+static const char *const rgb[] = {"r", "g", "b"}, *const below[] = {"lower_r", "lower_g", "lower_b"};
 
 static double recorded(const struct glint_probe_record *record, const char *name) {
     return (double)glint_probe_value(record, name);
@@ -72,7 +72,7 @@ struct layered {
     double color[3], largest;
 };
 static struct layered layered(const struct glint_probe_record *layer) {
-    static const char *const share[] = {"share_r", "share_g", "share_b"};
+    static const char *const share[] = {"alpha_r", "alpha_g", "alpha_b"};
     struct layered made = {0};
     for (int c = 0; c < 3; c++) {
         const double s = recorded(layer, share[c]);
@@ -92,15 +92,15 @@ static void same_rgb(const struct glint_probe_record *record, const char *const 
     for (uint32_t c = 0; c < 3; c++) same(record, names[c], image, x, y, c);
 }
 
-/* One pixel's story and all images of its run. */
+/* One pixel's trace and all images of its run. */
 struct recorded_pixel {
-    const struct glint_probe_trace *story;
+    const struct glint_probe_trace *trace;
     const struct images *images;
     const uint32_t *pixel, *texel;
 };
 static const struct glint_probe_record *next(const struct recorded_pixel *p, const char *slot, const char *kind,
                                              size_t *at) {
-    return of_slot(p->story, slot, kind, at);
+    return of_slot(p->trace, slot, kind, at);
 }
 
 /* ---- Passes: the number of mixtures of several parts that were recorded ---- */
@@ -117,7 +117,7 @@ static size_t check_blurred(const struct recorded_pixel *p) {
         near(mean.sum[c] / mean.total, held(find(p->images, "reflection_half"), p->texel, c),
              mean.largest * (double)mean.count / mean.total);
     at = 0;
-    assert_non_null(record = next(p, "resolve", "trust", &at));
+    assert_non_null(record = next(p, "resolve", "attenuation", &at));
     static const char *const parts[] = {"viewer", "edge", "back_face", "foreground"};
     for (uint32_t k = 0; k < 4; k++)
         same(record, parts[k], find(p->images, "attenuation"), p->texel[0], p->texel[1], k);
@@ -133,7 +133,7 @@ static size_t check_contribution(const struct recorded_pixel *p) {
     same_rgb(layer, rgb, find(p->images, "reflection"), p->pixel[0], p->pixel[1]);
     same_rgb(layer, below, find(p->images, "lit"), p->pixel[0], p->pixel[1]);
     layered_is(&made, find(p->images, "composed"), p->pixel);
-    return recorded(layer, "share_r") > 0;
+    return recorded(layer, "alpha_r") > 0;
 }
 
 static size_t check_kf2(const struct recorded_pixel *p) {
@@ -172,8 +172,8 @@ static size_t check_levels(const struct recorded_pixel *p) {
     const struct glint_probe_record *taps[TAPS], *layer = NULL;
     struct mean mean = {0};
     size_t mixtures = 0, levels = 0;
-    for (size_t i = 0; i < p->story->count; i++) {
-        const struct glint_probe_record *record = &p->story->records[i];
+    for (size_t i = 0; i < p->trace->count; i++) {
+        const struct glint_probe_record *record = &p->trace->records[i];
         if (strcmp(record->pass->slot, "blur") != 0) continue;
         if (glint_probe_is(record, "tap")) {
             assert_in_range(mean.count, 0, TAPS - 1);
@@ -187,7 +187,7 @@ static size_t check_levels(const struct recorded_pixel *p) {
             if (over || strcmp(image->name, "reflection_across") == 0 || recorded(taps[t], "level") == 0)
                 same_rgb(taps[t], rgb, image, number(taps[t], "texel_x"), number(taps[t], "texel_y"));
         }
-        if (mean.count && !(over && recorded(record, "share_r") == 0)) mean_is(&mean, record);
+        if (mean.count && !(over && recorded(record, "alpha_r") == 0)) mean_is(&mean, record);
         mixtures += mean.count > 1;
         mean = (struct mean){0};
         if (over) layer = record;
@@ -318,12 +318,12 @@ static void mixtures(struct gpu *gpu, const struct way *way) {
         free_images(&plain);
     }
     for (size_t i = 0; i < PIXELS; i++) {
-        struct glint_probe_trace story;
+        struct glint_probe_trace trace;
         const uint32_t texel[2] = {pixels[i][0] / 2, pixels[i][1] / 2};
-        check(glint_replay_probe(gpu->replay, i, &story, &err), &err);
-        assert_int_equal(story.dropped, 0);
-        told_of += way->check(&(struct recorded_pixel){&story, &probed, pixels[i], texel});
-        free(story.records);
+        check(glint_replay_probe(gpu->replay, i, &trace, &err), &err);
+        assert_int_equal(trace.dropped, 0);
+        told_of += way->check(&(struct recorded_pixel){&trace, &probed, pixels[i], texel});
+        free(trace.records);
     }
     free_images(&probed);
     print_message("# %zu mixtures\n", told_of);

@@ -127,11 +127,11 @@ void near(double recorded, double found, double largest) {
         fail_msg("recorded %.9g, found %.9g", recorded, found);
 }
 
-const struct glint_probe_record *of_slot(const struct glint_probe_trace *story, const char *slot, const char *kind,
+const struct glint_probe_record *of_slot(const struct glint_probe_trace *trace, const char *slot, const char *kind,
                                          size_t *at) {
-    for (; *at < story->count; ++*at)
-        if (glint_probe_is(&story->records[*at], kind) && strcmp(story->records[*at].pass->slot, slot) == 0)
-            return &story->records[(*at)++];
+    for (; *at < trace->count; ++*at)
+        if (glint_probe_is(&trace->records[*at], kind) && strcmp(trace->records[*at].pass->slot, slot) == 0)
+            return &trace->records[(*at)++];
     return NULL;
 }
 

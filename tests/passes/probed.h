@@ -35,8 +35,8 @@ void draw_pixels(uint32_t (*pixels)[2]);
 /* pixels: PIXELS of them, or NULL. floats: images are stored as floats. */
 void probed_run(struct gpu *gpu, uint32_t (*pixels)[2], bool floats, struct images *images);
 
-/* The story's next record of this slot and kind from *at on; NULL: no more. */
-const struct glint_probe_record *of_slot(const struct glint_probe_trace *story, const char *slot, const char *kind,
+/* The trace's next record of this slot and kind from *at on; NULL: no more. */
+const struct glint_probe_record *of_slot(const struct glint_probe_trace *trace, const char *slot, const char *kind,
                                          size_t *at);
 uint32_t number(const struct glint_probe_record *record, const char *value);
 /* The record's value is what the image holds there, bit for bit. */

@@ -23,7 +23,7 @@ struct probe_image {
 struct probe_side {
     struct glint_pass_result *passes;
     size_t pass_count;
-    struct glint_probe_trace story;
+    struct glint_probe_trace trace;
     struct probe_value *values; /* in the order of passes, the capture's first */
     size_t value_count;
     struct probe_image depth_half, cubemap_distance, active_center;

@@ -81,7 +81,7 @@ static bool read_side(struct probe *probe, struct probe_side *side, struct glint
     side->values = calloc(glint_replay_image_count(replay) + 1, sizeof *side->values);
     if (!side->values || !side->passes) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     memcpy(side->passes, passes, side->pass_count * sizeof *passes);
-    if (!glint_replay_probe(replay, 0, &side->story, err) || !read_values(probe, side, replay, NULL, err)) return false;
+    if (!glint_replay_probe(replay, 0, &side->trace, err) || !read_values(probe, side, replay, NULL, err)) return false;
     for (size_t p = 0; p < side->pass_count; p++)
         if (side->passes[p].shown && !read_values(probe, side, replay, side->passes[p].pass, err)) return false;
     return read_places(side, replay, err) && read_picture(side, replay, err) &&
@@ -108,7 +108,7 @@ bool probe_run(struct probe *probe, struct probe_side *side, struct glint_replay
 
 void probe_side_finish(struct probe_side *side) {
     free(side->passes);
-    free(side->story.records);
+    free(side->trace.records);
     free(side->values);
     free(side->depth_half.texels);
     free(side->cubemap_distance.texels);
@@ -118,9 +118,9 @@ void probe_side_finish(struct probe_side *side) {
 }
 
 const struct glint_probe_record *probe_last(const struct probe_side *side, const char *slot, const char *kind) {
-    for (size_t i = side->story.count; i-- > 0;)
-        if (glint_probe_is(&side->story.records[i], kind) && strcmp(side->story.records[i].pass->slot, slot) == 0)
-            return &side->story.records[i];
+    for (size_t i = side->trace.count; i-- > 0;)
+        if (glint_probe_is(&side->trace.records[i], kind) && strcmp(side->trace.records[i].pass->slot, slot) == 0)
+            return &side->trace.records[i];
     return NULL;
 }
 
@@ -187,7 +187,7 @@ void probe_group_text(const struct probe_side *side, const struct glint_probe_re
     else {
         size_t used = 0;
         const float *values = &record->values[group->first];
-        const bool alike = strcmp(group->name, "share") == 0 && values[0] == values[1] && values[0] == values[2];
+        const bool alike = strcmp(group->name, "alpha") == 0 && values[0] == values[1] && values[0] == values[2];
         for (size_t i = 0; i < (alike ? 1 : group->count) && used < size; i++) {
             const double v = (double)record->values[group->first + i];
             const bool pixels = strcmp(group->unit, "px") == 0, whole = strcmp(group->unit, "m") != 0 && v == floor(v);

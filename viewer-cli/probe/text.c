@@ -67,8 +67,8 @@ static bool ended_on_screen(const struct probe_side *side, const struct glint_pr
     if (!glint_probe_is(record, "cubemap_end")) return false;
     const char *slot = record->pass->slot, *name = strstr(slot, "cubemap_trace");
     const size_t prefix = name ? (size_t)(name - slot) : 0;
-    for (size_t i = 0; i < side->story.count; i++) {
-        const struct glint_probe_record *screen = &side->story.records[i];
+    for (size_t i = 0; i < side->trace.count; i++) {
+        const struct glint_probe_record *screen = &side->trace.records[i];
         if (glint_probe_is(screen, "screen_end") && screen->ray == record->ray &&
             strncmp(screen->pass->slot, slot, prefix) == 0 && strcmp(screen->pass->slot + prefix, "screen_trace") == 0)
             return glint_probe_value(screen, "finished") > 0;
@@ -98,16 +98,16 @@ static void print_once(const struct probe_side *side, const struct glint_probe_r
 }
 
 static void print_records(const struct probe_side *side, const struct glint_pass *pass) {
-    const struct glint_probe_record *records = side->story.records, *before = NULL;
+    const struct glint_probe_record *records = side->trace.records, *before = NULL;
     size_t steps = 0;
-    for (size_t i = 0, end; i < side->story.count; i = end) {
+    for (size_t i = 0, end; i < side->trace.count; i = end) {
         end = i + 1;
         if (records[i].pass != pass) continue;
         if (before ? before->ray != records[i].ray : records[i].ray > 0)
             printf("  ray %u\n", records[i].ray), steps = 0;
         before = &records[i];
         const bool step = is_step(records[i].kind);
-        while (step && end < side->story.count && records[end].pass == pass && records[end].kind == records[i].kind &&
+        while (step && end < side->trace.count && records[end].pass == pass && records[end].kind == records[i].kind &&
                records[end].ray == records[i].ray)
             end++;
         printf("  %s%s\n", records[i].kind->text, step ? ":" : "");
@@ -136,8 +136,8 @@ static void print_value(const struct probe_value *value) {
 }
 
 static bool has_records(const struct probe_side *side, const struct glint_pass *pass) {
-    for (size_t i = 0; i < side->story.count; i++)
-        if (side->story.records[i].pass == pass) return true;
+    for (size_t i = 0; i < side->trace.count; i++)
+        if (side->trace.records[i].pass == pass) return true;
     for (size_t i = 0; i < side->value_count; i++)
         if (side->values[i].pass == pass) return true;
     return false;
@@ -217,7 +217,7 @@ void probe_print(const struct probe *probe) {
     } else if (!probe_last(&probe->own, "cubemap_trace", "cubemap_ray"))
         printf("The texel has no ray: it is sky, or a surface without reflection.\n");
     print_side(&probe->own);
-    if (probe->own.story.dropped)
-        printf("\n%zu further steps exceeded the recording buffer.\n", probe->own.story.dropped);
+    if (probe->own.trace.dropped)
+        printf("\n%zu further steps exceeded the recording buffer.\n", probe->own.trace.dropped);
     if (probe->has_reference) print_reference(probe);
 }

@@ -16,7 +16,7 @@ SPEC(bool,  deferred,   true,  0, 1, "1", "KF2 article, Deferred Color Lookup", 
 SPEC(bool,  viewer,     true,  0, 1, "1", "KF2 article, Viewer Facing Reflections", "attenuate rays that run towards the viewer")
 SPEC(bool,  edge,       true,  0, 1, "1", "KF2 article, Reflections Outside the Viewport", "attenuate rays that end near the border of the picture")
 SPEC(bool,  back_face,  true,  0, 1, "1", "KF2 article, Reflections of Back Faces", "attenuate hits on back faces")
-SPEC(bool,  foreground, true,  0, 1, "1", "KF2 article, Foreground Reflections", "ignore hits on surfaces of the stencil class `foreground`; the article's test of a normal's channels would also reject true -X and -Y normals")
+SPEC(bool,  foreground, true,  0, 1, "1", "KF2 article, Foreground Reflections", "ignore hits on surfaces of the stencil class `foreground`; the article marks them by a special normal instead, which real surfaces that face -X or -Y have as well")
 SPEC(int,   taps,       3,     1, 9, "1", "KF2 article, Applying Reflections", "samples of the box filter along each axis")
 PUSH(float, viewer_from, 0.25, -1.0, 1.0, "1", "KF2 article, Viewer Facing Reflections", "cosine between ray and view vector at which the fade begins")
 PUSH(float, viewer_to,  0.5,  -1.0, 1.0, "1", "KF2 article, Viewer Facing Reflections", "cosine at which the reflection has faded out; screen_trace.viewer_limit at the same value saves tracing these rays")

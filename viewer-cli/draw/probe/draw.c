@@ -1,4 +1,4 @@
-/* A pixel's story as a drawing: the ray over the depths that it crossed, in the picture and in each cube map. */
+/* A pixel's trace as a drawing: the ray over the depths that it crossed, in the picture and in each cube map. */
 #include "draw/probe/draw.h"
 
 #include <stdio.h>
@@ -67,12 +67,12 @@ static char *draw_panels(struct drawing *d) {
     char *body = NULL;
     size_t size;
     if (!(d->out = open_memstream(&body, &size))) return NULL;
-    const struct glint_probe_trace *story = &d->probe->own.story;
+    const struct glint_probe_trace *trace = &d->probe->own.trace;
     draw_define(d);
-    for (size_t i = 0, end; i < story->count; i = end) {
-        const struct glint_probe_record *first = &story->records[i];
+    for (size_t i = 0, end; i < trace->count; i = end) {
+        const struct glint_probe_record *first = &trace->records[i];
         for (end = i;
-             end < story->count && story->records[end].pass == first->pass && story->records[end].ray == first->ray;)
+             end < trace->count && trace->records[end].pass == first->pass && trace->records[end].ray == first->ray;)
             end++;
         const struct ray_records records = {first, end - i};
         draw_picture(d, &records, DRAW_LEFT - 52, DRAW_AREA + 52);

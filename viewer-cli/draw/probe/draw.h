@@ -1,4 +1,4 @@
-/* A pixel's story as a drawing. */
+/* A pixel's trace as a drawing. */
 #ifndef GLINT_VIEWER_PROBE_DRAW_H
 #define GLINT_VIEWER_PROBE_DRAW_H
 

@@ -8,9 +8,9 @@
 #include "io/table.h"
 
 const struct draw_look draw_looks[DRAW_LOOKS] = {
-    {"front", "#3b7dd8"},   {"hit", "#1a9850"},    {"behind", "#d95f02"},  {"back_face", "#b5179e"},
-    {"absent", "#8d5a2b"},  {"finer", "#9aa5b1"},  {"hidden", "#a06cd5"},  {"closing", "#e6a817"},
-    {"resting", "#5c6b7a"}, {"unseen", "#c1121f"}, {"skipped", "#7fb3e6"}, {"sky", "#00a6c8"},
+    {"front", "#3b7dd8"},    {"hit", "#1a9850"},      {"behind", "#d95f02"},     {"back_face", "#b5179e"},
+    {"rejected", "#8d5a2b"}, {"descend", "#9aa5b1"},  {"behind_all", "#a06cd5"}, {"bisect", "#e6a817"},
+    {"at_start", "#5c6b7a"}, {"occluded", "#c1121f"}, {"skipped", "#7fb3e6"},    {"sky", "#00a6c8"},
 };
 
 static size_t look_of(const struct glint_probe_record *record) {
@@ -58,10 +58,10 @@ void draw_seen(const struct drawing *d, const struct panel *panel) {
 }
 
 double draw_reference_m(const struct drawing *d, const struct ray_records *records, const char *kind) {
-    const struct glint_probe_trace *story = &d->probe->reference.story;
+    const struct glint_probe_trace *trace = &d->probe->reference.trace;
     const struct glint_probe_record *end = NULL;
-    for (size_t i = 0; i < story->count; i++) {
-        const struct glint_probe_record *record = &story->records[i];
+    for (size_t i = 0; i < trace->count; i++) {
+        const struct glint_probe_record *record = &trace->records[i];
         if (glint_probe_is(record, kind) && record->ray == records->records->ray &&
             strcmp(record->pass->slot, records->records->pass->slot) == 0)
             end = record;
