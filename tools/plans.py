@@ -18,7 +18,7 @@ import tempfile
 import pages
 
 RECORDS = pages.HERE / "records/plans"
-SCENES = {"matte": "nothing reflects", "desert_night": "one mirror, no sky", "rain_street": "wet and rough, no mirror", "lake": "water, little else",
+SCENES = {"matte": "nothing reflects", "desert_night": "one mirror, no sky", "rain_street": "wet and rough, no mirror", "lake": "water and little else",
           "glasshouse": "panes", "still_life": "nothing moves", "room": "polished tiles", "street": "almost everything reflects"}
 SHARES, KINDS = (0, 1, 5, 25, 100), {"block": "one block", "scattered": "scattered"}
 RULES = ("downsample.min_weight=0.000977", "downsample.min_weight=0.03", "screen_trace.max_roughness=0.5", "cubemap_trace.max_roughness=0.5")

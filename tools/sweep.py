@@ -32,7 +32,7 @@ CURVES = {
     "screen": ("`linear_facets`", SCREEN, "screen_trace.steps"),
     "cubes": ("`march`", CUBES, "cubemap_trace.steps_hq"),
     "both": ("both", f"{SCREEN} {CUBES}", "screen_trace.steps+cubemap_trace.steps_hq"),
-    "hiz": ("`screen_trace/hiz`, cells looked at", "screen_trace=hiz hiz=nearest screen_trace.thickness=0.01 screen_trace.solid=32",
+    "hiz": ("`screen_trace/hiz`, cells visited", "screen_trace=hiz hiz=nearest screen_trace.thickness=0.01 screen_trace.solid=32",
             "screen_trace.cells+screen_trace.cells_lq"),
     "linear": ("`screen_trace/linear`", "screen_trace=linear screen_trace.thickness=0.01 screen_trace.first_step=0.001", "screen_trace.steps"),
     "samples": ("`march`, refinements and switches counted as steps", CUBES.replace("strides", "samples"), "cubemap_trace.steps_hq"),
