@@ -61,7 +61,7 @@ def shares(told, answer):
         raise SystemExit(f"shares add up to {sums['share']}, expected {total}")
     rows.append(["sum", number(sums["share"]), "100 %", number(sums["removed"]), number(sums["made"]), "", "", "", ""])
     return (f"Error of `{PRESET}` {number(errors['preset'])}, of its reference {number(errors['reference'])}: the difference of {number(total)} is shared out.\n\n" +
-            table(["player", "share of the error", "of the difference", "removes, exchanged alone", "makes, kept alone", "ms added by the exchange", "error removed per ms added", "fetches a pixel added", "ms saved by keeping it"], rows))
+            table(["player", "share of the error", "of the difference", "removes, replaced alone", "makes, kept alone", "ms added by the replacement", "error removed per ms added", "fetches a pixel added", "ms saved by keeping it"], rows))
 
 
 def by_surface(told):
@@ -88,10 +88,10 @@ def said(mean):
              if p["removed"] > 0 and (mean["costs"][name]["added_ms"] or 0) > 0}
     removed, made = (sum(p[key] for p in players.values()) for key in ("removed", "made"))
     best = max(rates, key=rates.get) if rates else None
-    return (f"`{most}` has the largest share, {100 * players[most]['share'] / total:.0f} % of the difference; exchanged alone, `{alone}` removes most, {number(players[alone]['removed'])}. "
+    return (f"`{most}` has the largest share, {100 * players[most]['share'] / total:.0f} % of the difference; replaced alone, `{alone}` removes most, {number(players[alone]['removed'])}. "
             f"`{saves}` reduces the error most as it is, by {number(-players[saves]['share'])}. "
             + (f"An added millisecond removes most on `{best}`. " if best else "")
-            + f"Players interact: single exchanges in the preset add up to {number(removed)}, those in the reference to {number(made)}, while the difference is {number(total)}.")
+            + f"Players interact: single replacements in the preset add up to {number(removed)}, those in the reference to {number(made)}, while the difference is {number(total)}.")
 
 
 def players(told):
@@ -108,7 +108,7 @@ def page(records, docs):
         text += f"""
 Measured on {device['name']}{' (a CPU: its times say nothing about a GPU)' if device['is_cpu'] else ''}, median of {told['rounds']} rounds; a frame of the
 preset takes {brief(mean['frame_ms']['preset'])} ms at this size, one of the reference {brief(mean['frame_ms']['reference'])}. Errors are
-against a reference of {told['reference_rays']} rays a pixel; the error of the pipeline with all players exchanged is the noise of its own rays. All
+against a reference of {told['reference_rays']} rays a pixel; the error of the pipeline with all players replaced is the noise of its own rays. All
 {mean['pipelines']} pipelines between the two were run on each scene, so that shares are {'exact' if mean['exact'] else 'sampled'}.
 
 ![Share, error removed and error made of each player](blame-shares.svg)
@@ -138,7 +138,7 @@ passes declare, the following passes run again, and the error is the [symmetric 
 - **Share of the error**: the mean change of the error by replacing a player, over all orders in which players can be replaced one after the other (the Shapley
   value). Shares add up to the error of the preset less that of its reference. A negative share means that the player reduces the
   error.
-- **Removes, exchanged alone**: the error that disappears when only this player is replaced in the preset; the columns of ms and fetches *added* are the cost of that.
+- **Removes, replaced alone**: the error that disappears when only this player is replaced in the preset; the columns of ms and fetches *added* are the cost of that.
 - **Makes, kept alone**: the error that appears when only this player is kept and all others are replaced; *ms saved* belongs to it.
 - **Error removed per ms added**: *spent already* where the reference does not use the slot, so that the milliseconds of the preset itself remove that much error.
 

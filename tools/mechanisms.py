@@ -332,7 +332,7 @@ def write(bench, docs, only):
     for reason in left_out:
         print("left out:", reason, file=sys.stderr)
     angles, lobes, ggx, series = formula_tables()
-    text = f"""# What each mechanism is worth
+    text = f"""# What each mechanism contributes
 
 Written by `./dev docs`; do not edit. Sample scenes at {SIZE} with {TRUTH} rays a pixel of truth, shots of {FRAMES} frames
 at {SHOT_SIZE}, cube maps of {CUBE}², preset `mafia3` without fog (the truth has none). Errors are against the truth: the mean of

@@ -169,7 +169,7 @@ and a truth of {TRUTH} rays a pixel, without fog.
 
 - **Error** is the [symmetric error](metrics.md#values) of the reflection against the path traced truth: 0 is exact, 1 is the largest possible error. The
   truth is that of the lobe which each preset samples, and its noise is contained in all errors equally.
-- **Covered** is the share of the reflecting pixels for which a preset gives a reflection of its own: an alpha of at least one half, times the weight in presets that weight
+- **Covered** is the share of the reflecting pixels for which a preset finds a reflection: an alpha of at least one half, times the weight in presets that weight
   their reflections. A preset with low coverage may cover only the easy pixels; hence the tables over the pixels
   that every preset covers.
 - {times.told().strip() or 'No device has been timed.'}

@@ -2,7 +2,7 @@
    above the line, and the writer never writes what breaks one of them. */
 /* clang-format off */
 RULE(OPENEXR,   "openexr",          "The file is an OpenEXR file whose headers and chunks are whole and undamaged.")
-RULE(VERSION,   "version",          "Every part of a known role carries `glint.version` (int), the same in all; a reader refuses versions that it does not know.")
+RULE(VERSION,   "version",          "Every part of a known role carries `glint.version` (int), the same in all; a reader rejects versions that it does not know.")
 RULE(NAMES,     "unique-names",     "No two parts have the same name.")
 RULE(REQUIRED,  "required-parts",   "A capture holds every required role. A file of cube maps alone, which other captures may name as a sibling, needs none.")
 RULE(STORAGE,   "scanline",         "Parts of known roles are flat scanline images without subsampling, compressed by NONE, RLE, ZIPS, ZIP, PIZ, PXR24 or B44.")

@@ -21,7 +21,7 @@ SPEC(int,   taps,       3,     1, 9, "1", "KF2 article, Applying Reflections", "
 PUSH(float, viewer_from, 0.25, -1.0, 1.0, "1", "KF2 article, Viewer Facing Reflections", "cosine between ray and view vector at which the fade begins")
 PUSH(float, viewer_to,  0.5,  -1.0, 1.0, "1", "KF2 article, Viewer Facing Reflections", "cosine at which the reflection has faded out; screen_trace.viewer_limit at the same value saves tracing these rays")
 PUSH(float, edge_fade,  0.05,  0.0, 0.5, "uv", "KF2 article, Reflections Outside the Viewport", "width of the border in which reflections fade out")
-PUSH(float, back_from,  -0.17, -1.0, 1.0, "1", "KF2 article, Reflections of Back Faces", "cosine between the hit's normal and the reversed ray below which the reflection is gone")
+PUSH(float, back_from,  -0.17, -1.0, 1.0, "1", "KF2 article, Reflections of Back Faces", "cosine between the hit's normal and the reversed ray below which the reflection has faded out")
 PUSH(float, back_to,    0.0,   -1.0, 1.0, "1", "KF2 article, Reflections of Back Faces", "cosine above which nothing is attenuated")
 PUSH(float, blur,       1.0,   0.0, 16.0, "1", "KF2 article, Applying Reflections", "half the side of the box, relative to the cone's radius on screen; 0: no blur")
 PUSH(float, blur_limit, 24.0,  0.0, 256.0, "pixels", "glint", "max half side of the box")
