@@ -48,7 +48,7 @@ static const json_t *last_step(const json_t *pass, const char *kind) {
 }
 
 /* Pixels of all kinds: each one's last step is what the run's file says, and no value is lost on the way. */
-static void a_story_agrees_with_the_run(void **state) {
+static void the_record_agrees_with_the_run(void **state) {
     (void)state;
     size_t width = 0, height = 0, hits = 0, skies = 0;
     make_capture();
@@ -130,11 +130,11 @@ static void mixtures_are_told_and_drawn(void **state) {
     char *text = glint_ok("probe", CAPTURE, "40,45", "--preset=kf2", "--alone", "-o", in_folder("kf2.svg"));
     assert_contains(text, "adds a sample of the picture");
     assert_contains(text, "attenuates the reflection");
-    assert_contains(text, "image reflection, share 0.");
+    assert_contains(text, "image reflection, alpha 0.");
     char *svg = read_text(in_folder("kf2.svg"));
     assert_contains(svg, "resolve/blurred: combines");
-    assert_contains(svg, "compose/contribution: blends one colour over another");
-    assert_contains(svg, "above: reflection, ");
+    assert_contains(svg, "compose/contribution: blends one layer over another");
+    assert_contains(svg, "upper layer: reflection, ");
     assert_int_equal(count(svg, "<svg"), count(svg, "</svg>"));
     free(svg);
     free(text);
@@ -192,7 +192,7 @@ static void what_is_asked_wrong_is_said(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_story_agrees_with_the_run), cmocka_unit_test(a_drawing_has_every_step),
+        cmocka_unit_test(the_record_agrees_with_the_run), cmocka_unit_test(a_drawing_has_every_step),
         cmocka_unit_test(mixtures_are_told_and_drawn), cmocka_unit_test(the_text_tells_it_all),
         cmocka_unit_test(what_is_asked_wrong_is_said)};
     return cmocka_run_group_tests_name("cli_probe", tests, make_folder, remove_folder);
