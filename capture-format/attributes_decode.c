@@ -154,7 +154,7 @@ static bool decode_numbers(struct context *c, const struct glint_exr_attribute *
     const double *n = from->numbers;
     for (size_t i = 0; i < from->count; i++) {
         if (!isfinite(n[i])) return BROKEN(c, ATTRIBUTE, "expected finite numbers, found %g", n[i]);
-        if (!in_range(c->row->range, n[i])) return BROKEN(c, ATTRIBUTE, "expected it in range, found %g", n[i]);
+        if (!in_range(c->row->range, n[i])) return BROKEN(c, ATTRIBUTE, "expected a value in range, found %g", n[i]);
     }
     switch (c->row->kind) {
     case GLINT_KIND_CAMERA_VIEW:

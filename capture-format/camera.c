@@ -73,8 +73,8 @@ size_t glint_frame_notes(const struct glint_frame *frame, char notes[GLINT_NOTES
         snprintf(
             notes[count++], GLINT_NOTE_LENGTH,
             "gbuffer: %s: expected a rotation in double precision, found one that is orthonormal to %.2g; %.4g km from "
-            "the origin that is %.2g mm. The camera stands where the matrix gives 0, which is its place if the "
-            "translation was made with the rotation as it is stored",
+            "the origin that is %.2g mm. The camera is placed where the matrix gives 0, which is correct if the "
+            "translation was computed from the rotation as stored",
             names[i], cameras[i]->rotation_error, away_m / 1000, 1000 * off_m);
     }
     return count;

@@ -93,7 +93,7 @@ static bool read_chunk(void *user, uint32_t w, size_t index) {
     const size_t bytes = lines * part->line_bytes;
     exr_chunk_info_t chunk;
     if (exr_read_scanline_chunk_info(job->exr->context, (int)job->part, part->first_y + (int)y, &chunk))
-        return chunk_fail(job, index, GLINT_ERROR_FORMAT, "its place in the file is missing or damaged");
+        return chunk_fail(job, index, GLINT_ERROR_FORMAT, "its offset in the file is missing or damaged");
     if (chunk.unpacked_size != bytes || chunk.packed_size > bytes || chunk.packed_size == 0)
         return chunk_fail(job, index, GLINT_ERROR_FORMAT, "its size does not fit the part");
     const uint8_t *pixels = worker->unpacked;

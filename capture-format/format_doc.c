@@ -132,7 +132,7 @@ int main(int argc, char **argv) {
     FILE *memory = open_memstream(&fresh, &size);
     bool ok = text && memory && renew_tables(text, memory);
     if (memory) fclose(memory);
-    if (!ok) fprintf(stderr, "%s: expected a text with every table's marks\n", path);
+    if (!ok) fprintf(stderr, "%s: expected a text with the markers of every table\n", path);
     if (ok && check && strcmp(text, fresh)) {
         fprintf(stderr, "%s: its tables are not the registry's: run `meson compile format-doc`\n", path);
         ok = false;

@@ -14,7 +14,7 @@ CAPTURE(scene,            RGBA16F, "radiance", FULL, "scene", "R G B -", false, 
 CAPTURE(previous_lit,     RGBA16F, "radiance", FULL, "previous.lit", "R G B -", false, 0, "lit of the previous frame")
 CAPTURE(previous_scene,   RGBA16F, "radiance", FULL, "previous.scene", "R G B -", false, 0, "scene of the previous frame")
 CAPTURE(previous_depth,   R32F,    "m",  FULL,     "previous.gbuffer", "depth.Z", false, INFINITY, "depth_full of the previous frame")
-CAPTURE(cubemap_color,    RGBA16F, "radiance", CUBEMAPS, "cubemap", "R G B A", false, 0, "rgb: diffuse-only radiance; a: 0 where sky; layer = place in active_index")
+CAPTURE(cubemap_color,    RGBA16F, "radiance", CUBEMAPS, "cubemap", "R G B A", false, 0, "rgb: diffuse-only radiance; a: 0 where sky; layer = index into active_index")
 CAPTURE(cubemap_distance, R32F,    "m",  CUBEMAPS, "cubemap", "distance.Z", false, INFINITY, "distance from the centre; +inf where sky")
 CAPTURE(planar_color,     RGBA16F, "radiance", PLANAR, "planar.000", "R G B -", false, 0, "the scene seen through the mirror frame.mirror_plane")
 CAPTURE(planar_depth,     R32F,    "m",  PLANAR,   "planar.000", "depth.Z", false, INFINITY, "view-linear depth of it; +inf where sky")

@@ -27,5 +27,5 @@ FACT(volumes, PARTS, s->volumes > 0, SAY("%u cube map%s with an inner volume", s
 FACT(transparent, PARTS, s->has_transparent, SAY("%s transparent surface", s->has_transparent ? "a" : "no"))
 FACT(water, PARTS, s->has_water, SAY("%s water surface", s->has_water ? "a" : "no"))
 FACT(planar, PARTS, s->has_planar, SAY("%s planar reflection map", s->has_planar ? "a" : "no"))
-FACT(fresnel, PARTS, s->has_fresnel, SAY("materials %s how they rise towards grazing angles", s->has_fresnel ? "say" : "do not say"))
-FACT(history, PARTS, s->has_history, SAY("%s", s->has_history ? "there is a frame before" : "no frame before, or a cut"))
+FACT(fresnel, PARTS, s->has_fresnel, SAY("materials with%s a Fresnel factor", s->has_fresnel ? "" : "out"))
+FACT(history, PARTS, s->has_history, SAY("%s", s->has_history ? "the previous frame is available" : "no previous frame, or a camera cut"))

@@ -217,7 +217,8 @@ static bool check_sparse(const struct check *c, size_t i, const json_t *accessor
     bool ok =
         bytes && read_buffer(c, buffer, at, bytes, (size_t)(count * size)) && indices_below(bytes, count, size, all);
     free(bytes);
-    return ok || bad(c, "accessor", i, "its sparse indices do not rise below its count (or are in a data: URI)");
+    return ok ||
+           bad(c, "accessor", i, "its sparse indices are not ascending or not below its count (or are in a data: URI)");
 }
 
 static bool check_accessor(const struct check *c, size_t i, const json_t *accessor) {

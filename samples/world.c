@@ -93,7 +93,7 @@ struct world *world_create(const struct scene *scene, enum world_kind kind, doub
     enum RTCError error = rtcGetDeviceError(world->device);
     if (error == RTC_ERROR_NONE) return world;
     glint_fail(err, error == RTC_ERROR_OUT_OF_MEMORY ? GLINT_ERROR_MEMORY : GLINT_ERROR_UNSUPPORTED,
-               "Embree refused the scene (error %d)", (int)error);
+               "Embree rejected the scene (error %d)", (int)error);
 failed:
     world_destroy(&world);
     return NULL;

@@ -12,28 +12,28 @@ PLANAR = ("30x15", "60x30", "120x60", "240x120", "480x240", "960x480")
 WATER = [
     ("`gtav`", ""),
     ("without the planar map: `planar=none`", "planar=none"),
-    ("nor the environment map: the sky alone", "planar=none water.environment=false"),
-    ("flat: `planar.perturb=false`", "planar.perturb=false"),
-    ("all that is mirrored far away: `planar.near=false`", "planar.near=false"),
-    ("its depth looked up once: `planar.refinements=0`", "planar.refinements=0"),
-    ("three times (at silhouettes the ends of rays begin to alternate): `planar.refinements=2`", "planar.refinements=2"),
-    ("straight through: `water.refraction=false`", "water.refraction=false"),
-    ("the bottom's depth looked up once: `water.refinements=0`", "water.refinements=0"),
+    ("without the environment map, too: only the sky", "planar=none water.environment=false"),
+    ("flat mirror: `planar.perturb=false`", "planar.perturb=false"),
+    ("everything mirrored is infinitely far away: `planar.near=false`", "planar.near=false"),
+    ("depth of the map sampled once: `planar.refinements=0`", "planar.refinements=0"),
+    ("three times (the ends of rays begin to alternate at silhouettes): `planar.refinements=2`", "planar.refinements=2"),
+    ("no refraction: `water.refraction=false`", "water.refraction=false"),
+    ("depth of the bottom sampled once: `water.refinements=0`", "water.refinements=0"),
     ("five times: `water.refinements=4`", "water.refinements=4"),
-    ("as if a metre deep: `water.depth=false`", "water.depth=false"),
+    ("as if one metre deep: `water.depth=false`", "water.depth=false"),
     ("`water.fresnel=false`", "water.fresnel=false"),
-    ("nothing mirrored: `water.intensity=0`", "water.intensity=0"),
+    ("no reflection: `water.intensity=0`", "water.intensity=0"),
     ("no water: `water=none`", "water=none"),
 ]
 PICTURES = ("", "planar=none", "water.refraction=false")
 LOOKUPS = [
     ("`gtav`: one map, dual paraboloids, by direction", ""),
-    ("levels made of what the discs hold alone: `cubemap_convert.fill=false`", "cubemap_convert.fill=false"),
-    ("its cube map, by direction: `cubemap_trace=lookup`", "cubemap_trace=lookup cubemap_convert=none"),
+    ("texels outside the discs black: `cubemap_convert.fill=false`", "cubemap_convert.fill=false"),
+    ("the cube map itself, by direction: `cubemap_trace=lookup`", "cubemap_trace=lookup cubemap_convert=none"),
     ("eight cube maps, the nearest by direction", "cubemap_trace=lookup cubemap_convert=none cubemap_active.count=8"),
     ("on the inner volume's planes: `box`", "cubemap_trace=box cubemap_convert=none cubemap_active.count=8"),
     ("volumes grown by 1 m", "cubemap_trace=box cubemap_convert=none cubemap_active.count=8 cubemap_trace.grow_m=1"),
-    ("on a sphere as wide: `sphere`", "cubemap_trace=sphere cubemap_convert=none cubemap_active.count=8"),
+    ("on a sphere of that size: `sphere`", "cubemap_trace=sphere cubemap_convert=none cubemap_active.count=8"),
     ("traced: `march`", "cubemap_trace=march cubemap_convert=none cubemap_active.count=8"),
     ("traced, colour of the paraboloids", "cubemap_trace=march cubemap_active.count=8"),
 ]
@@ -126,18 +126,19 @@ Path traced; `gtav`; without the planar map; without refraction.
 Error of the reflection of mirror-like, glossy and rough surfaces, no rays on screen and no fog:
 
 {table(("lookup", *(f"error in `{s}`: mirror-like, glossy, rough" for s in SCENES), *(f"{head}, street" for head in times.heads)), looked_up)}
-The captures' inner volumes are boxes of air that keep away from the walls; without one the proxy is 10 m away. The paraboloids
-have levels, which `lookup` here has not; the march finds what is seen, and takes its colour from either.
+The inner volumes of the captures are empty boxes that end before the walls; without one the proxy is 10 m away. The paraboloids
+have MIP levels, which `lookup` does not use here. The march finds the surface that the cube map shows, and samples its colour from the cube map or the
+paraboloids.
 
 ## Dual paraboloids
 
-A map of 64² with a cube map of 64² behind it, whose colours are the directions, so that what comes back tells where it was looked
-up. A face's texel spans {texel} rad.
+A map of 64² with a cube map of 64² behind it, whose colours are the directions, so that a sample shows the direction that it was taken
+in. A face's texel spans {texel} rad.
 
 {table(("place", "texels per steradian", "error of the direction, median, rad", "error of the direction, at most, rad"), map_rows)}
 The article says that the projection preserves the details at the top and the bottom at the expense of the sides. It is the other
-way around: a piece of the plane spans 4 / (1 + r²)² of its area, so the pole has a quarter of the rim's texels a steradian, and a
-quarter of what the middle of a cube map's face has. Texels outside the discs are filled with what lies beyond the rim before
+way around: an area of the map covers 4 / (1 + r²)² times its area in solid angle, so that the pole has a quarter of the texels per steradian of the rim
+and of the middle of a cube map's face. Texels outside the discs are filled with the directions beyond the rim before
 filtering ({seams}).
 """)
 

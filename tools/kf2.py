@@ -13,15 +13,15 @@ SIZE, CUBE, TRUTH, FINISHED = '640x360', '16', '8', '16'
 TRUST = [
     ('`kf2`', ''),
     ('without `resolve.viewer`, rays towards the viewer traced', 'resolve.viewer=false screen_trace.viewer_limit=1'),
-    ('the attenuation kept, without its early-out', 'screen_trace.viewer_limit=1'),
+    ('with the attenuation, without its early-out', 'screen_trace.viewer_limit=1'),
     ('tiles rejected beforehand: `classify=coarse`', 'classify=coarse'),
     ('without `resolve.edge`', 'resolve.edge=false'),
     ('without `resolve.back_face`', 'resolve.back_face=false'),
     ('none of the attenuations', 'resolve.viewer=false screen_trace.viewer_limit=1 resolve.edge=false resolve.back_face=false'),
-    ('pyramid, all is solid (the source)', 'screen_trace.thickness_m=1e6'),
+    ('pyramid, everything is solid (the article)', 'screen_trace.thickness_m=1e6'),
     ('the same, without `resolve.back_face`', 'screen_trace.thickness_m=1e6 resolve.back_face=false'),
     ('16 steps and 6 bisections', 'screen_trace=linear_binary'),
-    ('16 steps alone', 'screen_trace=linear_binary screen_trace.refinements=0'),
+    ('16 steps without bisections', 'screen_trace=linear_binary screen_trace.refinements=0'),
     ('the same, no dither', 'screen_trace=linear_binary screen_trace.refinements=0 screen_trace.dither=false'),
     ('every texel', 'screen_trace=dda'),
 ]
@@ -38,7 +38,7 @@ FRONT_SCENES, FINISHED_SCENES = ('street', 'room'), ('street', 'room', 'hotel')
 FRONT = [
     ('`kf2`', ''),
     ('without `resolve.foreground`', 'resolve.foreground=false'),
-    ('all is solid (the source)', 'screen_trace.thickness_m=1e6'),
+    ('everything is solid (the article)', 'screen_trace.thickness_m=1e6'),
     ('the same, without `resolve.foreground`', 'screen_trace.thickness_m=1e6 resolve.foreground=false'),
 ]
 DEFERRED = [

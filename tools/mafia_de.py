@@ -16,8 +16,8 @@ COLOUR = [
     ('`mafia_de`', ''),
     ('`downsample.lobe=half_vector`', 'downsample.lobe=half_vector'),
     ("this frame's picture: `resolve=hit`", 'resolve=hit'),
-    ('hidden points taken: `resolve.reject=false`', 'resolve.reject=false'),
-    ('hidden points black: `resolve.hidden=black`', 'resolve.hidden=black'),
+    ('occluded points accepted: `resolve.reject=false`', 'resolve.reject=false'),
+    ('occluded points black: `resolve.hidden=black`', 'resolve.hidden=black'),
     ('no sharing: `blur=none`', 'blur=none'),
     ('five samples: `blur=plus`', 'blur=plus'),
     ('`blur.edges=false`', 'blur.edges=false'),
@@ -27,22 +27,22 @@ COLOUR = [
     ('outliers kept: `temporal.outlier=1e6`', 'temporal.outlier=1e6'),
     ('`upscale.lobes=false`', 'upscale.lobes=false'),
     ('`upscale=bilinear`', 'upscale=bilinear'),
-    ('blind: `blur.edges=false`, `upscale=bilinear`', 'blur.edges=false upscale=bilinear'),
+    ('without edges: `blur.edges=false`, `upscale=bilinear`', 'blur.edges=false upscale=bilinear'),
     ('cube maps by direction: `cubemap_trace=lookup`', 'cubemap_trace=lookup'),
-    ('the screen alone: no ray goes on in cube maps', ALONE),
-    ('cube maps alone: `screen_trace.length_m=0`', 'screen_trace.length_m=0'),
+    ('only the screen: no ray continues in cube maps', ALONE),
+    ('only cube maps: `screen_trace.length_m=0`', 'screen_trace.length_m=0'),
     ('16 rays: `mafia_de`', 'pipeline.rays=16'),
     ('16 rays: `blur.edges=false`', 'pipeline.rays=16 blur.edges=false'),
     ('16 rays: `upscale=bilinear`', 'pipeline.rays=16 upscale=bilinear'),
-    ('16 rays: blind', 'pipeline.rays=16 blur.edges=false upscale=bilinear'),
+    ('16 rays: without edges', 'pipeline.rays=16 blur.edges=false upscale=bilinear'),
 ]
 # A camera that moves far per frame, so that much is disoccluded.
 MOVED, MOVED_SCENES = ('--first-frame', '2', '--travel', '0.5,0,-0.2'), ('street', 'room')
 MOVING = [
     ('`mafia_de`', ''),
     ("this frame's picture: `resolve=hit`", 'resolve=hit'),
-    ('hidden points taken: `resolve.reject=false`', 'resolve.reject=false'),
-    ('hidden points black: `resolve.hidden=black`', 'resolve.hidden=black'),
+    ('occluded points accepted: `resolve.reject=false`', 'resolve.reject=false'),
+    ('occluded points black: `resolve.hidden=black`', 'resolve.hidden=black'),
 ]
 GLASS = [
     ('all', ''),

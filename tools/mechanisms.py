@@ -184,7 +184,7 @@ def mechanisms(bench, only):
         change = 100 * (b - a) / a if a else 0 if b == a else float("inf")
         verdict, told = f"{change:+.1f} %", reason(name, figure[0])
         if change < 0.5:
-            verdict = ("**does not move**" if abs(change) < 0.5 else verdict + " (**better off**)") + ": " + (told or "**unexplained**")
+            verdict = ("**no change**" if abs(change) < 0.5 else verdict + " (**better without**)") + ": " + (told or "**unexplained**")
             if not told:
                 print(f"unexplained: {name}, {scene}, {figure[0]}: {change:+.1f} %", file=sys.stderr)
         rows.append((step, name, scene, f"`{off}`", figure[0], number(a), number(b), verdict, traded[0] if traded else ""))
@@ -332,44 +332,44 @@ def write(bench, docs, only):
     for reason in left_out:
         print("left out:", reason, file=sys.stderr)
     angles, lobes, ggx, series = formula_tables()
-    text = f"""# What each mechanism is worth
+    text = f"""# What each mechanism contributes
 
 Written by `./dev docs`; do not edit. Sample scenes at {SIZE} with {TRUTH} rays a pixel of truth, shots of {FRAMES} frames
 at {SHOT_SIZE}, cube maps of {CUBE}², preset `mafia3` without fog (the truth has none). Errors are against the truth: the mean of
-|found − truth|/(found + truth + 0.05), which no outlier rules, where nothing else is said. Noise is RMSE against what the same
+|found − truth|/(found + truth + 0.05), which no outlier dominates, unless stated otherwise. Noise is RMSE against what the same
 settings converge to with many rays. Times (ms) are of all passes at {FULL_SIZE} with cube maps of {FULL_CUBE}² on {device}.
 
 Scenes are named `KIND:SCENE`. `still:` is a shot with a still camera, jittered, with the truth of the pixels' areas; `centred:` the same through the
-pixels' centres; `moving:` a camera that moves sideways, through the centres too; `full:` a frame at {FULL_SIZE}. Of shots the figures are those of the last
-frame, where nothing else is said.
+pixels' centres; `moving:` a camera that moves sideways, through the centres too; `full:` a frame at {FULL_SIZE}. The figures of a shot are those of its last
+frame, unless stated otherwise.
 
 ## On and off
 
 Each row has one figure with the whole pipeline (*with it*) and with this mechanism alone switched off (*without it*). A change of less than 0.5 %
-is marked, and so is an improvement, each with the reason that was found. *What it trades* names what the mechanism gives for what.
+is marked, and so is an improvement, each with its cause as far as it was found. *What it trades* names the cost and the benefit of the mechanism.
 
 {table(("step", "mechanism", "scene", "switched off by", "figure", "with it", "without it", "change without it", "what it trades"), rows)}
 """
     if not only:
-        text += attempt("Length of the chain", "Cube maps alone in `room`, mirror rays.",
+        text += attempt("Length of the chain", "Mirror rays through the cube maps only, in `room`.",
                         ("cube maps in the chain", RAYS[0], SMOOTH[0], "ms"), chains, bench)
-        text += attempt("Fallbacks", "Mirror rays that no cube map could follow, in a shot of 16 frames of a moving camera, with one ray a texel and "
+        text += attempt("Fallbacks", "Mirror rays that are occluded in every cube map of their chain, in a shot of 16 frames of a moving camera, with one ray a texel and "
                         "no reuse: their error, and how much they change from frame to frame, where their best cube map changes and where it "
                         "stays. Change is measured as errors are; the truth's own change is beside it.",
                         ("scene", "setting", "fallback", "rays", "error", "best map changes: rays", "their change", "the truth's change",
                          "best map stays: rays", "their change", "the truth's change"), fallbacks, bench)
-        text += attempt("When the best cube map changes", "The same frame, cube maps alone, with the best cube map chosen by nearness and by "
-                        "the ray's direction: how far the two pictures differ, and the error.",
+        text += attempt("When the best cube map changes", "The same frame, cube maps alone, with the best cube map chosen by distance and by "
+                        "the ray's direction: the difference between the two pictures, and the error.",
                         ("scene", "fallback", "difference of the two pictures, mirror-like", "difference, all", "error, mirror-like", "error, all"), exchanged, bench)
         text += attempt("Importance sampling against pre-filtering", "The slides' comparison in `room`, Blinn-Phong. Noise is "
-                        "the RMSE against the same pipeline's mean of 128 rays; the error that is left with those stands beside it.\n\n"
+                        "the RMSE against the same pipeline's mean of 128 rays; the remaining error with 128 rays is beside it.\n\n"
                         "![](shares.png)", ("share of rays : of cones", "surfaces", "RMSE against the truth", "noise", "RMSE left with 128 rays", "ms"), shares, bench, docs)
-        text += attempt("Rays for every four pixels", "The slides' comparison in `room`. Mirror-like surfaces are resolved anew, "
-                        "with one ray whatever their number.\n\n![](rays.png)",
+        text += attempt("Rays for every four pixels", "The slides' comparison in `room`. Mirror-like surfaces are resolved again "
+                        "at full resolution, with one ray whatever the number of rays.\n\n![](rays.png)",
                         ("rays", "RMSE, mirror-like", "RMSE, glossy", "RMSE, rough", "noise, glossy", "noise, rough", "ms"), ray_counts, bench, docs)
-        text += attempt("Noise of a shot", "A camera that stands, rough pixels: RMSE against a mean of 64 rays in each of 16 frames, as a part of "
-                        "the first frame's own. Each of n frames weighs 1/n up to 16, as the slides' 15:1 has it, which leaves 1/√n; from there "
-                        "on the new frame weighs 1/16, and noise settles at √(1/31) = 0.180 (`glint selftest --only noise` follows it there). With `extra`, "
+        text += attempt("Noise of a shot", "A still camera, rough pixels: RMSE against a mean of 64 rays in each of 16 frames, as a fraction of "
+                        "the first frame's. Each of n frames has the weight 1/n up to 16, as the ratio of 15:1 in the slides, which leaves 1/√n; from "
+                        "there on the new frame has the weight 1/16, and noise converges to √(1/31) = 0.180 (`glint selftest --only noise` tests it). With `extra`, "
                         "the first frame has up to 25 samples instead of five.",
                         ("frame n", "expected: 1/√n", "measured: room", "measured: street", "measured: room with `extra`"), noise_of_frames, bench)
         text += attempt("Error of a shot", "Against the truth: mean of the symmetric error, and RMSE.",

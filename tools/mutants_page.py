@@ -6,15 +6,15 @@ import pathlib
 import mutant_rows
 from pages import table
 
-HEAD = """# Does anybody notice when a shader is wrong?
+HEAD = """# Do the tests notice when a shader is wrong?
 
-Written by `tools/mutants.py page`; do not edit. The files of `passes/` are changed mechanically, one place at a time: a comparison
-turned, a constant changed (doubled, 0 to 1), a guard, a clamp or an epsilon removed, a term dropped, signs or axes exchanged. `glint
-selftest --quick` and the device tests (`gpu_…`) are run on each until one fails; what runs on the host has its own test. Which
-places is a matter of a seed: some in each file, and one at least in each mechanism of [mechanisms.md](mechanisms.md). Changes that do not compile,
-and those that compile to the same code, are replaced by others. Unchanged sources, taken the same way, pass everything.
-`./dev test --all` makes the mutants anew, tries them, and fails when fewer than 85 % of all are noticed, or one survives that the table
-below does not know.
+Written by `tools/mutants.py page`; do not edit. Each [mutant](glossary.md#mutant) is one mechanical change in a file of `passes/`: a comparison
+reversed, a constant changed (doubled, 0 to 1), a guard, a clamp or an epsilon removed, a term dropped, signs or axes exchanged. `glint
+selftest --quick` and the device tests (`gpu_…`) are run on each until one fails; host code has its own tests. A seed selects the
+positions: several in each file, and at least one in each mechanism of [mechanisms.md](mechanisms.md). Changes that do not compile,
+and those that compile to the same code, are replaced by others. The unchanged sources pass all tests.
+`./dev test --all` generates the mutants again, tests them, and fails if fewer than 85 % of all are noticed, or if one that is not in the table
+below survives.
 """
 
 
@@ -78,9 +78,9 @@ def of_record(record):
     harmless, killed = sum(reason_of(m) is not None for m in survivors), len(mutants) - len(survivors)
     without = "; ".join(f"`{name}`: {', '.join(c['failing'])}" for name, c in record["control"].items() if c["failing"])
     lines = [f"## {record['device']}\n", *([f"Left out, because unchanged sources fail there: {without}.\n"] if without else []),
-             f"{len(mutants)} mutants, {share(mutants)[1]} noticed ({share(mutants)[2]}), {len(survivors)} not, of which {harmless} change "
-             f"nothing that counts: of the others {100 * killed / (len(mutants) - harmless):.0f} % are noticed. Seed {record['seed']}; replaced: {rejected}. "
-             f"{late} were noticed by taking {mutant_rows.SLOWER} times as long as unchanged sources and half a minute at least. In all "
+             f"{len(mutants)} mutants, {share(mutants)[1]} noticed ({share(mutants)[2]}), {len(survivors)} not, of which {harmless} are "
+             f"harmless: of the others {100 * killed / (len(mutants) - harmless):.0f} % are noticed. Seed {record['seed']}; replaced: {rejected}. "
+             f"{late} were noticed because they took {mutant_rows.SLOWER} times as long as unchanged sources and at least half a minute. In total "
              f"{sum(m.get('seconds', 0) for m in mutants) / 60:.0f} minutes of processor time, after {sum(c['seconds'] for c in record['control'].values()) / 60:.0f} "
              f"for unchanged sources; sources {record['sources']}.\n",
              table(["slot", "mutants", "noticed", "noticed, %"], grouped(mutants, lambda m: {p.split("/")[-2] for p in m["passes"]} if not m["file"].startswith("shared/")
@@ -89,7 +89,7 @@ def of_record(record):
              table(["test or case that notices first", "mutants"], [[f"`{name}`", str(n)] for name, n in
                                                      collections.Counter(m["by"] for m in mutants if "by" in m).most_common()]),
              "Mechanisms of Mafia III's pipeline:\n", table(["mechanism", "mutants", "noticed", "noticed, %"], grouped(mutants, lambda m: m["mechanisms"])),
-             "### What nobody notices\n"]
+             "### Mutants that no test notices\n"]
     rows = [[f"`{m['file']}`:{m['line']}", m["operator"], *parted(m["before"], m["after"]), reason_of(m) or (f"**a case is missing**: {missing(m)}" if missing(m) else "**no reason is known**")] for m in survivors]
     return "\n".join(lines + [table(["where", "kind of change", "original", "mutant", "why it is harmless, or what case is missing"], rows).replace("---:", "---")])
 

@@ -145,6 +145,6 @@ class Times:
     def told(self):
         if not self.records:
             return ""
-        devices = "; ".join(f"{r['as']}: {r['size'].replace('x', '×')}, cube maps of {r['cube']}², median of {r['rounds']} rounds in turns"
-                            + (f", the fastest of {r['tries']} times" if "tries" in r else "") for r in self.records)
-        return f"GPU times are of all passes of a frame; after a + stands work on cube maps that is done only when one changes ({devices}).\n"
+        devices = "; ".join(f"{r['as']}: {r['size'].replace('x', '×')}, cube maps of {r['cube']}², median of {r['rounds']} alternating rounds"
+                            + (f", the lowest of {r['tries']} measurements" if "tries" in r else "") for r in self.records)
+        return f"GPU times are of all passes of a frame; after a + follows the time of the work on cube maps, which is done only when one changes ({devices}).\n"

@@ -18,7 +18,7 @@ import tempfile
 import pages
 
 RECORDS = pages.HERE / "records/plans"
-SCENES = {"matte": "nothing reflects", "desert_night": "one mirror, no sky", "rain_street": "wet and rough, no mirror", "lake": "water, little else",
+SCENES = {"matte": "nothing reflects", "desert_night": "one mirror, no sky", "rain_street": "wet and rough, no mirror", "lake": "water and little else",
           "glasshouse": "panes", "still_life": "nothing moves", "room": "polished tiles", "street": "almost everything reflects"}
 SHARES, KINDS = (0, 1, 5, 25, 100), {"block": "one block", "scattered": "scattered"}
 RULES = ("downsample.min_weight=0.000977", "downsample.min_weight=0.03", "screen_trace.max_roughness=0.5", "cubemap_trace.max_roughness=0.5")
@@ -233,8 +233,8 @@ def page(given):
     parts = []
     for r, name in zip(records, charts):
         cpu = "llvmpipe" in r["device"]
-        parts.append(f"## {r['as']}\n\n{r['device']}, {r['size'].replace('x', '×')}, cube maps of {r['cube']}², medians of {r['rounds']} rounds in turns "
-                     f"(in brackets: between which half of them lie).\n\n{times(r)}\n{bounds(r, cpu)}\n\n![{r['as']}: time by share]({name})\n\n{follows(r)}")
+        parts.append(f"## {r['as']}\n\n{r['device']}, {r['size'].replace('x', '×')}, cube maps of {r['cube']}², medians of {r['rounds']} alternating rounds "
+                     f"(in brackets: their interquartile range).\n\n{times(r)}\n{bounds(r, cpu)}\n\n![{r['as']}: time by share]({name})\n\n{follows(r)}")
     left = everything_ran(counted)
     every = "With `--all` every pass was dispatched over all of its texels, in every scene." if not left else f"**With `--all` left out**: {', '.join(left)}."
     text = pathlib.Path(__file__).with_name("plans.md.in").read_text(encoding="utf-8")

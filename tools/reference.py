@@ -30,8 +30,8 @@ TRACES = [
     ("`dda`, thickness 0.01, `solid` 8", "screen_trace.solid=8"),
     (CHOSEN, ""),
     ("`dda`, thickness 0.04, `solid` 32", "screen_trace.thickness=0.04"),
-    ("`dda`, thickness 0.01, `solid` 1e6: nothing passes behind", "screen_trace.solid=1e6"),
-    ("`dda`, `thickness_m` 1e6: what passes behind has hit", "screen_trace.thickness_m=1e6"),
+    ("`dda`, thickness 0.01, `solid` 1e6: no ray passes behind an object", "screen_trace.solid=1e6"),
+    ("`dda`, `thickness_m` 1e6: every ray behind a surface hits it", "screen_trace.thickness_m=1e6"),
 ]
 UNSKIPPED = "every half texel: `cubemap_trace.skip=false`"
 

@@ -26,13 +26,13 @@ CUBES = ("cubemap_trace=march cubemap_trace.count=strides cubemap_trace.surfaces
          "cubemap_trace.fallback=lookup cubemap_trace.exhausted=fallback")
 THICK = CUBES.replace("surfaces=exact cubemap_trace.bias=0", "surfaces=thick")
 # The limit of the march: the reference's tracer, which traces the same cube maps with a fifth of its steps; and with its own.
-CHAIN = "cubemap_trace.maps=chain cubemap_trace.unseen=stop cubemap_active.chain=8"
+CHAIN = "cubemap_trace.maps=chain cubemap_trace.occluded=stop cubemap_active.chain=8"
 OWN = f"{CHAIN} cubemap_trace.texel_part=0.1 cubemap_trace.skip=false cubemap_trace.steps=1000000"
 CURVES = {
     "screen": ("`linear_facets`", SCREEN, "screen_trace.steps"),
     "cubes": ("`march`", CUBES, "cubemap_trace.steps_hq"),
     "both": ("both", f"{SCREEN} {CUBES}", "screen_trace.steps+cubemap_trace.steps_hq"),
-    "hiz": ("`screen_trace/hiz`, cells looked at", "screen_trace=hiz hiz=nearest screen_trace.thickness=0.01 screen_trace.solid=32",
+    "hiz": ("`screen_trace/hiz`, cells visited", "screen_trace=hiz hiz=nearest screen_trace.thickness=0.01 screen_trace.solid=32",
             "screen_trace.cells+screen_trace.cells_lq"),
     "linear": ("`screen_trace/linear`", "screen_trace=linear screen_trace.thickness=0.01 screen_trace.first_step=0.001", "screen_trace.steps"),
     "samples": ("`march`, refinements and switches counted as steps", CUBES.replace("strides", "samples"), "cubemap_trace.steps_hq"),

@@ -93,7 +93,7 @@ def chapter(record):
     units, cost = ("fetches a pixel",), "texture fetches of the traces a pixel, which no device changes"
     if record["cost"] == "ms":
         part = "of " + " and ".join(f"`{slot}`" for slot in record["slots"].split(",")) if record.get("slots") else "of a whole frame"
-        units, cost = ("GPU time, ms", "time of tuned / of this"), f"GPU time {part}, medians of {record['repeat']} rounds in turns with their 95 % intervals"
+        units, cost = ("GPU time, ms", "time of tuned / of this"), f"GPU time {part}, medians of {record['repeat']} alternating rounds with their 95 % intervals"
     lines = [f"## {record['as'][0].upper()}{record['as'][1:]}, {record['size'].replace('x', '×')}", "",
              f"Cost: {cost}; errors against a reference of {record['rays']} rays a pixel; a search of {record['tries']} points.", ""]
     for budget, found in sorted(record["budgets"].items(), key=lambda b: -int(b[0])):

@@ -30,7 +30,7 @@ static const struct example examples[] = {
     {"glint probe street.exr 640,500 --use screen_trace=hiz --set screen_trace.cells=64",
      "traces the same ray with another tracer"},
     {"glint probe shot.0002.exr 640,500 --history run.0001", "uses the history of the previous frame"},
-    {"glint probe street.exr 640,500 --json | jq '.story.passes[] | select(.slot == "
+    {"glint probe street.exr 640,500 --json | jq '.pipeline.passes[] | select(.slot == "
      "\"cubemap_trace\").steps[].decision'",
      "extracts steps for a script: every step is an object"},
     {0},

@@ -108,8 +108,7 @@ static void number_or_dash(struct table *table, bool there, double value) {
 }
 
 static void print_noise(const struct glint_reference_state *state, const struct missing *missing) {
-    static const char *const titles[] = {"<surfaces", ">mean", ">noise", ">of the mean %", ">missing information",
-                                         NULL};
+    static const char *const titles[] = {"<surfaces", ">mean", ">noise", ">relative %", ">missing information", NULL};
     struct table *table = table_create(titles);
     for (int k = 0; k < GLINT_SURFACE_COUNT; k++) {
         const struct glint_reference_noise *noise = &state->noise[k];
@@ -122,15 +121,16 @@ static void print_noise(const struct glint_reference_state *state, const struct 
     }
     table_print(table, stdout);
     table_destroy(&table);
-    puts("noise: standard error of the mean, by what two halves of the rays differ by");
-    if (missing->known) puts("missing information: RMSE against the capture's truth, the noise of both taken off");
+    puts("noise: standard error of the mean, from the difference between two halves of the rays; relative: divided by "
+         "the mean");
+    if (missing->known) puts("missing information: RMSE against the truth in the capture, without the noise of both");
     if (missing->known && missing->fog)
-        puts("the truth has no fog and this reference has; --set pipeline.fog=false compares the same");
+        puts("the truth has no fog, but this reference has; use --set pipeline.fog=false to compare them");
 }
 
 static void print_sensitivity(const struct glint_reference_sensitivity *s) {
-    static const char *const titles[] = {"<assumed",       ">value", ">tried", ">mean change", ">RMSE", ">noise",
-                                         ">of the mean %", "<",      NULL};
+    static const char *const titles[] = {"<assumed",    ">value", ">tried", ">mean change", ">RMSE", ">noise",
+                                         ">relative %", "<",      NULL};
     struct table *table = table_create(titles);
     for (size_t i = 0; i < s->count; i++) {
         const struct glint_reference_assumption *row = &s->rows[i];
@@ -146,11 +146,13 @@ static void print_sensitivity(const struct glint_reference_sensitivity *s) {
         else table_cell(table, "%s", "–");
         table_cell(table, "%s", row->reason);
     }
-    printf("\nwhat it must assume, halved and doubled, %u rays a pixel each:\n", s->rays);
+    printf("\nassumptions that the capture cannot settle, halved and doubled, with %u rays per pixel each:\n", s->rays);
     table_print(table, stdout);
     table_destroy(&table);
-    if (s->count == 0) puts("its passes declare nothing that they assume");
-    else puts("RMSE: between both references of the same random numbers, without the noise of what they differ by");
+    if (s->count == 0) puts("the passes declare no assumptions");
+    else
+        puts("RMSE: between the references with both values, traced with the same random numbers, without the noise of "
+             "their difference");
 }
 
 static json_t *missing_json(const struct missing *missing) {
@@ -217,10 +219,10 @@ static void print_all(const struct glint_reference *reference, const struct argu
                       const struct glint_device_info *device, const struct missing *missing,
                       const struct glint_reference_sensitivity *sensitivity) {
     const struct glint_reference_state *state = glint_reference_state(reference);
-    printf("%s on %s: %u rays a pixel in %s\n\n", a->capture, device->name, state->rays, time_text(state->seconds));
+    printf("%s on %s: %u rays per pixel in %s\n\n", a->capture, device->name, state->rays, time_text(state->seconds));
     print_noise(state, missing);
     if (a->noise > 0 && state->noise[0].relative > a->noise)
-        printf("the noise asked for, %g %%, is not reached: more --rays\n", 100 * a->noise);
+        printf("the noise is still above the requested %g %%: use more --rays\n", 100 * a->noise);
     if (a->sensitivity) print_sensitivity(sensitivity);
     if (a->out) printf("\nreference: %s\n", a->out);
     else puts("\nnothing written (-o RUN keeps it)");
@@ -231,7 +233,7 @@ static void note_interrupted(const struct glint_reference_state *state, const ch
     if (rays)
         command_note(&cmd_reference, "%u rays per pixel are kept in %s; the same command resumes from there", rays,
                      folder);
-    else command_note(&cmd_reference, "no round of rays was complete: nothing is kept");
+    else command_note(&cmd_reference, "interrupted before the first round of rays was complete: nothing is kept");
 }
 
 static enum status trace_reference(const struct arguments *a, const struct opened *opened, struct glint_error *err) {

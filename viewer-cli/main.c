@@ -9,9 +9,10 @@
 #include "options/nearest.h"
 
 static void print_help(FILE *out) {
-    fputs("Usage: glint COMMAND [OPTION...] [ARGUMENT...]\n"
-          "Replays captured frames' reflection passes offline, and shows every image in between.\n\nCommands:\n",
-          out);
+    fputs(
+        "Usage: glint COMMAND [OPTION...] [ARGUMENT...]\n"
+        "Replays the reflection passes of captured frames offline, and shows every intermediate image.\n\nCommands:\n",
+        out);
     for (size_t i = 0; i < command_count; i++) fprintf(out, "  %-10s %s\n", commands[i]->name, commands[i]->summary);
     fputs("\nglint COMMAND --help explains a command, with examples. glint --version prints the version.\n"
           "Start with:\n"

@@ -66,7 +66,7 @@ static void print_command(const struct command *command) {
 void print_man_page(void) {
     printf(".\\\" Made by glint --man from the tables of --help.\n"
            ".Dd November 21, 2026\n.Dt GLINT 1\n.Os\n"
-           ".Sh NAME\n.Nm glint\n.Nd replay captured frames' reflection passes offline\n"
+           ".Sh NAME\n.Nm glint\n.Nd replay the reflection passes of captured frames offline\n"
            ".Sh SYNOPSIS\n.Nm\n.Ar command\n.Op Ar option ...\n.Op Ar argument ...\n"
            ".Nm\n.Fl \\-help | \\-version\n"
            ".Sh DESCRIPTION\n"

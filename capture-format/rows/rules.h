@@ -2,7 +2,7 @@
    above the line, and the writer never writes what breaks one of them. */
 /* clang-format off */
 RULE(OPENEXR,   "openexr",          "The file is an OpenEXR file whose headers and chunks are whole and undamaged.")
-RULE(VERSION,   "version",          "Every part of a known role carries `glint.version` (int), the same in all; a reader refuses versions that it does not know.")
+RULE(VERSION,   "version",          "Every part of a known role carries `glint.version` (int), the same in all; a reader rejects versions that it does not know.")
 RULE(NAMES,     "unique-names",     "No two parts have the same name.")
 RULE(REQUIRED,  "required-parts",   "A capture holds every required role. A file of cube maps alone, which other captures may name as a sibling, needs none.")
 RULE(STORAGE,   "scanline",         "Parts of known roles are flat scanline images without subsampling, compressed by NONE, RLE, ZIPS, ZIP, PIZ, PXR24 or B44.")
@@ -15,12 +15,12 @@ RULE(ATTRIBUTE, "attributes",       "Attributes have the type and range of their
 RULE(MATRIX,    "matrices",         "World-to-view matrices are a rotation (within 1e-3) and a translation with the last row 0 0 0 1; view-to-clip matrices are invertible and of the stated form.")
 RULE(DEPTH,     "depth-encoding",   "The declared depth encoding agrees with the matrix (near at 0 or at 1, finite or infinite), logarithmic depth has 0 < depthNear < depthFar.")
 RULE(PREVIOUS,  "previous-camera",  "A capture with `previous.gbuffer` has the previous camera.")
-RULE(VOLUME,    "inner-volume",     "An inner volume has what describes it: a box with min < max, a sphere with a positive radius, a hull with 4 to 64 planes with normals that are not zero.")
+RULE(VOLUME,    "inner-volume",     "An inner volume is complete: a box with min < max, a sphere with a positive radius, a hull with 4 to 64 planes with non-zero normals.")
 RULE(SIBLING,   "sibling",          "A sibling is a plain file name in the capture's own folder, its bytes have the stated hash, and it holds a part of the same name with pixels.")
 /* ---- pixels: checked by validate alone ---- */
 RULE(PIXEL_FINITE,    "pixels-finite",    "No NaN, and no infinity but +inf in view-linear depth and in distances under sky. Where depth says sky (or no surface), the other channels are not checked.")
 RULE(PIXEL_NORMAL,    "pixels-normal",    "Decoded normals have a length of 1 within 0.02 before the reader normalises them.")
 RULE(PIXEL_RANGE,     "pixels-range",     "Decoded roughness and every channel of unit 1 without an encoding lie in [0, 1] (within 0.001); radiance, metres (but motion.Z) and relative errors are not negative; encoded depth, unorm, octahedral and view_xy values lie in [0, 1].")
-RULE(PIXEL_SKY,       "pixels-sky",       "In cube maps, where A is 0 (sky), R G B are 0 and distance.Z is +inf; where A is 1, distance.Z is a number. For an A in between, which filtering leaves, neither holds.")
+RULE(PIXEL_SKY,       "pixels-sky",       "In cube maps, where A is 0 (sky), R G B are 0 and distance.Z is +inf; where A is 1, distance.Z is a number. Where A is between 0 and 1, as after filtering, both are free.")
 /* clang-format on */
 #undef RULE

@@ -80,8 +80,8 @@ bool plan_find_sizes(struct frame_plan *plan, struct glint_error *err) {
     }
     for (uint32_t i = 0; plan->active && i < sizes->active; i++)
         if (plan->active[i] >= count)
-            return glint_fail(err, GLINT_ERROR_FORMAT, "image %s: place %u names cube map %u, but %s has %zu", order, i,
-                              plan->active[i], glint_capture_path(capture), count);
+            return glint_fail(err, GLINT_ERROR_FORMAT, "image %s: texel %u selects cube map %u, but %s has %zu", order,
+                              i, plan->active[i], glint_capture_path(capture), count);
     return true;
 }
 

@@ -47,7 +47,7 @@ bool instance_init(struct instance *instance, struct messages *messages, struct 
     bool validate = messages != NULL;
     if (validate && !has_layer(validation_layer))
         return glint_fail(err, GLINT_ERROR_UNSUPPORTED,
-                          "validation was asked for, but %s is not installed (Debian: vulkan-validationlayers)",
+                          "validation was requested, but %s is not installed (Debian: vulkan-validationlayers)",
                           validation_layer);
     instance->debug_utils = has_extension(NULL, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
     const VkValidationFeatureEnableEXT enables[] = {VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
@@ -131,7 +131,7 @@ static bool check_usable(VkPhysicalDevice physical, uint32_t api_version, char *
     };
     for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++)
         if (!wanted[i].has) {
-            snprintf(reason, size, "lacks the feature %s", wanted[i].name);
+            snprintf(reason, size, "does not support the feature %s", wanted[i].name);
             return false;
         }
     if (device_family(physical, NULL) == UINT32_MAX) {

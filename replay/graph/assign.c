@@ -56,7 +56,7 @@ static bool set_in_slot(struct glint_pipeline *pipeline, const char *slot, const
     for (size_t r = 0; r < pass->row_count; r++)
         if (glint_row_is_parameter(&pass->rows[r])) text_list(known, sizeof known, pass->rows[r].name);
     return glint_fail(err, GLINT_ERROR_USAGE, "%s/%s has no parameter '%s'; known: %s", slot, pass->variant, parameter,
-                      known[0] ? known : "none at all");
+                      known[0] ? known : "no parameters");
 }
 
 static bool set_rays(struct glint_pipeline *pipeline, const char *parameter, const char *text,

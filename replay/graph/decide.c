@@ -68,7 +68,7 @@ static void use_alias(struct graph_pass *pass) {
     if (!row) return;
     pass->runs = pass->entry->shader != NULL;
     pass->alias = pass->runs ? NULL : row;
-    if (pass->runs) snprintf(text, sizeof text, "but the shader is the user's");
+    if (pass->runs) snprintf(text, sizeof text, "but the shader was replaced by the user");
     else snprintf(text, sizeof text, "%s is %s", row->image, row->name);
     text_list(pass->reason, sizeof pass->reason, text);
 }
@@ -141,9 +141,9 @@ static bool decide_passes(struct graph *graph, const struct graph_inputs *inputs
         else if (list_has(options->skip, slot)) why = GLINT_REASON_SKIPPED;
         else if (list_has(options->force, slot)) why = "forced on request", pass->runs = true;
         else if (options->all && !options->passes && makes_list(pass->pass))
-            why = "all pixels were asked for, and a list leaves some out";
+            why = "all pixels were requested, and a list would exclude some";
         else if (options->all && !has_no_cubemaps(pass->pass, &inputs->facts))
-            why = "all passes were asked for", pass->runs = true;
+            why = "all passes were requested", pass->runs = true;
         else if (options->all) why = "the capture has no cube maps";
         else if (!decide_by_facts(graph, pass, inputs, faults, err)) return false;
         if (why) snprintf(pass->reason, sizeof pass->reason, "%s", why);
@@ -167,12 +167,12 @@ static void cull_passes(struct graph *graph, const struct glint_replay_options *
                 for (size_t r = 0; r < graph->passes[i].pass->row_count; r++)
                     if (glint_row_is_output(&graph->passes[i].pass->rows[r]))
                         text_list(known, sizeof known, graph->passes[i].pass->rows[r].name);
-            faults_add(faults, GLINT_ERROR_USAGE, "outputs: no pass makes '%s'; made are: %s", *name, known);
+            faults_add(faults, GLINT_ERROR_USAGE, "outputs: no pass writes '%s'; images: %s", *name, known);
         } else if (glint_pass_output(graph->passes[maker].pass, *name)->kind == GLINT_ROW_DIAGNOSTIC &&
                    !options->diagnostics)
             faults_add(faults, GLINT_ERROR_USAGE, "outputs: %s is a diagnostic image, and diagnostics are off", *name);
         else if (options->passes && !list_has(options->passes, graph->passes[maker].pass->slot))
-            faults_add(faults, GLINT_ERROR_USAGE, "outputs: %s is made by %s, which is not among the passes asked for",
+            faults_add(faults, GLINT_ERROR_USAGE, "outputs: %s is made by %s, which is not among the requested passes",
                        *name, graph->passes[maker].pass->slot);
         else needed[maker] = true;
     }

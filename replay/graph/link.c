@@ -31,18 +31,18 @@ static void name_makers(const char *slot, const char *image, char *text, size_t 
 /* `left_out`: the pipeline has no such slot; else it was not asked for. */
 static void complain_missing(const struct graph_pass *reader, const char *image, const struct glint_pass *maker,
                              bool left_out, const struct glint_replay_options *options, struct faults *faults) {
-    const char *inputs = options->inputs ? options->inputs : "no run was given as inputs";
+    const char *inputs = options->inputs ? options->inputs : "no run was given for its inputs";
     char makers[200], without[280] = "it does not run";
     if (maker && left_out) {
         name_makers(maker->slot, image, makers, sizeof makers);
-        snprintf(without, sizeof without, "the pipeline leaves that slot out (it may be %s)", makers);
+        snprintf(without, sizeof without, "that slot is empty in the pipeline (variants: %s)", makers);
     }
     if (maker)
         faults_add(faults, GLINT_ERROR_USAGE, "%s/%s reads %s, which %s makes; %s, and %s%s", reader->pass->slot,
                    reader->pass->variant, image, maker->slot, without, inputs,
                    options->inputs ? " does not hold it" : "");
     else
-        faults_add(faults, GLINT_ERROR_USAGE, "%s/%s reads %s, which no known pass makes", reader->pass->slot,
+        faults_add(faults, GLINT_ERROR_USAGE, "%s/%s reads %s, which no known pass writes", reader->pass->slot,
                    reader->pass->variant, image);
 }
 
@@ -85,7 +85,7 @@ static void link_read(struct graph *graph, size_t reader, const char *name, cons
     if (given && glint_pipeline_rays(graph->pipeline) > 1 && graph->passes[reader].rank == RANK_RAY &&
         glint_pass_row(fresh.pass, GLINT_ROW_PER_RAY, NULL))
         faults_add(faults, GLINT_ERROR_USAGE,
-                   "%s/%s reads %s, which %s makes anew for each of %u rays: it must be among the passes too",
+                   "%s/%s reads %s, which %s writes again for each of %u rays: that pass must run, too",
                    graph->passes[reader].pass->slot, graph->passes[reader].pass->variant, name, fresh.pass->slot,
                    glint_pipeline_rays(graph->pipeline));
     if (fresh.row) graph->images[graph->image_count++] = fresh;
@@ -97,9 +97,10 @@ static void link_history(struct graph *graph, size_t reader, const struct glint_
     struct graph_image *image = graph_find(graph, row->image), *known = graph_bound(graph, row);
     const bool given = inputs->run && glint_run_find(inputs->run, row->image);
     if (capture_row(row->image)) {
-        faults_add(faults, GLINT_ERROR_USAGE,
-                   "%s/%s remembers %s, an image of the capture: a capture's own previous parts hold it",
-                   graph->passes[reader].pass->slot, graph->passes[reader].pass->variant, row->image);
+        faults_add(
+            faults, GLINT_ERROR_USAGE,
+            "%s/%s declares a history of %s, an image of the capture; use the previous parts of the capture instead",
+            graph->passes[reader].pass->slot, graph->passes[reader].pass->variant, row->image);
         return;
     }
     if (!image && given) {

@@ -22,7 +22,7 @@ enum fact_about survey_fact_about(const char *fact) {
     return FACT_UNKNOWN;
 }
 
-/* "the smoothest of 1000 reflecting pixels has roughness 0.02, the limit is at most 0.1". The limit is omitted if limit_word is NULL. */
+/* "the smoothest of 1000 reflecting pixels has roughness 0.02, required: at most 0.1". The limit is omitted if limit_word is NULL. */
 static int say_roughness(char *reason, size_t size, const struct glint_survey *s,
                          const struct glint_survey_pixels *shown, const char *word, int end, const char *limit_word,
                          double limit) {
@@ -30,7 +30,7 @@ static int say_roughness(char *reason, size_t size, const struct glint_survey *s
     const int length = snprintf(reason, size, "the %s of %llu reflecting pixels has roughness %.3g", word,
                                 (unsigned long long)shown->count, (double)shown->roughness[end]);
     if (limit_word && length > 0 && (size_t)length < size)
-        snprintf(reason + length, size - (size_t)length, ", the limit is %s %.3g", limit_word, limit);
+        snprintf(reason + length, size - (size_t)length, ", required: %s %.3g", limit_word, limit);
     return length;
 }
 

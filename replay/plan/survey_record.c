@@ -79,7 +79,7 @@ static json_t *cubemaps_record(const struct survey_state *state) {
                      (int)glint_survey_faces(survey, GLINT_SURVEY_SKY), "crossed",
                      (int)glint_survey_faces(survey, GLINT_SURVEY_CROSSED), "nearby",
                      (int)glint_survey_faces(survey, GLINT_SURVEY_NEARBY), "active", list, "time_ns",
-                     time_record(&state->cubes.time), "ways_time_ns",
+                     time_record(&state->cubes.time), "reach_time_ns",
                      survey->active_traced ? time_record(&state->trace_time) : NULL);
 }
 
@@ -100,6 +100,6 @@ json_t *survey_record(const struct survey_state *state, const struct glint_frame
                                            (json_int_t)survey->water, "transparent", (json_int_t)survey->transparent,
                                            "motion", glint_survey_motion(survey), "moved", (json_int_t)survey->moved,
                                            "moving", (json_int_t)survey->moving, "stencil",
-                                           stencil_record(survey, frame), "light", range_record(survey->light)));
+                                           stencil_record(survey, frame), "luminance", range_record(survey->light)));
     return json;
 }

@@ -78,7 +78,7 @@ static json_t *warnings_record(const struct run *run) {
                                                      image->row->role, image->name, image->row->fallback));
     }
     if (run->options->diagnostics && !makes_diagnostics(run))
-        json_array_append_new(list, json_string("diagnostics were asked for, but no pass that runs makes any"));
+        json_array_append_new(list, json_string("diagnostics were requested, but no pass that runs writes any"));
     if (run->plan->inputs && !inputs_match(run))
         json_array_append_new(list, json_sprintf("%s was made from another capture", run->options->inputs));
     const struct glint_frame *frame = glint_capture_frame(run->source->capture);
@@ -86,8 +86,8 @@ static json_t *warnings_record(const struct run *run) {
         json_array_append_new(list, json_sprintf("%s holds frame %lld, but this is frame %u", run->options->history,
                                                  (long long)history_number(run->plan->history), frame->number));
     if (run->sizes->history && !frame->has_previous)
-        json_array_append_new(
-            list, json_string("the capture has no camera of the previous frame: the camera counts as still"));
+        json_array_append_new(list,
+                              json_string("the capture has no previous camera: the camera is assumed not to move"));
     char notes[GLINT_NOTES][GLINT_NOTE_LENGTH];
     for (size_t i = 0, count = glint_frame_notes(frame, notes); i < count; i++)
         json_array_append_new(list, json_string(notes[i]));

@@ -1,4 +1,4 @@
-/* The parameters of a pipeline that define what is to be estimated (role QUESTION). */
+/* The parameters of a pipeline that define what is to be estimated (role DEFINES_RESULT). */
 #ifndef GLINT_STUDY_QUESTION_H
 #define GLINT_STUDY_QUESTION_H
 

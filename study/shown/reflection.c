@@ -88,14 +88,14 @@ static bool value_text(const struct glint_pipeline *pipeline, const char *slot, 
     return true;
 }
 
-/* The i-th row with role QUESTION among the pipeline's passes; NULL past the last. */
+/* The i-th row with role DEFINES_RESULT among the pipeline's passes; NULL past the last. */
 static const struct glint_row *question_row(const struct glint_pipeline *pipeline, size_t i,
                                             const struct glint_pass **pass) {
     for (size_t p = 0; p < glint_pipeline_pass_count(pipeline); p++) {
         *pass = glint_pipeline_pass(pipeline, p);
         for (size_t r = 0; r < (*pass)->row_count; r++) {
             const struct glint_row *row = &(*pass)->rows[r];
-            if (row->kind == GLINT_ROW_ROLE && row->first == GLINT_ROLE_QUESTION && i-- == 0) return row;
+            if (row->kind == GLINT_ROW_ROLE && row->first == GLINT_ROLE_DEFINES_RESULT && i-- == 0) return row;
         }
     }
     return NULL;

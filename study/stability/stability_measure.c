@@ -134,9 +134,10 @@ static bool link_all(struct measuring *m, struct glint_error *err) {
         if (t->out->discrete) t->decision = decisions++ % DECISIONS_MAX;
     }
     if (inputs > INPUTS_MAX || decisions > DECISIONS_MAX)
-        return glint_fail(err, GLINT_ERROR_LIMIT,
-                          "stability: at most %d images of the capture and %d decisions, found %d and %d", INPUTS_MAX,
-                          DECISIONS_MAX, inputs, decisions);
+        return glint_fail(
+            err, GLINT_ERROR_LIMIT,
+            "stability: expected at most %d images of the capture and %d images of decisions, found %d and %d",
+            INPUTS_MAX, DECISIONS_MAX, inputs, decisions);
     for (size_t p = 0; p < count; p++)
         if (results[p].shown) link_pass(m, results[p].pass);
     return true;
@@ -168,7 +169,7 @@ static bool compare_image(const struct measuring *m, struct tracked *t, struct g
     if (!image || image->width != t->out->width || image->height != t->out->height)
         return glint_fail(
             err, GLINT_ERROR_UNSUPPORTED,
-            "stability: image %s: the perturbed frame lacks it, or it has another size; --all runs every pass",
+            "stability: image %s is missing in the perturbed frame, or its size differs; --all runs every pass",
             t->out->name);
     uint32_t *bits = read_bits(m, image, err);
     if (bits && t->out->discrete) texels_decided(m, t, bits);

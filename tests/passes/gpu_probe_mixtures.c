@@ -12,7 +12,7 @@
 
 #include "probed.h"
 
-static const char *const rgb[] = {"r", "g", "b"}, *const below[] = {"below_r", "below_g", "below_b"};
+static const char *const rgb[] = {"r", "g", "b"}, *const below[] = {"lower_r", "lower_g", "lower_b"};
 
 static double recorded(const struct glint_probe_record *record, const char *name) {
     return (double)glint_probe_value(record, name);
@@ -73,7 +73,7 @@ struct layered {
     double color[3], largest;
 };
 static struct layered layered(const struct glint_probe_record *layer) {
-    static const char *const share[] = {"share_r", "share_g", "share_b"};
+    static const char *const share[] = {"alpha_r", "alpha_g", "alpha_b"};
     struct layered made = {0};
     for (int c = 0; c < 3; c++) {
         const double s = recorded(layer, share[c]);
@@ -118,7 +118,7 @@ static size_t check_blurred(const struct recorded_pixel *p) {
         assert_near_sum(mean.sum[c] / mean.total, held(find_kept(p->images, "reflection_half"), p->texel, c),
                         mean.largest * (double)mean.count / mean.total);
     at = 0;
-    assert_non_null(record = next(p, "resolve", "trust", &at));
+    assert_non_null(record = next(p, "resolve", "attenuation", &at));
     static const char *const parts[] = {"viewer", "edge", "back_face", "foreground"};
     for (uint32_t k = 0; k < 4; k++)
         assert_kept_value(record, parts[k], find_kept(p->images, "attenuation"), p->texel[0], p->texel[1], k);
@@ -134,7 +134,7 @@ static size_t check_contribution(const struct recorded_pixel *p) {
     same_rgb(layer, rgb, find_kept(p->images, "reflection"), p->pixel[0], p->pixel[1]);
     same_rgb(layer, below, find_kept(p->images, "lit"), p->pixel[0], p->pixel[1]);
     layered_is(&made, find_kept(p->images, "composed"), p->pixel);
-    return recorded(layer, "share_r") > 0;
+    return recorded(layer, "alpha_r") > 0;
 }
 
 static size_t check_kf2(const struct recorded_pixel *p) {
@@ -188,7 +188,7 @@ static size_t check_levels(const struct recorded_pixel *p) {
             if (over || strcmp(image->name, "reflection_across") == 0 || recorded(taps[t], "level") == 0)
                 same_rgb(taps[t], rgb, image, record_number(taps[t], "texel_x"), record_number(taps[t], "texel_y"));
         }
-        if (mean.count && !(over && recorded(record, "share_r") == 0)) mean_is(&mean, record);
+        if (mean.count && !(over && recorded(record, "alpha_r") == 0)) mean_is(&mean, record);
         mixtures += mean.count > 1;
         mean = (struct mean){0};
         if (over) layer = record;

@@ -99,7 +99,7 @@ static void cube_map_rays(struct gpu *gpu, const char *variant) {
 static struct ends followed(struct gpu *gpu, const char *texel_part) {
     cube_map_rays(gpu, "cubemap_trace=exact");
     gpu_set(gpu, "cubemap_trace.maps=chain");
-    gpu_set(gpu, "cubemap_trace.unseen=stop");
+    gpu_set(gpu, "cubemap_trace.occluded=stop");
     gpu_set(gpu, "cubemap_trace.steps=1000000");
     gpu_set(gpu, texel_part);
     return ends_of(gpu, "travelled", "cubemap_index", "cubemap_end");

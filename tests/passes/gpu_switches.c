@@ -42,7 +42,7 @@ static const struct way ways[] = {
       "cubemap_select.distance=0", "cubemap_select.direction=0", "cubemap_trace.random_scale=true"}},
     {{CUBES, "cocoon=max", "cocoon.size=8"}, {"cocoon.cap_sky=false"}}, /* finer levels than the cocoon's */
     {{CUBES, "cubemap_trace=box"}, {"cubemap_trace.sky=false", "cubemap_trace.grow_m=0.3"}},
-    {{CUBES, "cubemap_trace=exact"}, {"cubemap_trace.interpolate=false", "cubemap_trace.unseen=stop"}},
+    {{CUBES, "cubemap_trace=exact"}, {"cubemap_trace.interpolate=false", "cubemap_trace.occluded=stop"}},
     {{"downsample=mips", "downsample.jitter=true", "screen_trace=dda", "blur=upscale_blur", "blur.width=1",
       "upscale=edges"},
      {"blur.edges=false", "blur.radius=1", "upscale.lobes=false", "downsample.edges=false"}},

@@ -104,7 +104,7 @@ static void panes_find_their_colour_in_the_previous_frame(void **state) {
         use_panes(gpu);
         if (before) {
             gpu_use(gpu, "transparent_resolve=previous");
-            gpu_set(gpu, "transparent_resolve.picture_of=lit");
+            gpu_set(gpu, "transparent_resolve.color_source=lit");
         }
         gpu_set(gpu, "transparent_resolve.fog=false");
         gpu_run(gpu);

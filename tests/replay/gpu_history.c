@@ -219,7 +219,7 @@ static void images_of_the_capture_are_not_remembered(void **state) {
     pass.rows = rows;
     MADE(&made, &made_chain, &pass);
     assert_false(glint_replay_run(fixture->replay, &made.pipeline, NULL, NULL, NULL, &err));
-    fixture_says(&err, "memory/made remembers depth_full, an image of the capture");
+    fixture_says(&err, "memory/made declares a history of depth_full, an image of the capture");
 }
 
 static int restore(void **state) {

@@ -144,7 +144,7 @@ static void cuts_around_the_loop_give_the_bits_of_the_whole(void **state) {
     assert_false(glint_replay_run(fixture->replay, &made.pipeline,
                                   &(struct glint_replay_options){.passes = inside, .inputs = folder}, NULL, NULL,
                                   &err));
-    fixture_says(&err, "catch/made reads shot, which cast makes anew for each of 5 rays");
+    fixture_says(&err, "catch/made reads shot, which cast writes again for each of 5 rays");
     make_ray_passes(&made, 1);
     made_check_cuts(fixture, &made, (struct glint_replay_options){0});
 }

@@ -218,8 +218,8 @@ static void a_missing_input_names_the_pass_that_makes_it(void **state) {
     assert_false(build(state, &graph, &made, (struct glint_replay_options){0}, &err));
     fixture_says(
         &err,
-        "reads depth_half, which downsample makes; the pipeline leaves that slot out (it may be bilinear, mips, ");
-    fixture_says(&err, "unheard_of, which no known pass makes");
+        "reads depth_half, which downsample makes; that slot is empty in the pipeline (variants: bilinear, mips, ");
+    fixture_says(&err, "unheard_of, which no known pass writes");
 }
 
 static void two_producers_are_a_fault(void **state) {
@@ -256,10 +256,10 @@ static void all_faults_come_together(void **state) {
     MAKE(&made, &odd, &zeta);
     assert_false(build(state, &graph, &made, (struct glint_replay_options){.skip = skip, .outputs = outputs}, &err));
     fixture_says(&err, "two producers: odd/v and zeta/v");
-    fixture_says(&err, "gone, which no known pass makes");
+    fixture_says(&err, "gone, which no known pass writes");
     fixture_says(&err, "unknown fact 'maybe'");
     fixture_says(&err, "skip: no slot 'nobody'");
-    fixture_says(&err, "no pass makes 'nowhere'");
+    fixture_says(&err, "no pass writes 'nowhere'");
 }
 
 static void images_are_read_as_what_they_are(void **state) {
@@ -314,11 +314,11 @@ static void smooth_and_rough_pixels_are_facts(void **state) {
     assert_true(survey.reflecting.roughness[0] <= 0.1f && survey.reflecting.roughness[1] > 0.1f);
     survey = (struct glint_survey){.pixels = 10, .reflecting = {.count = 4, .roughness = {0.05f, 0.1f}}};
     assert_true(survey_fact(&survey, false, "smooth 0.05", reason, sizeof reason));
-    assert_string_equal(reason, "the smoothest of 4 reflecting pixels has roughness 0.05, the limit is at most 0.05");
+    assert_string_equal(reason, "the smoothest of 4 reflecting pixels has roughness 0.05, required: at most 0.05");
     assert_false(survey_fact(&survey, false, "smooth 0.04", reason, sizeof reason));
     assert_true(survey_fact(&survey, false, "rough 0.1", reason, sizeof reason));
     assert_false(survey_fact(&survey, false, "rough 0.11", reason, sizeof reason));
-    assert_string_equal(reason, "the roughest of 4 reflecting pixels has roughness 0.1, the limit is at least 0.11");
+    assert_string_equal(reason, "the roughest of 4 reflecting pixels has roughness 0.1, required: at least 0.11");
     assert_true(survey_fact(&survey, false, "cones", reason, sizeof reason));
     survey.reflecting.roughness[1] = 0;
     assert_false(survey_fact(&survey, false, "cones", reason, sizeof reason));

@@ -292,7 +292,7 @@ static void what_is_wrong_is_named(void **state) {
 static void the_handbook_shows_references(void **state) {
     (void)state;
     char *text = glint_ok("passes", "cubemap_trace/exact");
-    assert_contains(text, "The slot's reference, with skip=true, cubemap_mips.join=nearest");
+    assert_contains(text, "The reference uses this variant, with skip=true, cubemap_mips.join=nearest");
     free(text);
     text = glint_ok("passes", "blur");
     assert_contains(text, "The reference leaves this slot out: a pixel of the reference uses only its own rays");

@@ -202,7 +202,7 @@ static void a_volume_that_something_drives_through_is_named(void **state) {
     free(glint_ok("sample", "street", "-o", in_folder("car.exr"), "--size", "128x128", "--cube-size", "64", "--light",
                   "4", "--probes", "perfect"));
     json_t *json = lint(in_folder("car.exr"));
-    assert_string_equal(first_finding(json), "cubemap.inner_full");
+    assert_string_equal(first_finding(json), "cubemap.inner_volume");
     json_decref(json);
 }
 

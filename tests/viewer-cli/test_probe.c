@@ -67,7 +67,7 @@ static void a_trace_agrees_with_the_run(void **state) {
             char *text = glint_ok("probe", CAPTURE, pixel, "--json", "--alone");
             json_t *json = parse_json(text);
             const json_t *pass =
-                named(json_object_get(json_object_get(json, "story"), "passes"), "slot", "screen_trace");
+                named(json_object_get(json_object_get(json, "pipeline"), "passes"), "slot", "screen_trace");
             const json_t *end = last_step(pass, "screen_end"), *travelled = json_object_get(end, "travelled_m");
             const float found = far[(y / 2) * width + x / 2];
             if (json_is_null(travelled)) assert_true(isinf(found));
@@ -106,7 +106,7 @@ static void a_drawing_has_every_step(void **state) {
     json_t *json = parse_json(text);
     size_t drawn = 0, i, p;
     const json_t *pass, *step;
-    json_array_foreach(json_object_get(json_object_get(json, "story"), "passes"), p, pass)
+    json_array_foreach(json_object_get(json_object_get(json, "pipeline"), "passes"), p, pass)
         json_array_foreach(json_object_get(pass, "steps"), i, step) {
         drawn += json_object_get(step, "decision") && json_is_number(json_object_get(step, "travelled_m"));
     }
@@ -130,18 +130,18 @@ static void mixtures_are_printed_and_drawn(void **state) {
     char *text = glint_ok("probe", CAPTURE, "40,45", "--preset=kf2", "--alone", "-o", in_folder("kf2.svg"));
     assert_contains(text, "adds a sample of the picture");
     assert_contains(text, "attenuates the reflection");
-    assert_contains(text, "image reflection, share 0.");
+    assert_contains(text, "image reflection, alpha 0.");
     char *svg = read_text(in_folder("kf2.svg"));
     assert_contains(svg, "resolve/blurred: combines");
-    assert_contains(svg, "compose/contribution: blends one colour over another");
-    assert_contains(svg, "above: reflection, ");
+    assert_contains(svg, "compose/contribution: blends one layer over another");
+    assert_contains(svg, "upper layer: reflection, ");
     assert_int_equal(count_occurrences(svg, "<svg"), count_occurrences(svg, "</svg>"));
     free(svg);
     free(text);
     text = glint_ok("probe", CAPTURE, "40,45", "--preset=mafia_de", "--alone", "--json", "-o", in_folder("de.svg"));
     json_t *json = parse_json(text);
-    const json_t *pass = named(json_object_get(json_object_get(json, "story"), "passes"), "slot", "blur");
-    const json_t *made = last_step(pass, "made"), *tap = last_step(pass, "tap");
+    const json_t *pass = named(json_object_get(json_object_get(json, "pipeline"), "passes"), "slot", "blur");
+    const json_t *made = last_step(pass, "result"), *tap = last_step(pass, "tap");
     assert_string_equal(word(made, "image"), "reflection_levels");
     assert_int_equal(json_number_value(json_object_get(made, "texel_x")), 40 / 2 / 2); /* level 1, the last one */
     assert_true(json_number_value(json_object_get(tap, "weight")) > 0);

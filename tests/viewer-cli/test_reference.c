@@ -37,7 +37,7 @@ static void it_is_kept_and_goes_on(void **state) {
     json_decref(json);
     free(text);
     text = glint_ok("reference", in_folder("room.exr"), "-o", in_folder("kept"), "--rays=20", "--sensitivity=16");
-    assert_contains(text, "32 rays a pixel");
+    assert_contains(text, "32 rays per pixel");
     assert_contains(text, "screen_trace.thickness ");
     assert_contains(text, "missing information");
     assert_contains(text, "\nrough ");

@@ -230,7 +230,8 @@ static void print_cubemaps(const struct glint_survey *survey) {
     if (survey->active_surveyed == 0) return;
     printf("%u of %u faces of the active cube maps show sky; rays may reach %u%s:\n",
            glint_survey_faces(survey, GLINT_SURVEY_SKY), 6 * survey->active_surveyed,
-           glint_survey_faces(survey, GLINT_SURVEY_CROSSED), survey->active_traced ? "" : " (known for mirrors only)");
+           glint_survey_faces(survey, GLINT_SURVEY_CROSSED),
+           survey->active_traced ? "" : ", because only mirror rays are bounded");
     struct table *table = table_create(titles);
     for (uint32_t i = 0; i < survey->active_surveyed; i++) {
         table_cell(table, "%u", survey->active[i].number);

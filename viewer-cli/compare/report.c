@@ -20,7 +20,7 @@ static void error_cell(struct table *table, const struct showing *s, int k) {
     if (!s->ran || s->reflecting[k] == 0) table_cell(table, "–");
     else if (!s->compared) table_cell(table, "%.1f %%", 100 * coverage_of(s, k));
     else if (s->own.of[k].pixels == 0) table_cell(table, "none");
-    else table_cell(table, "%.3f of %.1f %%", s->own.of[k].symmetric, 100 * coverage_of(s, k));
+    else table_cell(table, "%.3f (%.1f %%)", s->own.of[k].symmetric, 100 * coverage_of(s, k));
 }
 
 static void time_cell(struct table *table, const struct contest_time *time) {
@@ -58,7 +58,8 @@ static void print_errors(const struct contest_table *t) {
         }
     puts("Error of the reflection against the truth (mean of |found - truth| / (found + truth), 0 to 1) over the "
          "covered pixels,\n"
-         "with the coverage: the share of reflecting pixels for which the preset finds a reflection. shared: error "
+         "with the coverage in parentheses: the share of reflecting pixels for which the preset finds a reflection. "
+         "shared: error "
          "over the\n"
          "pixels that all presets cover; steps and fetches per ray:\n");
     table_print(table, stdout);

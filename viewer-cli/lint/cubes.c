@@ -133,7 +133,7 @@ static void check_inner_volumes(const struct lint_data *data, struct lint_findin
         maps++;
     }
     if (!maps) return;
-    struct lint_finding *f = lint_add(findings, "cubemap.inner_full", worst > 0.05 ? "certain" : "likely");
+    struct lint_finding *f = lint_add(findings, "cubemap.inner_volume", worst > 0.05 ? "certain" : "likely");
     snprintf(f->evidence, sizeof f->evidence, "share of texels inside the cube map's own inner volume: %s", names);
     snprintf(f->remedy, sizeof f->remedy,
              "glint.inner is not the bounding box of the room: make it so small that it contains no surface, or set "

@@ -100,7 +100,7 @@ void lint_find_faces(const struct lint_data *data, struct lint_reading *reading,
     }
     if (!changed) return;
     const struct lint_agreement now = lint_agree(data, &other, NULL, 0);
-    const char *id = !moved && same_turn >= 0 ? "cubemap.faces_turned" : "cubemap.faces_exchanged";
+    const char *id = !moved && same_turn >= 0 ? "cubemap.faces_orientation" : "cubemap.faces_order";
     struct lint_finding *f = lint_add(findings, id, now.share[LINT_CUBEMAPS] > 0.6 ? "certain" : "likely");
     snprintf(f->evidence, sizeof f->evidence, "%s: %.0f %% of %zu comparisons of %s match then, %.0f %% as stored",
              text, 100 * now.share[LINT_CUBEMAPS], now.count[LINT_CUBEMAPS], lint_measure_names[LINT_CUBEMAPS],

@@ -75,8 +75,9 @@ json_t *probe_json(const struct probe *probe) {
                              (int)probe->pixel[1], "texel", (int)probe->texel[0], (int)probe->texel[1], "full",
                              (int)probe->full[0], (int)probe->full[1], "half", (int)probe->half[0], (int)probe->half[1],
                              "preset", probe->preset, "device", probe->device);
-    json_object_set_new(root, "story", side_json(&probe->own));
-    if (probe->own.trace.dropped) json_object_set_new(root, "lost", json_integer((json_int_t)probe->own.trace.dropped));
+    json_object_set_new(root, "pipeline", side_json(&probe->own));
+    if (probe->own.trace.dropped)
+        json_object_set_new(root, "dropped_steps", json_integer((json_int_t)probe->own.trace.dropped));
     if (probe->has_reference) json_object_set_new(root, "reference", side_json(&probe->reference));
     return root;
 }

@@ -187,7 +187,7 @@ void probe_group_text(const struct probe_side *side, const struct glint_probe_re
     else {
         size_t used = 0;
         const float *values = &record->values[group->first];
-        const bool alike = strcmp(group->name, "share") == 0 && values[0] == values[1] && values[0] == values[2];
+        const bool alike = strcmp(group->name, "alpha") == 0 && values[0] == values[1] && values[0] == values[2];
         for (size_t i = 0; i < (alike ? 1 : group->count) && used < size; i++) {
             const double v = (double)record->values[group->first + i];
             const bool pixels = strcmp(group->unit, "px") == 0, whole = strcmp(group->unit, "m") != 0 && v == floor(v);

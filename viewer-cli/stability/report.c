@@ -157,10 +157,11 @@ void stability_print(const struct stability_report *report) {
     printf("%s, %s on %s: %u perturbed replays, images in %s\n\n", report->capture, report->preset, report->device,
            s->seeds, report->half ? "their declared formats" : "float");
     print_inputs(s);
-    printf("\nAmplification (relative change divided by that of the inputs) of reflecting pixels. above: pixels over "
-           "%g; first above:\n"
-           "pixels that are over it in no earlier pass; flips: pixels with another decision in some replay\n",
-           s->bound);
+    printf(
+        "\nAmplification (relative change divided by that of the inputs) of reflecting pixels. above: pixels over "
+        "%g; first above:\n"
+        "pixels that exceed it here and in no earlier pass; flips: pixels with a different decision in some replay\n",
+        s->bound);
     print_passes(s);
     printf("\nWorst pixels\n");
     print_worst(s);

@@ -64,10 +64,10 @@ static bool write_pass(const char *folder, const struct glint_stability *s, cons
         ok = fill_layers(&layers[count], &parts[count], image, err);
         json_array_append_new(
             images, part_json(file, image->name, image->discrete ? "flips" : "amplification change flips", "1",
-                              image->discrete ? "number of replays with another decision"
+                              image->discrete ? "number of replays with a different decision"
                                               : "relative change divided by that of the inputs; root mean "
                                                 "square of the relative change; number of "
-                                                "replays with another decision",
+                                                "replays with a different decision",
                               image->width, image->height, false));
         count++;
     }
@@ -91,7 +91,7 @@ static bool write_all(const char *folder, const struct glint_stability *s, json_
     } maps[] = {
         {"last", "amplification", "amplification of the image of the last pass", s->amplification, false},
         {"start", "index", "number of the first pass above the bound; 0: none", s->start, true},
-        {"flip_start", "index", "number of the first pass with another decision; 0: none", s->flip_start, true},
+        {"flip_start", "index", "number of the first pass with a different decision; 0: none", s->flip_start, true},
     };
     enum { MAPS = sizeof maps / sizeof *maps };
     struct glint_exr_channel channels[MAPS];

@@ -290,7 +290,7 @@ bool glint_capture_hash(struct glint_capture *capture, char hex[33], struct glin
 
 /* Reads channels of one part, decoded to canonical values and interleaved: out[(y·width + x)·count + i] is channels[i]. Reads and
    decompresses only this part, on `threads` threads (0: all cores). `type` is GLINT_F16, GLINT_F32 or, for uint channels,
-   GLINT_U8/U16/U32. A channel name of NULL yields 0; a channel that the part lacks is an error. Canonical values are view depth in
+   GLINT_U8/U16/U32. A channel name of NULL yields 0; a channel that the part does not have is an error. Canonical values are view depth in
    metres (+inf for sky), unit world-space normals X Y Z, perceptual roughness, motion in uv (motion.Z in metres), linear colour
    and distance.Z in metres. Normals that are zero or not finite are returned as stored. Values that need no decoding and no
    conversion keep every bit; a float too large for GLINT_F16 becomes infinity. */
@@ -305,7 +305,7 @@ bool glint_capture_read_raw(struct glint_capture *capture, const struct glint_pa
    stored value moves by half a step of the format before it is decoded, up or down at random for each pixel and channel. A float
    moves by a whole step or not at all, since half a step would round. Values that engines write on purpose do not move: 0, the ends
    of a fixed-point range, sky. `seed` 0 ends the perturbation. `only` is NULL for all values, or a NULL-terminated list of parts or
-   roles ("lit", "cubemap") which may name one of their channels or layers ("gbuffer:normal"); one that the capture lacks is an
+   roles ("lit", "cubemap") which may name one of their channels or layers ("gbuffer:normal"); one that the capture does not have is an
    error. Ids and raw reads never change. */
 bool glint_capture_perturb(struct glint_capture *capture, uint32_t seed, const char *const *only,
                            struct glint_error *err);

@@ -11,7 +11,7 @@ extern "C" {
 
 enum glint_code {
     GLINT_OK = 0,
-    GLINT_ERROR_USAGE,       /* the caller asked for something that does not exist or is out of range */
+    GLINT_ERROR_USAGE,       /* the caller requested something that does not exist or is out of range */
     GLINT_ERROR_IO,          /* the operating system refused: missing file, full disk */
     GLINT_ERROR_FORMAT,      /* the file breaks a rule of FORMAT.md */
     GLINT_ERROR_LIMIT,       /* within the format, but past a limit of this reader */

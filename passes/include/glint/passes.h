@@ -19,18 +19,18 @@ enum glint_pass_role {
     GLINT_ROLE_SURVEY_SKY_FACES,     /* where their alpha lets the sky show */
     GLINT_ROLE_SURVEY_REACHED_FACES, /* the faces that mirror rays reach */
     GLINT_ROLE_COMPOSED,             /* the reflection that the slot composes into the picture */
-    GLINT_ROLE_LOBE, /* the parameter that names the lobe that rays are drawn from: truth.reflection.LOBE */
-    GLINT_ROLE_QUESTION, /* a parameter that changes which image is to be estimated, not how well: the reference adopts it */
+    GLINT_ROLE_LOBE,           /* the parameter that names the lobe that rays are drawn from: truth.reflection.LOBE */
+    GLINT_ROLE_DEFINES_RESULT, /* a parameter that defines which image is estimated, not how well: the reference adopts it */
     /* Images of rays, one ray a texel. */
     GLINT_ROLE_RAY_NORMAL,   /* normal and roughness of the surface that the ray starts from */
     GLINT_ROLE_RAY_PICK,     /* the pixel that the ray starts from */
     GLINT_ROLE_RAY_DISTANCE, /* distance travelled, by the last tracer of the pipeline */
     GLINT_ROLE_RAY_RADIANCE, /* radiance that arrives along the ray */
-    GLINT_ROLE_CONTRIBUTION, /* weight of the traced reflection against what the picture shows without it, beside its alpha */
+    GLINT_ROLE_CONTRIBUTION, /* weight of the traced reflection, besides its alpha, when it is blended over the picture */
     GLINT_ROLE_SCREEN_FINISHED, /* whether the ray ends on screen */
     GLINT_ROLE_SCREEN_END,      /* end reason of the screen trace */
     GLINT_ROLE_SCREEN_FETCHES,  /* its texture fetches */
-    GLINT_ROLE_CUBEMAP_END,     /* the same of the cube-map trace */
+    GLINT_ROLE_CUBEMAP_END,     /* end reason of the cube-map trace */
     GLINT_ROLE_CUBEMAP_FETCHES
 };
 

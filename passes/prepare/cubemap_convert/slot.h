@@ -6,4 +6,4 @@ WRITE(image2DArray, paraboloids, RGBA16F, "radiance", PARABOLOIDS_MIPS, "R G B A
 NEEDS(reflections)
 NEEDS(cubemaps)
 REFERENCE_NONE("the reference samples the cube maps directly")
-REFERENCE_WITH(cubemap_trace, "cubemap_trace/dual_paraboloid leaves its rays to these images")
+REFERENCE_WITH(cubemap_trace, "cubemap_trace/dual_paraboloid outputs directions that are looked up in these images")

@@ -28,7 +28,7 @@ float sharpness() { return dispatch_level == 1u ? 1.0 : 1.75; }
 // The colour of a pixel, 0 if it is left out.
 vec4 counted(ivec2 pixel) {
     vec4 color = vec4(texelFetch(lit, pixel, 0).rgb, 1.0);
-    bool counts = finite(color) && (!apart || texelFetch(depth_full, pixel, 0).x < LARGEST);
+    bool counts = finite(color) && (!exclude_sky || texelFetch(depth_full, pixel, 0).x < LARGEST);
     return counts ? color : vec4(0.0);
 }
 

@@ -56,7 +56,7 @@ vec4 across_texel(ivec2 texel, float weight) {
 }
 
 vec4 made(uint image, ivec2 texel, int level, vec4 color) {
-    probe(PROBE_made, vec4(image, level, texel), color);
+    probe(PROBE_result, vec4(image, level, texel), color);
     return color;
 }
 

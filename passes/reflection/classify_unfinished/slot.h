@@ -8,4 +8,4 @@ WRITE(uimageBuffer, cubemap_list, R32UI, "1", LIST, "item", 0xFFFFFFFFu, "as til
 PUSH(float, hq_roughness, 0.1, 0.0, 1.0, "1", "Mafia III talk, Cube-map tracing", "max roughness of a smooth surface; affects only the order of work, not the results")
 NEEDS(reflecting)
 PER_RAY
-REFERENCE_NONE("it only orders work: no result depends on it")
+REFERENCE_NONE("it changes the order of work, but no result")

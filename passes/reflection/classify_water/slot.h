@@ -3,4 +3,4 @@
 SLOT("Which tiles of the picture show water")
 WRITE(uimageBuffer, water_tiles, R32UI, "1", LIST, "item", 0xFFFFFFFFu, "as tile_list: tiles with water, then tiles without")
 NEEDS(water)
-REFERENCE_NONE("it only orders work: no result depends on it")
+REFERENCE_NONE("it changes the order of work, but no result")

@@ -57,7 +57,7 @@ void probe_view(View view, vec3 direction, float t, float step_m, uint decision)
 void probe_cell(View view, vec3 direction, float t, int level, float beyond) {
     if (!probing()) return;
     probe_face_texel(cubemap_distance_mips, IMAGE_cubemap_distance_mips, at(view, direction, t), view.place, level, t, 0.0,
-                     beyond, !(beyond < LARGEST) ? DECISION_sky : beyond > t ? DECISION_skipped : DECISION_finer);
+                     beyond, !(beyond < LARGEST) ? DECISION_sky : beyond > t ? DECISION_skipped : DECISION_descend);
 }
 
 // The parameter at which the direction from the centre has turned by a number of texels; +inf if it never turns that far. With s along
@@ -242,8 +242,8 @@ void end_at(inout Result result, float travelled_m, uint place, uint end) {
 // The end of a ray that is no longer visible from any cube map. The most likely guess is that what was last visible behind the ray
 // continues behind the edge that occludes it: the sky, or a surface, whose colour is taken where it was visible. A ray that must have
 // hit a wall does not end in the sky but near the occluder.
-void end_unseen(inout Result result, Walk walk, vec3 direction, uint best) {
-    if (unseen == unseen_stop) { // as march does
+void end_occluded(inout Result result, Walk walk, vec3 direction, uint best) {
+    if (occluded == occluded_stop) { // as march does
         end_at(result, INFINITE, best, END_shadow_region);
         return;
     }
@@ -273,7 +273,7 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best) {
     walk.last_place = NO_PLACE;
     int level = 4, wait = 0;
     change_view(walk, origin, direction, start_m, start_m, result.fetches);
-    while (result.steps < uint(steps) && walk.t < length_m && (walk.seen || unseen == unseen_pass)) {
+    while (result.steps < uint(steps) && walk.t < length_m && (walk.seen || occluded == occluded_continue)) {
         result.steps++;
         if (skip && has_cubemap_distance_mips && walk.seen && --wait < 0) {
             float beyond = beyond_cell(walk.view, direction, walk.t, level, result.fetches);
@@ -318,7 +318,7 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best) {
                 continue;
             }
             if (!walk.front && gap <= tolerance) { // still on the surface where it started
-                probe_view(walk.view, direction, next, next - walk.t, DECISION_resting);
+                probe_view(walk.view, direction, next, next - walk.t, DECISION_at_start);
                 walk.t = next;
                 continue;
             }
@@ -333,14 +333,14 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best) {
             walk.last_sky = !(seen_distance(at(walk.view, direction, walk.last_t), walk.view.place) < LARGEST);
             result.fetches++;
         }
-        probe_view(walk.view, direction, high, high - low, DECISION_unseen);
+        probe_view(walk.view, direction, high, high - low, DECISION_occluded);
         // This is the only inner loop, since a CPU driver runs every inner loop in each iteration and aborts a shader after a limited
         // number of iterations of all loops.
         change_view(walk, origin, direction, low, high, result.fetches);
         if (walk.blocked) break;
     }
     if (!walk.seen || walk.blocked) {
-        end_unseen(result, walk, direction, best);
+        end_occluded(result, walk, direction, best);
         return result;
     }
     result.fetches++; // a ray that remains in front of the sky ends there

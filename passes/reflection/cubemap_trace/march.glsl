@@ -206,11 +206,11 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality qual
         bool seen = !(now.gap > bias * now.seen_m + bias_m);
         emerged = emerged || seen;
         if (seen || (surfaces == surfaces_exact && !emerged && on_surface(now))) {
-            probe_sample(from_center, direction, now, step_m, result.place, quality.level, seen ? DECISION_front : DECISION_resting);
+            probe_sample(from_center, direction, now, step_m, result.place, quality.level, seen ? DECISION_front : DECISION_at_start);
             front = now;
-            if (loop == loop_regaining) refused = 0;
-            if (loop == loop_regaining && refined > 0) continue;
-            if (loop == loop_regaining && step_m < full_step_m) {
+            if (loop == loop_restored) refused = 0;
+            if (loop == loop_restored && refined > 0) continue;
+            if (loop == loop_restored && step_m < full_step_m) {
                 step_m = min(2.0 * step_m, full_step_m);
                 continue;
             }
@@ -230,7 +230,7 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality qual
             // Sums of shrinking steps would exceed the length.
             if (count == count_strides || quality.ratio > 1.0) full_step_m = max(full_step_m, step_m);
             if (++refined < quality.refinements) {
-                probe_sample(from_center, direction, now, step_m, result.place, quality.level, DECISION_closing);
+                probe_sample(from_center, direction, now, step_m, result.place, quality.level, DECISION_bisect);
                 now.t -= step_m;
                 step_m *= loop == loop_printed ? 0.5 * quality.ratio : 0.5;
                 continue;
@@ -244,11 +244,11 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality qual
             result.fetches += fetches;
             Sample end = sample_at(from_center, direction, result.travelled_m, result.place, quality.level);
             probe_sample(from_center, direction, end, step_m, result.place, quality.level,
-                         end.cap ? DECISION_sky : on_surface(end) ? DECISION_hit : DECISION_absent);
+                         end.cap ? DECISION_sky : on_surface(end) ? DECISION_hit : DECISION_rejected);
             if (end.cap) end_on_cap(result, quality.roughness);
             if (end.cap || on_surface(end)) return result;
         }
-        probe_sample(from_center, direction, now, step_m, result.place, quality.level, DECISION_unseen);
+        probe_sample(from_center, direction, now, step_m, result.place, quality.level, DECISION_occluded);
         if (++refused >= longest) {
             result.travelled_m = now.t;
             fall_back(result, origin, direction, best, quality.roughness);
@@ -263,7 +263,7 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best, Quality qual
         else step_m *= quality.ratio;
         if (skip_volume && fact_volumes) now.t = skipped(now.t, step_m, result.place, origin, direction);
         front = NONE; // samples of the last cube map are meaningless in this one
-        if (loop == loop_regaining) refined = 0;
+        if (loop == loop_restored) refined = 0;
         emerged = false;
         again = step_back;
     }

@@ -33,7 +33,7 @@ bool shows(vec2 uv, float depth_m) {
 
 // If the previous frame has depths, only the texels that show the ray's end are interpolated.
 vec3 picture_before(vec3 place) {
-    bool scene = picture_of == picture_of_scene && of_frame(previous_scene), parts = joint && of_frame(previous_depth);
+    bool scene = color_source == color_source_scene && of_frame(previous_scene), parts = joint && of_frame(previous_depth);
     vec3 color = scene ? parts ? joint_texels(previous_scene, previous_depth, place.xy, place.z, hidden_depth).rgb
                                : textureLod(sampler2D(previous_scene, linear_clamp), place.xy, 0.0).rgb
                  : parts ? joint_texels(previous_lit, previous_depth, place.xy, place.z, hidden_depth).rgb

@@ -99,7 +99,7 @@ void main() {
     imageStore(reflection_half, pixel, end.color);
     float part = end.attenuation.x * end.attenuation.y * end.attenuation.z * end.attenuation.w;
     part = is_pick_shown(texelFetch(pick, pixel, 0).x) ? part : 0.0;
-    probe(PROBE_trust, end.attenuation, vec4(part));
+    probe(PROBE_attenuation, end.attenuation, vec4(part));
     imageStore(contribution, pixel, vec4(part));
     if (diagnostics) imageStore(attenuation, pixel, end.attenuation);
 }

@@ -7,5 +7,5 @@ OPTIONAL_READ(texture2D, cone_half, R16F, HALF, 0)
 #include "sources.h"
 #include "before_rows.h"
 #line 352
-DIAGNOSTIC(uimage2D, previous_source, R8UI, "1", HALF, "source", 0, "source of a screen hit's colour: 1: the previous frame; 2: none there, the point was outside the picture or behind the camera; 3: none there, it was occluded; 0: no screen hit")
+DIAGNOSTIC(uimage2D, previous_source, R8UI, "1", HALF, "source", 0, "source of a screen hit's colour. 1: the previous frame; 2: not in the previous frame: outside its picture or behind its camera; 3: not in the previous frame: occluded there; 0: no screen hit")
 ALONG_RAYS(cubemap_color, normal_jittered)

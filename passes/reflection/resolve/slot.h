@@ -11,5 +11,5 @@ NEEDS(reflecting)
 PER_RAY
 ACCUMULATE(reflection_half)
 ROLE(RAY_RADIANCE, reflection_half)
-ROLE(QUESTION, fog)
-ROLE(QUESTION, fog_target)
+ROLE(DEFINES_RESULT, fog)
+ROLE(DEFINES_RESULT, fog_target)

@@ -1,5 +1,5 @@
 /* Visits every texel that a ray crosses, one after the other: nothing is skipped. */
-PASS("Walk over every texel", "KF2 article (it names it); McGuire and Mara 2014")
+PASS("DDA over every texel", "KF2 article (mentioned only); McGuire and Mara 2014")
 #include "slot.h"
 #include "cell_rows.h"
 #line 302

@@ -129,7 +129,7 @@ Result march(ScreenRay ray, ivec2 texel) {
         float highest = max(u_in - 0.5 * path.texel * path.inverse_rate, u_out); // a seam may connect to the texel before the cell
         if (what == PASSED && !passes_behind(hidden, path, s, s_out, range.y, highest)) {
             if (walk.level > 0) {
-                probe_cell(ray, s, s_out, cell, walk.level, range, DECISION_finer);
+                probe_cell(ray, s, s_out, cell, walk.level, range, DECISION_descend);
                 s = clamp((range.x - path.inverse) * per_rate - 1e-6, s, s_out);
                 step_down(walk, s);
                 continue;
@@ -142,7 +142,7 @@ Result march(ScreenRay ray, ivec2 texel) {
                 break;
             }
         } else {
-            probe_cell(ray, s, s_out, cell, walk.level, range, what == IN_FRONT ? DECISION_front : DECISION_hidden);
+            probe_cell(ray, s, s_out, cell, walk.level, range, what == IN_FRONT ? DECISION_front : DECISION_behind_all);
         }
         if (what == IN_FRONT) s_front = s_out;
         if (s_out >= path.end) {

@@ -91,7 +91,7 @@ Result march(ScreenRay ray, Grid grid, float shift) {
                     probe_texel_seen(ray, s_end, s_end, nearest_texel(texel), seen, DECISION_hit);
                     return Result(travelled_at(ray, s_end), true, END_hit, result.steps, result.fetches);
                 }
-                decision = DECISION_absent;
+                decision = DECISION_rejected;
             } else {
                 reason = END_back_face;
                 decision = DECISION_back_face;

@@ -67,7 +67,7 @@ Result walk(March march) {
         for (int k = 0; k < refinements; ++k) {
             float middle = 0.5 * (near + s);
             result.fetches++;
-            probe_sample(march, middle, DECISION_closing);
+            probe_sample(march, middle, DECISION_bisect);
             if (behind(march, middle, behind_m, seen_m)) s = middle;
             else near = middle;
         }

@@ -197,7 +197,7 @@ struct glint_replay_options {
 };
 
 /* The reasons of passes that do not run because the caller excluded them. */
-#define GLINT_REASON_NOT_ASKED "not among the passes asked for"
+#define GLINT_REASON_NOT_ASKED "not among the requested passes"
 #define GLINT_REASON_SKIPPED "skipped on request"
 struct glint_plan_entry {
     const struct glint_pass *pass;

@@ -257,13 +257,13 @@ static void on_a_face(float *x) {
 }
 
 static const struct function list[] = {
-    {"face of a direction", "face and place on it, on axes, edges and corners, for tiny and huge vectors", "face_from_direction(a.xyz), 0.0", "x y z", {CUBE, LENGTH}, direction,
+    {"face of a direction", "face and position on it, on axes, edges and corners, for tiny and huge vectors", "face_from_direction(a.xyz), 0.0", "x y z", {CUBE, LENGTH}, direction,
      face_of, 3, ABSOLUTE, 2.1e-7, DIVISION},
-    {"direction of a face", "and back to the direction", "direction_from_face(face_from_direction(a.xyz)), 0.0", "x y z", {CUBE, LENGTH}, direction,
+    {"direction of a face", "face and position convert back to the direction", "direction_from_face(face_from_direction(a.xyz)), 0.0", "x y z", {CUBE, LENGTH}, direction,
      expect_round_trip, 3, ABSOLUTE, 4.8e-7, DIVISION ", twice as wide"},
-    {"texels around a direction", "a place on any face is their mean, as they are weighted", "/* cube_taps(direction, size), centre_on_cube(place, major, size) */ on_face(a.xyz)", "x y face", {{LINEAR, -0.85, 0.85, ZERO}, {LINEAR, -0.85, 0.85, ZERO}, {WHOLE, 0, 5, 0}}, on_a_face,
+    {"texels around a direction", "the weighted mean of the four texels is the position on the face", "/* cube_taps(direction, size), centre_on_cube(place, major, size) */ on_face(a.xyz)", "x y face", {{LINEAR, -0.85, 0.85, ZERO}, {LINEAR, -0.85, 0.85, ZERO}, {WHOLE, 0, 5, 0}}, on_a_face,
      expect_taps, 4, ABSOLUTE, 8e-6, "a division, 2.5 ULP (Vulkan), of a place that spans 16, and the texels' weights of its parts"},
-    {"texel of a direction", "a texel's centre leads back to it, faces of 1 to 2048", "face_texel(direction_from_face(vec3((a.xy + 0.5) / a.w, a.z)), 3u, int(a.w)), 0", "x y face size",
+    {"texel of a direction", "the direction of a texel's centre gives that texel, faces of 1 to 2048", "face_texel(direction_from_face(vec3((a.xy + 0.5) / a.w, a.z)), 3u, int(a.w)), 0", "x y face size",
      {{LINEAR, 0, 1, 0}, {LINEAR, 0, 1, 0}, {WHOLE, 0, 5, 0}, {WHOLE, 0, 4, 0}}, texel_of_size, expect_texel, 3, ABSOLUTE, 0, "a centre is half a texel from the next"},
     {"centre of a texel", "its direction and its cube map, faces of 1 to 2048", "texel_direction(ivec2(a.xy), int(a.w), int(a.z))", "x y layer size",
      {{LINEAR, 0, 1, 0}, {LINEAR, 0, 1, 0}, {WHOLE, 0, 23, 0}, {WHOLE, 0, 4, 0}}, texel_of_size, expect_texel_direction, 4, ABSOLUTE, 3e-7, DIVISION},
@@ -279,40 +279,40 @@ static const struct function list[] = {
      {CUBE, CUBE, LENGTH}, position_and_normal, expect_mirror, 3, ABSOLUTE, 1e-6, "three normalisations, an inverse root of 2 ULP each, and a sum of three products twice"},
     {"which pixels reflect", "depth and normal usable: 0, negative, infinite, NaN are not", "reflects(a.x, vec3(0.0, a.y, 0.0))", "depth normal bad",
      {{LOG, 1e-30, 3.39e38, ZERO | ENDLESS | NEGATIVE}, {LOG, 0.6, 10, ZERO | ENDLESS}, {WHOLE, 0, 2, 0}}, nan_of_either, expect_reflects, 1, ABSOLUTE, 0, "a decision"},
-    {"picked positions", "where a texel's sample lies", "picked_position(ivec2(a.xy), uint(a.z), uvec4(32768u, 32768u, 16384u, 16384u)), 0.0, 0.0", "x y pick",
+    {"picked positions", "position of a texel's sample", "picked_position(ivec2(a.xy), uint(a.z), uvec4(32768u, 32768u, 16384u, 16384u)), 0.0, 0.0", "x y pick",
      {{WHOLE, 0, 16383, 0}, {WHOLE, 0, 16383, 0}, {WHOLE, 0, 4, 0}}, NULL, expect_picked, 2, ABSOLUTE, 0, "halves of integers below 2^16"},
 
-    {"picked uv", "where a texel's sample lies in the picture, of odd sizes too, at half and at full resolution", "picked_uv(ivec2(a.xy), uint(a.z), uvec4(a.w, b.xyz)), reduction(uvec4(a.w, b.xyz)), 0.0", "x y pick width height half_width half_height halved",
+    {"picked uv", "position of a texel's sample in the picture, odd sizes included, at half and full resolution", "picked_uv(ivec2(a.xy), uint(a.z), uvec4(a.w, b.xyz)), reduction(uvec4(a.w, b.xyz)), 0.0", "x y pick width height half_width half_height halved",
      {{LINEAR, 0, 1, 0}, {LINEAR, 0, 1, 0}, {WHOLE, 0, 4, 0}, {WHOLE, 2, 4096, 0}, {WHOLE, 2, 4096, 0}, {WHOLE, 0, 0, 0}, {WHOLE, 0, 0, 0}, {WHOLE, 0, 1, 0}}, sizes_of, expect_picked_uv, 3, ABSOLUTE, 3.6e-7, "a division, 2.5 ULP (Vulkan) of up to 1"},
 
     {"facet of a normal", "slopes of inverse depth on a plane", "slopes_of_normal(a.xyz, vec2(a.w, b.x), vec2(1.0 / 256.0), vec4(2.0, 2.0, -1.0, -1.0), -1.0), 0.0, 0.0", "nx ny nz u v",
      {{LINEAR, -0.45, 0.45, ZERO}, {LINEAR, -0.45, 0.45, ZERO}, {LINEAR, 0, 1, 0}, {LINEAR, 0, 1, 0}, {LINEAR, 0, 1, 0}}, facing, expect_slopes, 2, ABSOLUTE, 2e-7, "the normal's dot product keeps a tenth of its terms"},
-    {"equal depths", "are level, whatever their quotient is", "fall(a.x, a.x)", "depth", {{LOG, 1e-6, 2.9e38, 0}}, NULL, expect_nothing, 1, ABSOLUTE, 0, "a decision"},
-    {"facet of depths", "slope between neighbours, the sky and all but equal depths among them", "facet_slope(a.x, a.y, a.z, LARGEST)", "depth before after",
+    {"equal depths", "have a slope of 0, however their quotient is rounded", "fall(a.x, a.x)", "depth", {{LOG, 1e-6, 2.9e38, 0}}, NULL, expect_nothing, 1, ABSOLUTE, 0, "a decision"},
+    {"facet of depths", "slope between neighbours, including sky and nearly equal depths", "facet_slope(a.x, a.y, a.z, LARGEST)", "depth before after",
      {{LOG, 1e-3, 1e6, 0}, {LOG, 0.5, 2, ENDLESS}, {LOG, 0.5, 2, ENDLESS}}, neighbours_of_depth, expect_facet_slope, 1, ABSOLUTE, 3e-7, "parts of an inverse depth that itself is rounded by 6e-8; a division of 2.5 ULP (Vulkan)"},
 
-    {"rise of a facet", "over its centre, within the texel", "facet_rise(a.xy)", "x y", {{LOG, 1e-6, 1, ZERO | NEGATIVE}, {LOG, 1e-6, 1, ZERO | NEGATIVE}}, NULL, expect_rise, 1, ULP, 1, "one sum"},
+    {"rise of a facet", "height over its centre, within the texel", "facet_rise(a.xy)", "x y", {{LOG, 1e-6, 1, ZERO | NEGATIVE}, {LOG, 1e-6, 1, ZERO | NEGATIVE}}, NULL, expect_rise, 1, ULP, 1, "one sum"},
 
     {"footprint of a texel", "exact shares of two or three finer texels, odd sizes", "footprint(int(a.x), int(a.y), int(a.z)).share.xy, footprint(int(a.x), int(a.y), int(a.z)).first, footprint(int(a.x), int(a.y), int(a.z)).count", "texel size finer",
      {{LINEAR, 0, 1, 0}, {LINEAR, 0, 1, 0}, {WHOLE, 1, 4096, 0}}, odd_or_even, expect_footprint, 4, ABSOLUTE, 1.6e-7, "one division, 2.5 ULP of up to 1"},
     {"taps of a lattice", "points within reach", "is_tap(ivec2(a.xy), int(a.z))", "x y reach", {{WHOLE, -5, 5, 0}, {WHOLE, -5, 5, 0}, {WHOLE, 1, 5, 0}}, NULL, expect_is_tap, 1, ABSOLUTE, 0, "integers"},
     {"taps of a row", "points within reach, on either side", "taps_beside(int(a.x), int(a.y))", "y reach", {{WHOLE, -5, 5, 0}, {WHOLE, 5, 64, 0}}, NULL, expect_taps_beside, 1, ABSOLUTE, 0, "integers"},
-    {"packed edges", "four sides in a byte and back", "open_side(packed_side(a.x, 0u) | packed_side(a.y, 1u) | packed_side(a.z, 2u) | packed_side(a.w, 3u), 0u), "
+    {"packed edges", "packing four sides in a byte and unpacking them", "open_side(packed_side(a.x, 0u) | packed_side(a.y, 1u) | packed_side(a.z, 2u) | packed_side(a.w, 3u), 0u), "
      "open_side(packed_side(a.y, 1u), 1u), open_side(packed_side(a.z, 2u), 2u), open_side(packed_side(a.w, 3u), 3u)", "left right up down",
      {{LINEAR, -0.5, 1.5, 0}, {LINEAR, -0.5, 1.5, 0}, {LINEAR, -0.5, 1.5, 0}, {LINEAR, -0.5, 1.5, 0}}, thirds, expect_side, 4, ABSOLUTE, 1.8e-7, "a third, 2.5 ULP of a division (Vulkan)"},
 
-    {"edges of a block", "which texels of a block are of one surface, a diagonal by the better way round", "open_in_block(uvec4(packed_side(a.x / 3.0, SIDE_RIGHT) | packed_side(a.z / 3.0, SIDE_DOWN), packed_side(a.w / 3.0, SIDE_DOWN), "
+    {"edges of a block", "which texels of a block are on one surface; diagonal ones by the better of both connections", "open_in_block(uvec4(packed_side(a.x / 3.0, SIDE_RIGHT) | packed_side(a.z / 3.0, SIDE_DOWN), packed_side(a.w / 3.0, SIDE_DOWN), "
      "packed_side(a.y / 3.0, SIDE_RIGHT), 0u), uint(b.x))", "upper lower left right from", {{WHOLE, 0, 3, 0}, {WHOLE, 0, 3, 0}, {WHOLE, 0, 3, 0}, {WHOLE, 0, 3, 0}, {WHOLE, 0, 3, 0}}, NULL,
      expect_block, 4, ABSOLUTE, 4.5e-7, "a product of two thirds, 2.5 ULP each (Vulkan), and a rounding"},
     {"taps of a pre-filter", "weight and level, narrow cones to wide ones", "cube_tap(ivec2(a.xy), vec3(0.0, 0.0, 1.0), vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), a.z, a.w, 3, 3.5, 0.1).weight, "
      "cube_tap(ivec2(a.xy), vec3(0.0, 0.0, 1.0), vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), a.z, a.w, 3, 3.5, 0.1).lod, 0.0, 0.0", "x y level size", {{WHOLE, -3, 3, 0}, {WHOLE, -3, 3, 0}, {WHOLE, 1, 8, 0}, {LOG, 16, 2048, 0}}, NULL,
      expect_tap, 2, ABSOLUTE, 6e-6, "log2 is 3 ULP off (Vulkan), 1.5e-6 of 8; the weight's exponent carries two logarithms, 16 ULP each"},
-    {"place on a paraboloid", "poles, the rim and what lies between", "paraboloid_uv(a.xyz, 256.0), 0.0", "x y z", {CUBE}, unit_direction, expect_paraboloid, 3, ABSOLUTE, 3e-7, DIVISION "; the direction is unit to 6e-8"},
-    {"direction of a paraboloid", "a direction leads back to itself", "paraboloid_direction((2.0 * paraboloid_uv(a.xyz, 256.0).xy - 1.0) * paraboloid_reach(256.0), a.z >= 0.0), 0.0", "x y z", {CUBE}, unit_direction,
+    {"place on a paraboloid", "poles, the rim and directions between them", "paraboloid_uv(a.xyz, 256.0), 0.0", "x y z", {CUBE}, unit_direction, expect_paraboloid, 3, ABSOLUTE, 3e-7, DIVISION "; the direction is unit to 6e-8"},
+    {"direction of a paraboloid", "mapping a direction and back gives the direction", "paraboloid_direction((2.0 * paraboloid_uv(a.xyz, 256.0).xy - 1.0) * paraboloid_reach(256.0), a.z >= 0.0), 0.0", "x y z", {CUBE}, unit_direction,
      expect_same, 3, ABSOLUTE, 1.2e-6, "three divisions, 2.5 ULP each, and a place that spans 2"},
-    {"texel on a paraboloid", "the outermost texels of any level lie where the rim of the finest does", "paraboloid_place(a.xy, a.z, a.w), paraboloid_reach(a.w), 0.0", "x y size widest",
+    {"texel on a paraboloid", "the outermost texels of every level are at the rim of the finest one", "paraboloid_place(a.xy, a.z, a.w), paraboloid_reach(a.w), 0.0", "x y size widest",
      {{LINEAR, 0, 1, 0}, {LINEAR, 0, 1, 0}, {WHOLE, 0, 11, 0}, {WHOLE, 0, 11, 0}}, texels_of_level, expect_place, 3, ABSOLUTE, 1.5e-6, "two divisions, 2.5 ULP each (Vulkan), of up to 2"},
-    {"solid angle on a paraboloid", "of a piece of its plane", "paraboloid_solid_angle(a.xy)", "x y", {{LINEAR, -1, 1, ZERO}, {LINEAR, -1, 1, ZERO}}, NULL, expect_solid_angle, 1, ULP, 7, "a division, 2.5 ULP, of a square"},
+    {"solid angle on a paraboloid", "solid angle of an area of the map", "paraboloid_solid_angle(a.xy)", "x y", {{LINEAR, -1, 1, ZERO}, {LINEAR, -1, 1, ZERO}}, NULL, expect_solid_angle, 1, ULP, 7, "a division, 2.5 ULP, of a square"},
     {"level of a paraboloid", "level of a cone at any height", "paraboloid_level(a.x, a.y, a.z, 3.5)", "tangent height size", {{LOG, 1e-6, 1255, ZERO}, {LINEAR, -1, 1, ZERO}, {LOG, 2, 2048, 0}}, NULL,
      expect_paraboloid_level, 1, ABSOLUTE, 5e-6, "log2 is 3 ULP off (Vulkan), 2.9e-6 of 11"},
     {"paraboloid's axes", "orthonormal about any up axis", "dot(paraboloid_axes(a.xyz)[0], paraboloid_axes(a.xyz)[0]), dot(paraboloid_axes(a.xyz)[1], paraboloid_axes(a.xyz)[1]), "

@@ -307,5 +307,5 @@ static bool functions_run(const struct case_context *context, const bool *select
     return ok;
 }
 
-const struct case_group functions_group = {"functions", "functions that the shaders share, against double precision",
+const struct case_group functions_group = {"functions", "shared shader functions, against double precision",
                                            functions_count, functions_get, functions_run};

@@ -151,20 +151,20 @@ static void expect_strata(const double *x, double *y) {
 #define INTEGERS "integers, and a conversion that is exact"
 
 static const struct function list[] = {
-    {"random numbers", "the hash's very bits, pixel by pixel and frame by frame", "random4(uvec2(a.xy), uint(a.z), uint(a.w))", "x y frame dimension",
+    {"random numbers", "the exact bits of the hash, for each pixel and frame", "random4(uvec2(a.xy), uint(a.z), uint(a.w))", "x y frame dimension",
      {{WHOLE, 0, 16384, 0}, {WHOLE, 0, 16384, 0}, {WHOLE, 0, 16777215, 0}, {WHOLE, 0, 4096, 0}}, NULL, expect_random, 4, ABSOLUTE, 0, INTEGERS},
     {"hash", "of four words up to 4294967295", "words(hash4(uvec4(" AB ", " CD ", " EF ", " GH ")))", "x x' y y' z z' w w'", {WORD, WORD, WORD, WORD}, NULL, expect_hash, 4, ABSOLUTE, 0, "integers"},
-    {"number of a frame", "that random numbers are drawn by", "float(random_frame() >> 16u), float(random_frame() & 0xFFFFu), 0.0, 0.0", "any", {{LINEAR, 0, 1, 0}}, NULL, expect_frame_number, 2, ABSOLUTE, 0, "integers"},
+    {"number of a frame", "the frame number that seeds random numbers", "float(random_frame() >> 16u), float(random_frame() & 0xFFFFu), 0.0, 0.0", "any", {{LINEAR, 0, 1, 0}}, NULL, expect_frame_number, 2, ABSOLUTE, 0, "integers"},
     {"low-discrepancy points", "Sobol's first two dimensions", "vec2(sobol2(uint(a.x)) >> 8u) / 16777216.0, 0.0, 0.0", "index", {{WHOLE, 0, 16777215, 0}}, NULL,
      expect_sobol, 2, ABSOLUTE, 0, "24 bits fit a float"},
     {"spread bits", "Z-order's bits two places apart, of 16", "float(spread_bits(uint(a.x)) >> 16u), float(spread_bits(uint(a.x)) & 0xFFFFu), 0.0, 0.0", "x", {{WHOLE, 0, 65535, 0}}, NULL, expect_spread_bits, 2, ABSOLUTE, 0, "integers"},
     {"Owen's scrambling", "any number by any seed", "words(uvec4(owen_scramble(" AB ", " CD "), 0u, 0u, 0u)).xy, 0.0, 0.0", "x x' seed seed'", {WORD, WORD}, NULL, expect_owen, 2, ABSOLUTE, 0, "integers"},
-    {"Owen's scrambling is one", "numbers that differ first in a bit differ first in that bit", "float(findMSB(owen_scramble(" AB ", " CD ") ^ owen_scramble((" AB ") ^ 1u << 31u - uint(b.x), " CD "))), "
+    {"Owen's scrambling is one", "numbers whose highest differing bit is n are mapped to numbers whose highest differing bit is n", "float(findMSB(owen_scramble(" AB ", " CD ") ^ owen_scramble((" AB ") ^ 1u << 31u - uint(b.x), " CD "))), "
      "float(findMSB(owen_scramble(" AB ", " CD ") ^ owen_scramble((" AB ") ^ (2u << 31u - uint(b.x)) - 1u, " CD "))), 0.0, 0.0", "x x' seed seed' bit", {WORD, WORD, {WHOLE, 0, 31, 0}}, NULL, expect_first_bit, 2, ABSOLUTE, 0, "integers"},
     {"shuffled digits", "base-4 digits by those above, any number by any seed", "words(uvec4(shuffle_digits(" AB ", " CD "), 0u, 0u, 0u)).xy, 0.0, 0.0", "x x' seed seed'", {WORD, WORD}, NULL, expect_shuffled, 2, ABSOLUTE, 0, "integers"},
-    {"points of rays", "a pixel's sequence, scrambled anew after 2^20 rays", "ray_points2(uvec2(a.xy), " CD ", " EF "), 0.0, 0.0", "x y frame frame' ray ray'", {{WHOLE, 0, 16384, 0}, {WHOLE, 0, 16384, 0}, WORD, WORD}, NULL, expect_ray_points, 2, ABSOLUTE, 0, INTEGERS},
-    {"blue noise", "points along a shuffled Z-order, frames and rays apart", "blue_noise2(uvec2(a.xy), " CD ", uint(b.x)), 0.0, 0.0", "x y frame frame' ray", {{WHOLE, 0, 65535, 0}, {WHOLE, 0, 65535, 0}, WORD, {WHOLE, 0, 65535, 0}}, NULL, expect_blue_noise, 2, ABSOLUTE, 0, INTEGERS},
-    {"ordered dither", "Bayer's matrix as its recursion makes it", "bayer4(ivec2(a.xy)), 0.0, 0.0, 0.0", "x y", {{WHOLE, 0, 16384, 0}, {WHOLE, 0, 16384, 0}}, NULL, expect_bayer, 1, ABSOLUTE, 0, "sixteenths"},
+    {"points of rays", "the sequence of a pixel, scrambled again after 2^20 rays", "ray_points2(uvec2(a.xy), " CD ", " EF "), 0.0, 0.0", "x y frame frame' ray ray'", {{WHOLE, 0, 16384, 0}, {WHOLE, 0, 16384, 0}, WORD, WORD}, NULL, expect_ray_points, 2, ABSOLUTE, 0, INTEGERS},
+    {"blue noise", "points along a shuffled Z-order, for different frames and rays", "blue_noise2(uvec2(a.xy), " CD ", uint(b.x)), 0.0, 0.0", "x y frame frame' ray", {{WHOLE, 0, 65535, 0}, {WHOLE, 0, 65535, 0}, WORD, {WHOLE, 0, 65535, 0}}, NULL, expect_blue_noise, 2, ABSOLUTE, 0, INTEGERS},
+    {"ordered dither", "the Bayer matrix, compared with its recursive definition", "bayer4(ivec2(a.xy)), 0.0, 0.0, 0.0", "x y", {{WHOLE, 0, 16384, 0}, {WHOLE, 0, 16384, 0}}, NULL, expect_bayer, 1, ABSOLUTE, 0, "sixteenths"},
     {"plus pattern", "classes of pixels, large frame numbers too", "float(plus_class(uvec2(a.xy), uint(a.z)))", "x y shift",
      {{WHOLE, 0, 16384, 0}, {WHOLE, 0, 16384, 0}, {WHOLE, 0, 16777215, 0}}, NULL, expect_plus, 1, ABSOLUTE, 0, "integers"},
     {"strata of pluses", "a cell of 5 x 5 for each of 25 pixels", "plus_strata(uvec2(a.xy), uint(a.z), vec2(a.w, b.x)), 0.0, 0.0", "x y shift u v",

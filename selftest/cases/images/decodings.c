@@ -428,31 +428,31 @@ static const struct decoding
 
 #define ONCE "relative", 6e-8, "one rounding, 2^-24"
 #define TWICE "relative", 1.2e-7, "two roundings, 2^-24 each"
-#define ROUNDINGS "absolute", 4e-7, "half a dozen roundings of numbers up to 1"
+#define ROUNDINGS "absolute", 4e-7, "six roundings of numbers up to 1"
 
 static const struct image_case list[] = {
     {{"depth in units", "10^-6 to 10^6 of them, and none", NULL, ONCE}, check_decoding, NULL, &units},
-    {{"device depth, decoded", "near 10^-3 to far 10^6, both ends and what is next to them", NULL, "relative", 1.5e-7, "one rounding, and as much again of its far plane: 10^9 of double's 2^-53"}, check_decoding, NULL, &device},
+    {{"device depth, decoded", "near 10^-3 to far 10^6, including both ends and their neighbours", NULL, "relative", 1.5e-7, "one rounding, and as much again of its far plane: 10^9 of double's 2^-53"}, check_decoding, NULL, &device},
     {{"device depth of a symmetric clip space", "the same with a projection to -1 … 1", NULL, "relative", 1.5e-7, "one rounding, and as much again of its far plane: 10^9 of double's 2^-53"}, check_decoding, NULL, &clip},
     {{"reversed depth, decoded", "near 10^-3 at 1, far 10^6 at 0, which is sky", NULL, ONCE}, check_decoding, NULL, &reverse},
     {{"reversed depth without end, decoded", "near 10^-3 at 1, down to next to 0", NULL, ONCE}, check_decoding, NULL, &infinite},
     {{"logarithmic depth, decoded", "both ends", NULL, ONCE}, check_decoding, NULL, &logarithmic},
     {{"reversed logarithmic depth, decoded", "both ends", NULL, ONCE}, check_decoding, NULL, &logarithmic_reversed},
-    {{"depth on the device", "what is decoded arrives as it is", NULL, ONCE}, check_device, NULL, &reverse},
-    {{"signed normals, decoded", "of any length, in world axes", NULL, ROUNDINGS}, check_decoding, NULL, &plain_normal},
-    {{"normals in view axes, decoded", "turned to the world's", NULL, ROUNDINGS}, check_decoding, NULL, &view_normal},
-    {{"unsigned normals, decoded", "0 to 1 stands for -1 to 1", NULL, "absolute", 4e-7, "half a dozen roundings of numbers up to 1"}, check_decoding, NULL, &unorm},
+    {{"depth on the device", "values without an encoding are unchanged", NULL, ONCE}, check_device, NULL, &reverse},
+    {{"signed normals, decoded", "of any length, in world space", NULL, ROUNDINGS}, check_decoding, NULL, &plain_normal},
+    {{"normals in view space, decoded", "turned to the world's", NULL, ROUNDINGS}, check_decoding, NULL, &view_normal},
+    {{"unsigned normals, decoded", "0 to 1 represents -1 to 1", NULL, "absolute", 4e-7, "six roundings of numbers up to 1"}, check_decoding, NULL, &unorm},
     {{"octahedral normals, decoded", "poles, axes, and the folds of the lower half", NULL, ROUNDINGS}, check_decoding, NULL, &octahedral},
-    {{"normals of two view axes, decoded", "the third follows, towards the camera, down to the horizon", NULL, "absolute", 6e-4, "at the horizon a root of what is left of 1, 2.4e-7 of rounding"}, check_decoding, NULL, &towards},
+    {{"normals as X and Y in view space, decoded", "Z is reconstructed towards the camera, down to the horizon", NULL, "absolute", 6e-4, "at the horizon the root of a difference from 1 with a rounding of 2.4e-7"}, check_decoding, NULL, &towards},
     {{"roughness of alpha, decoded", "its root", NULL, ONCE}, check_decoding, NULL, &alpha},
     {{"roughness of gloss, decoded", "one less it", NULL, ONCE}, check_decoding, NULL, &gloss},
     {{"roughness of a power, decoded", "0 to 10^12 and infinite", NULL, "relative", 1.2e-7, "two quotients, of which roots leave a quarter, and two roots"}, check_decoding, NULL, &power},
-    {{"motion in NDC, decoded", "half of it is uv, which grows downwards", NULL, "relative", 0, "a half is exact"}, check_decoding, NULL, &ndc},
+    {{"motion in NDC, decoded", "half of it is the uv offset, with y down", NULL, "relative", 0, "a half is exact"}, check_decoding, NULL, &ndc},
     {{"motion in NDC, y down, decoded", "where NDC does so too", NULL, "relative", 0, "a half is exact"}, check_decoding, NULL, &ndc_down},
     {{"motion in pixels, decoded", "of a picture of 64 x 32", NULL, "relative", 0, "powers of two"}, check_decoding, NULL, &pixels},
-    {{"motion in 16 bits, decoded", "32768 is none, 1 and 65535 the most; depth too", NULL, ONCE}, check_decoding, NULL, &packed},
-    {{"exposed colour, decoded", "without what was exposed before", NULL, ONCE}, check_decoding, NULL, &pre_exposed},
-    {{"sRGB colour, decoded", "dark and bright, and both sides of the curve's joint", NULL, "relative", 6e-7, "three roundings of the curve's base, times 2.4, and three of the powers"}, check_decoding, NULL, &srgb},
+    {{"motion in 16 bits, decoded", "32768 is no motion, 1 and 65535 the maximum; depth included", NULL, ONCE}, check_decoding, NULL, &packed},
+    {{"exposed colour, decoded", "divided by preExposure", NULL, ONCE}, check_decoding, NULL, &pre_exposed},
+    {{"sRGB colour, decoded", "dark and bright, and both sides of the transition of the curve", NULL, "relative", 6e-7, "three roundings of the curve's base, times 2.4, and three of the powers"}, check_decoding, NULL, &srgb},
     {{"halves on the device", "rounded to the nearest, ties to even", NULL, "absolute", 0, "exact"}, check_device, NULL, &ties},
 };
 /* clang-format on */

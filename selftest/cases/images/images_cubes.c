@@ -396,13 +396,13 @@ static const struct cocoon_case rooms = {room_sample, expect_gauge}, boxes = {bo
 
 /* clang-format off */
 static const struct image_case list[] = {
-    {{"box mean of a face", "cube maps of 17, 8, 4, 2: exact shares, NaN and infinite texels left out, nothing where all are", "box_color(faces, at, size, level), face_size(faces, level)", "absolute", 2e-6, "nine products and sums of colours below 2, a division, 2.5 ULP (Vulkan)"}, check_box, NULL, NULL},
+    {{"box mean of a face", "cube maps of 17, 8, 4, 2: exact weights, without NaN and infinite texels; 0 where all are", "box_color(faces, at, size, level), face_size(faces, level)", "absolute", 2e-6, "nine products and sums of colours below 2, a division, 2.5 ULP (Vulkan)"}, check_box, NULL, NULL},
     {{"pre-filtered texels", "harmonics of a cube map of 128, all faces to their edges, levels 1 to 4", "prefiltered(box, faces, at, size, level, 3, 3.5, 0.1)", "absolute", 4e-3, "box means of and straight lines between texels an eighth wide at level 4 leave out h²/6 of a curvature of 1.5, and at corners, where a device has three texels for four, a part of their width; errors of finer levels are multiplied by how much narrower texels are"}, check_prefiltered, NULL, NULL},
-    {{"gauge of a cocoon", "its samples lie on the faces' borders too; two cube maps", GAUGE, "absolute", 1.3e-4, "a device filters with 8 bits (Vulkan: at least 4) on either axis, between samples that differ by 0.032 and less"}, check_cocoon, GAUGE, &rooms},
-    {{"rays that leave a cocoon", "from inside, from outside into it, past it: as t/(t + start), start from the centre", LEAVES, "absolute", 4e-6, "a gauge of up to 10, rounded by 6e-7, which falls at least a tenth as fast as its places move; 64 secants have converged"}, check_cocoon, LEAVES, &boxes},
-    {{"cocoon of a sphere", "weighted maximum by pairs, the widest kernel, a third of it sky; and nothing but sky", "direction_of_sample(texel, face), texel_direction(texel, size, layer)", "absolute", 4e-6, "three divisions, 2.5 ULP each (Vulkan), of 3, on each of three levels"}, check_sphere, NULL, "cocoon.maximum=pairs"},
-    {{"cocoon of a sphere, by samples", "the same of single samples", NULL, "absolute", 4e-6, "a product of a difference that is 0"}, check_sphere, NULL, "cocoon.maximum=samples"},
-    {{"nearest active cube map", "of four, relative to a camera elsewhere", NEAREST, "places", 0, "a decision; squared distances within 1e-5 m² are a tie"}, check_nearest, NEAREST, NULL},
+    {{"gauge of a cocoon", "its outermost samples are on the borders of the faces; two cube maps", GAUGE, "absolute", 1.3e-4, "a device filters with 8 bits (Vulkan: at least 4) on either axis, between samples that differ by 0.032 and less"}, check_cocoon, GAUGE, &rooms},
+    {{"rays that leave a cocoon", "from inside, from outside into it and past it: t/(t + start), with the distance of the start from the centre", LEAVES, "absolute", 4e-6, "a gauge of up to 10, rounded by 6e-7, which falls at least a tenth as fast as its places move; 64 secants have converged"}, check_cocoon, LEAVES, &boxes},
+    {{"cocoon of a sphere", "weighted maximum by pairs, with the widest kernel and a third of it sky; and with sky only", "direction_of_sample(texel, face), texel_direction(texel, size, layer)", "absolute", 4e-6, "three divisions, 2.5 ULP each (Vulkan), of 3, on each of three levels"}, check_sphere, NULL, "cocoon.maximum=pairs"},
+    {{"cocoon of a sphere, by samples", "the same with single samples", NULL, "absolute", 4e-6, "a product of a difference that is 0"}, check_sphere, NULL, "cocoon.maximum=samples"},
+    {{"nearest active cube map", "the nearest of four, relative to another camera position", NEAREST, "places", 0, "a decision; squared distances within 1e-5 m² are a tie"}, check_nearest, NEAREST, NULL},
 };
 /* clang-format on */
 

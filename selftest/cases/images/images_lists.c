@@ -168,11 +168,11 @@ static bool check_texels(struct frames *frames, const struct image_case *which, 
 
 /* clang-format off */
 static const struct image_case list[] = {
-    {{"list of tiles", "eight pictures from 1 x 1, empty ones too: tiles by the classes that they hold, in the order of the picture's regions and of their columns, and the ranges of them that passes run over", TILES, "words", 0, "integers"}, check_tiles, NULL, with_classes},
-    {{"list of rays", "the same by what rays start from", TILES, "words", 0, "integers"}, check_tiles, NULL, of_rays},
-    {{"texels of tiles", "each once, in a tile that shows reflections or in the rest", TAKEN, "texels", 0, "integers"}, check_texels, TEXELS, whole_texels},
-    {{"texels of tiles at half resolution", "the same of blocks of 2 x 2", TAKEN, "texels", 0, "integers"}, check_texels, TEXELS, half_texels},
-    {{"texels of a list of rays", "the same by the list of rays", TAKEN, "texels", 0, "integers"}, check_texels, TEXELS, of_rays},
+    {{"list of tiles", "eight pictures from 1 x 1 on, with empty ones: tiles sorted by their classes, in the order of regions and columns, and the ranges that passes use", TILES, "words", 0, "integers"}, check_tiles, NULL, with_classes},
+    {{"list of rays", "the same for lists of rays", TILES, "words", 0, "integers"}, check_tiles, NULL, of_rays},
+    {{"texels of tiles", "each texel exactly once, in a tile with reflections or in the rest", TAKEN, "texels", 0, "integers"}, check_texels, TEXELS, whole_texels},
+    {{"texels of tiles at half resolution", "the same for blocks of 2 x 2", TAKEN, "texels", 0, "integers"}, check_texels, TEXELS, half_texels},
+    {{"texels of a list of rays", "the same for the list of rays", TAKEN, "texels", 0, "integers"}, check_texels, TEXELS, of_rays},
 };
 /* clang-format on */
 

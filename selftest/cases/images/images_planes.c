@@ -74,7 +74,7 @@ static bool check_planes(struct frames *frames, const struct image_case *which, 
 
 /* clang-format off */
 static const struct image_case list[] = {
-    {{"planes between texels", "cube maps of 4: planes of all slopes, exactly, up to a factor of two between texels; else the nearest texel", ON_PLANES, "of the distance", 4e-6, "a straight line between four quotients, 2.5 ULP each (Vulkan), continued by half a texel, where half of the least is left of it: 16 ULP"}, check_planes, ON_PLANES, NULL},
+    {{"planes between texels", "cube maps of 4: exact on planes of all slopes up to a factor of two between texels; otherwise the nearest texel", ON_PLANES, "of the distance", 4e-6, "a straight line between four quotients, 2.5 ULP each (Vulkan), continued by half a texel, where half of the least is left of it: 16 ULP"}, check_planes, ON_PLANES, NULL},
 };
 /* clang-format on */
 

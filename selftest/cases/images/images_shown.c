@@ -74,7 +74,7 @@ static bool check_shown(struct frames *frames, const struct image_case *which, s
 
 /* clang-format off */
 static const struct image_case list[] = {
-    {{"shown reflections", "of materials with metal, specular, both and neither, of blocks that reach beyond the picture too", SHOWN, "bits", 0, "decisions"}, check_shown, SHOWN, NULL},
+    {{"shown reflections", "for materials with metalness, specular, both and neither, and blocks that extend beyond the picture", SHOWN, "bits", 0, "decisions"}, check_shown, SHOWN, NULL},
 };
 /* clang-format on */
 

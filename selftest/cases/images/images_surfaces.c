@@ -236,11 +236,11 @@ static const struct with slopes = {expect_slopes, {"downsample=pick", "blur=plus
 
 /* clang-format off */
 static const struct image_case list[] = {
-    {{"surface of a texel", "where its picked pixel lies", PLACE, "absolute", 2.5e-6, "two roundings of a uv and one of up to 7 m"}, check_surfaces, PLACE, &positions},
-    {{"weight of a neighbour", "other planes, lobes, roughness, sky and the border, by the lobe's value", WEIGHTS, "absolute", 8e-6, "normals of unit length to 2e-7 beside an alpha of 0.05 and more, squared; a plane within 1e-5 m of the limit is a tie"}, check_surfaces, WEIGHTS, &weights},
-    {{"weight of a neighbour alike", "all that are no discontinuity count alike", WEIGHTS, "absolute", 1e-6, "a division, 2.5 ULP (Vulkan); a plane within 1e-5 m of the limit is a tie"}, check_surfaces, WEIGHTS, &alike},
-    {{"neighbours of a facet", "texels on either side; beyond the border the inverse depth goes on", NEIGHBOURS, "absolute", 1e-5, "three divisions, 2.5 ULP each (Vulkan), of up to 7 m, and a difference that leaves a tenth"}, check_surfaces, NEIGHBOURS, &pairs},
-    {{"facet of a texel", "the flatter side, or the normal's where both are far steeper", SLOPES, "absolute", 2e-6, "three divisions, 2.5 ULP each (Vulkan), of numbers near 1; a slope within 1e-6 of the other is a tie"}, check_surfaces, SLOPES, &slopes},
+    {{"surface of a texel", "position of its picked pixel", PLACE, "absolute", 2.5e-6, "two roundings of a uv and one of up to 7 m"}, check_surfaces, PLACE, &positions},
+    {{"weight of a neighbour", "for other planes, lobes, roughness, sky and the border, weighted by the lobe's value", WEIGHTS, "absolute", 8e-6, "normals have unit length to 2e-7, and alpha is at least 0.05, squared; a plane within 1e-5 m of the limit is a tie"}, check_surfaces, WEIGHTS, &weights},
+    {{"equal weight of a neighbour", "all neighbours without a discontinuity have equal weights", WEIGHTS, "absolute", 1e-6, "a division, 2.5 ULP (Vulkan); a plane within 1e-5 m of the limit is a tie"}, check_surfaces, WEIGHTS, &alike},
+    {{"neighbours of a facet", "texels on either side; inverse depth is extrapolated beyond the border", NEIGHBOURS, "absolute", 1e-5, "three divisions, 2.5 ULP each (Vulkan), of up to 7 m, and a difference that leaves a tenth"}, check_surfaces, NEIGHBOURS, &pairs},
+    {{"facet of a texel", "the slope of the flatter side, or of the normal where both are much steeper", SLOPES, "absolute", 2e-6, "three divisions, 2.5 ULP each (Vulkan), of numbers near 1; a slope within 1e-6 of the other is a tie"}, check_surfaces, SLOPES, &slopes},
 };
 /* clang-format on */
 

@@ -83,13 +83,13 @@ static void anything_unturned(uint32_t i, struct open_box *box) {
 #define STORED "a stored float rounds depth by up to 3e-8 z/near, 8e-7, and six roundings of 6e-8" STEEP
 
 static const struct convention_case mirrors[] = {
-    {"axes turned", "each of the 24 ways to call the axes x, y and z, so that each face of the cube maps is each other's", {0}, 2e-5, .reason = ROUNDED, .variants = 24, .vary = turned},
-    {"axes mirrored", "each of the 24 ways in a left-handed world", {0}, 2e-5, .reason = ROUNDED, .variants = 24, .vary = mirrored},
+    {"axes turned", "each of the 24 permutations and signs of the axes, which permute the faces of the cube maps", {0}, 2e-5, .reason = ROUNDED, .variants = 24, .vary = turned},
+    {"axes mirrored", "each of the 24 in a left-handed world", {0}, 2e-5, .reason = ROUNDED, .variants = 24, .vary = mirrored},
     {"view axes", "x to the left, y down, z away from the viewer, clip y down", {0}, 2e-5, .reason = ROUNDED, .variants = 16, .vary = set_handedness},
-    {"clip depth", "clip z from -1 to 1 and from 0 to 1, near or far at the upper end", {0}, 6.5e-5, .reason = STORED, .variants = 16, .vary = set_clip_depth},
+    {"clip depth", "clip z from -1 to 1 and from 0 to 1, near or far at 1", {0}, 6.5e-5, .reason = STORED, .variants = 16, .vary = set_clip_depth},
     {"cube maps in another order", "the last one is the first", {.cubes_reversed = true}, 0, .reason = "the same arithmetic"},
     {"inches", "0.0254 metres a unit", {.metres_per_unit = 0.0254}, 2e-5, .reason = ROUNDED},
-    {"anything", "conventions drawn by chance, all at once", {0}, 6.5e-5, .reason = STORED, .variants = 24, .vary = anything},
+    {"anything", "random conventions, all at once", {0}, 6.5e-5, .reason = STORED, .variants = 24, .vary = anything},
 };
 static const struct convention_case lobes[] = {
     {"normals in unorm", "0 to 1 for -1 to 1", {.encodings.normal = GLINT_NORMAL_UNORM}, 0, .reason = "the floor's normal is exact"},
@@ -99,29 +99,29 @@ static const struct convention_case lobes[] = {
     {"alpha", "the square of roughness", {.encodings.roughness = GLINT_ROUGHNESS_ALPHA}, 2e-5, .reason = ROUNDED},
     {"gloss of a rough floor", "one less roughness", {.encodings.roughness = GLINT_ROUGHNESS_GLOSS}, 2e-5, .reason = ROUNDED},
     {"power of a rough floor", "Blinn-Phong's", {.encodings.roughness = GLINT_ROUGHNESS_POWER}, 2e-5, .reason = ROUNDED},
-    {"view axes of a rough floor", "x to the left, y down, z away from the viewer, clip y down", {0}, 2e-5, .reason = ROUNDED, .variants = 16, .vary = set_handedness},
-    {"anything on a rough floor", "conventions drawn by chance, all at once", {0}, 6.5e-5, .reason = STORED, .variants = 24, .vary = anything_unturned},
+    {"view-space normals of a rough floor", "x to the left, y down, z away from the viewer, clip y down", {0}, 2e-5, .reason = ROUNDED, .variants = 16, .vary = set_handedness},
+    {"anything on a rough floor", "random conventions, all at once", {0}, 6.5e-5, .reason = STORED, .variants = 24, .vary = anything_unturned},
 };
 static const struct convention_case moves[] = {
-    {"motion in NDC", "two for a picture, y up", {.encodings.motion = GLINT_MOTION_NDC}, 2e-5, .reason = ROUNDED},
+    {"motion in NDC", "2 for the width of the picture, y up", {.encodings.motion = GLINT_MOTION_NDC}, 2e-5, .reason = ROUNDED},
     {"motion in NDC, y down", "the same where clip y is down", {.clip_y = GLINT_CLIP_Y_DOWN, .encodings.motion = GLINT_MOTION_NDC}, 2e-5, .reason = ROUNDED},
-    {"motion in pixels", "96 and 64 for a picture", {.encodings.motion = GLINT_MOTION_PIXELS}, 2e-5, .reason = ROUNDED},
+    {"motion in pixels", "96 and 64 for the size of the picture", {.encodings.motion = GLINT_MOTION_PIXELS}, 2e-5, .reason = ROUNDED},
     {"packed motion", "16 bits", {.encodings.motion = GLINT_MOTION_PACKED16}, 4.5e-4, .reason = "half a step of 1/32767 is 1.5e-3 pixels in each of two frames, over a history that changes by 0.15 a pixel"},
     {"packed motion of depth", "16 bits for metres", {.encodings.motion_depth = GLINT_MOTION_DEPTH_PACKED16}, 2e-5, .reason = ROUNDED},
 };
 
 /* Whole presets with a mirror: directions of rough surfaces and the taps of mafia3's cocoon depend on the world's axes. */
 static const struct convention_case wholes[] = {
-    {"anything, mafia3", "conventions drawn by chance, all at once, but for the world's axes", {0}, 6.5e-5, .reason = STORED, .variants = 6, .vary = anything_unturned},
+    {"anything, mafia3", "random conventions, all at once, except the axes of the world", {0}, 6.5e-5, .reason = STORED, .variants = 6, .vary = anything_unturned},
 };
 static const struct convention_case wholes_kf2[] = {
-    {"anything, kf2", "conventions drawn by chance, all at once", {0}, 6.5e-5, .reason = STORED, .variants = 6, .vary = anything},
+    {"anything, kf2", "random conventions, all at once", {0}, 6.5e-5, .reason = STORED, .variants = 6, .vary = anything},
 };
 static const struct convention_case wholes_gtav[] = {
-    {"anything, gtav", "conventions drawn by chance, all at once", {0}, 6.5e-5, .reason = STORED, .variants = 6, .vary = anything},
+    {"anything, gtav", "random conventions, all at once", {0}, 6.5e-5, .reason = STORED, .variants = 6, .vary = anything},
 };
 static const struct convention_case wholes_mafia_de[] = {
-    {"anything, mafia_de", "conventions drawn by chance, all at once", {0}, 6.5e-5, .reason = STORED, .variants = 6, .vary = anything},
+    {"anything, mafia_de", "random conventions, all at once", {0}, 6.5e-5, .reason = STORED, .variants = 6, .vary = anything},
 };
 /* clang-format on */
 
@@ -185,5 +185,5 @@ static bool invariance_run(const struct case_context *context, const bool *selec
     return ok;
 }
 
-const struct case_group invariance_group = {"invariance", "the same answer under every convention", invariance_count,
+const struct case_group invariance_group = {"invariance", "the same result under every convention", invariance_count,
                                             invariance_get, invariance_run};

@@ -13,16 +13,16 @@ struct depth_case {
 #define DEG (3.14159265358979323846 / 180)
 /* clang-format off */
 static const struct depth_case cases[] = {
-    {"depth in 32 bits of float", "near to far as 0 to 1, 1 is far", {.encodings.depth = GLINT_DEPTH_DEVICE}},
+    {"depth in 32 bits of float", "near to far as 0 to 1", {.encodings.depth = GLINT_DEPTH_DEVICE}},
     {"reversed depth in 32 bits of float", "near to far as 1 to 0", {.encodings.depth = GLINT_DEPTH_REVERSED}},
     {"depth in 24 bits", "near to far as 0 to 2^24 - 1", {.encodings.depth = GLINT_DEPTH_DEVICE, .depth_bits = 24}},
     {"reversed depth in 24 bits", "near to far as 2^24 - 1 to 0", {.encodings.depth = GLINT_DEPTH_REVERSED, .depth_bits = 24}},
     {"depth in 16 bits", "near to far as 0 to 65535", {.near_m = 0.3, .encodings.depth = GLINT_DEPTH_DEVICE, .depth_bits = 16}},
     {"reversed depth in 16 bits", "near to far as 65535 to 0", {.near_m = 0.3, .encodings.depth = GLINT_DEPTH_REVERSED, .depth_bits = 16}},
     {"near 10^-3 and far 10^6", "reversed depth", {.near_m = 1e-3, .far_m = 1e6, .encodings.depth = GLINT_DEPTH_REVERSED}},
-    {"near 10^-3 and far 10^6, the other way", "depth with little left for what is far", {.near_m = 1e-3, .far_m = 1e6, .encodings.depth = GLINT_DEPTH_DEVICE}},
+    {"near 10^-3 and far 10^6, reversed", "depth with few steps for far surfaces", {.near_m = 1e-3, .far_m = 1e6, .encodings.depth = GLINT_DEPTH_DEVICE}},
     {"near 10^-3 and far infinite", "reversed depth without a far plane", {.near_m = 1e-3, .encodings.depth = GLINT_DEPTH_REVERSED_INFINITE}},
-    {"far infinite, the other way", "depth whose 1 is infinitely far", {.far_m = INFINITY, .encodings.depth = GLINT_DEPTH_DEVICE}},
+    {"far infinite, reversed", "depth whose 1 is infinitely far", {.far_m = INFINITY, .encodings.depth = GLINT_DEPTH_DEVICE}},
     {"field of view of 1 degree", "a telephoto lens", {.target = {5.2, 1e-3, 1e-3}, .fov_y_rad = 1 * DEG}},
     {"field of view of 150 degrees", "the widest of lenses", {.width = 144, .height = 96, .fov_y_rad = 150 * DEG}},
     {"off-centre projection", "half of a picture in two", {.width = 144, .height = 96, .shift = {0.7, -0.4}}},

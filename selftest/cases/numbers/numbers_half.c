@@ -40,7 +40,7 @@ size_t numbers_half_count(void) {
 struct glint_selftest_case numbers_half_get(size_t i) {
     return (struct glint_selftest_case){
         cases[i].name,
-        "stored in half as in float, but for rounding, and with the same decisions",
+        "images in half equal those in float except for rounding, with the same decisions",
         NULL,
         "absolute",
         cases[i].stores * exp2(-11),

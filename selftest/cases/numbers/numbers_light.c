@@ -166,7 +166,7 @@ static bool check_report(const struct case_context *context, double bad, struct 
 /* ---- The cases ---- */
 
 /* clang-format off */
-#define FACTOR "a factor on all light, in float: the picture is as many times as bright", "absolute", 6e-7, "a product rounds in ten places, from the capture to the composed picture, by 6e-8 each"
+#define FACTOR "a factor on all light, in float: the picture is multiplied by it", "absolute", 6e-7, "a product rounds in ten places, from the capture to the composed picture, by 6e-8 each"
 #define REPORT "count, first pass, first pixel and channel", "exact", 0, "a count"
 static const struct light_case {
     const char *name, *what, *unit;
@@ -180,11 +180,11 @@ static const struct light_case {
     {"light times 10^6", FACTOR, 1e6, check_factor},
     {"light times 10^30", FACTOR, 1e30, check_factor},
     {"no light", "nothing comes of nothing", "absolute", 0, "sums and products of 0", 0, check_even},
-    {"denormal light", "10^-40 everywhere: at most its reflection more, and no less than 0", "absolute", 1.5e-45, "a denormal's last bit, beyond the environment BRDF's fit, which may send 0.5 % too much; devices may make 0 of any", 1e-40, check_even},
-    {"light beyond half", "10^6 everywhere, in half: 65504 everywhere, and every value is counted", "absolute", 0, "clamped, not rounded", 1e6, check_clamped},
+    {"denormal light", "10^-40 everywhere: the picture has at most the reflection added, and is not negative", "absolute", 1.5e-45, "a denormal's last bit, beyond the environment BRDF's fit, which may send 0.5 % too much; devices may make 0 of any", 1e-40, check_even},
+    {"light beyond half", "10^6 everywhere, in half: 65504 everywhere, and every clamped value is counted", "absolute", 0, "clamped, not rounded", 1e6, check_clamped},
     {"report of NaN", REPORT, NAN, check_report},
     {"report of infinite light", REPORT, INFINITY, check_report},
-    {"report of good light", "nothing is reported of 10^6 in float", "exact", 0, "a count", 1e6, check_report},
+    {"report of good light", "10^6 in float is not reported", "exact", 0, "a count", 1e6, check_report},
 };
 /* clang-format on */
 

@@ -122,22 +122,22 @@ static void check_march(struct case_run *run, const struct replay_case *c, struc
 #define BOTH(name, what, number) MARCH(name, what, number, CUBE_ALONE), EXACT(name, what, number, CUBE_ALONE)
 
 static const struct replay_case items[] = {
-    BOTH("a room",                   "every way from all over it",                         FROM_AROUND + RAYS * RAYS_ANY + SCENE * ROOM),
+    BOTH("a room",                   "rays of all directions from all over it",                         FROM_AROUND + RAYS * RAYS_ANY + SCENE * ROOM),
     BOTH("a room, along the view's axes", "from all over it",                              FROM_AROUND + RAYS * RAYS_AXES + SCENE * ROOM),
-    BOTH("to edges and corners",     "from all over a room, along and between its axes",   FROM_AROUND + RAYS * RAYS_CORNERS + SCENE * ROOM),
+    BOTH("to edges and corners",     "rays from all over a room, along and between its axes",   FROM_AROUND + RAYS * RAYS_CORNERS + SCENE * ROOM),
     BOTH("edges and corners of a cube map", "rays from its centre through them",           FROM_CENTER + RAYS * RAYS_CORNERS + SCENE * ROOM),
     BOTH("from a cube map's centre", "1e-6 to 1e-3 m beside it",                           FROM_CENTER + RAYS * RAYS_ANY + SCENE * ROOM),
     BOTH("all sky",                  "no cube map has a surface",                          FROM_AROUND + RAYS * RAYS_ANY + SCENE * SKY),
-    EXACT("a room, coarse texels skipped", "every way from all over it, over coarse texels where nothing is near", FROM_AROUND + RAYS * RAYS_ANY + SCENE * ROOM, CUBE_ALONE " cubemap_mips=plain cubemap_mips.join=nearest cubemap_trace.skip=true"),
-    MARCH("one texel in the sky",    "all of the cube maps but a texel of each is sky",     FROM_AROUND + RAYS * RAYS_ANY + SCENE * SPECK, CUBE_ALONE),
-    MARCH("from inside the mass",    "surfaces that the cube maps have nearer",            FROM_MASS + RAYS * RAYS_ANY + SCENE * ROOM, CUBE_ALONE),
+    EXACT("a room, coarse texels skipped", "rays of all directions from all over it, over coarse texels where nothing is near", FROM_AROUND + RAYS * RAYS_ANY + SCENE * ROOM, CUBE_ALONE " cubemap_mips=plain cubemap_mips.join=nearest cubemap_trace.skip=true"),
+    MARCH("one texel in the sky",    "cube maps of sky except one texel each",     FROM_AROUND + RAYS * RAYS_ANY + SCENE * SPECK, CUBE_ALONE),
+    MARCH("from inside the mass",    "rays from surfaces that are nearer in the cube maps",            FROM_MASS + RAYS * RAYS_ANY + SCENE * ROOM, CUBE_ALONE),
     MARCH("from outside of all cube maps", "30 to 60 m away",                              FROM_OUTSIDE + RAYS * RAYS_ANY + SCENE * ROOM, CUBE_ALONE),
-    MARCH("shadows, holes",          "blocks before the walls of a room without all of its walls: chains of cube maps", FROM_AROUND + RAYS * RAYS_ANY + SCENE * PILLARS, CUBE_ALONE),
+    MARCH("shadows, holes",          "blocks in front of the walls of a room with walls missing: chains of cube maps", FROM_AROUND + RAYS * RAYS_ANY + SCENE * PILLARS, CUBE_ALONE),
     MARCH("shadows, holes, a sky",   "the same with a sky of its own",                     FROM_AROUND + RAYS * RAYS_ANY + SCENE * PILLARS + OWN_SKY, CUBE_ALONE),
     MARCH("shadows, rough",          "the same in fewer steps",                            FROM_AROUND + RAYS * RAYS_ANY + SCENE * PILLARS + ROUGH, CUBE_ALONE),
     MARCH("shadows, to nothing",     "rays that no cube map can follow are black",         FROM_AROUND + RAYS * RAYS_ANY + SCENE * PILLARS, CUBE_ALONE " cubemap_trace.fallback=black"),
     MARCH("shadows, nearest texels", "without interpolation",                              FROM_AROUND + RAYS * RAYS_ANY + SCENE * PILLARS, CUBE_ALONE " cubemap_trace.bilinear=false"),
-    MARCH("shadows, no second look", "neither secant nor verification",                    FROM_AROUND + RAYS * RAYS_ANY + SCENE * PILLARS, CUBE_ALONE " cubemap_trace.verify=false cubemap_trace.secant=false"),
+    MARCH("shadow regions, without verification", "neither secant nor verification",                    FROM_AROUND + RAYS * RAYS_ANY + SCENE * PILLARS, CUBE_ALONE " cubemap_trace.verify=false cubemap_trace.secant=false"),
     MARCH("shadows, onwards",        "no step back after a change, thickness away from the centre", FROM_AROUND + RAYS * RAYS_ANY + SCENE * PILLARS, CUBE_ALONE " cubemap_trace.step_back=false cubemap_trace.mass=radial"),
     MARCH("on an inner volume's face", "every start lies on it",                           FROM_AROUND + RAYS * RAYS_ANY + SCENE * PILLARS + VOLUME * GLINT_VOLUME_HULL, CUBE_ALONE),
     MARCH("in a box that is empty",  "inner volumes of six planes",                        FROM_AROUND + RAYS * RAYS_ANY + SCENE * ROOM + VOLUME * GLINT_VOLUME_BOX, CUBE_ALONE),
@@ -148,9 +148,9 @@ static const struct replay_case items[] = {
     EXACT("along the view's axes, faces of 48", "rays that have hardly more to turn than a step", FROM_AROUND + RAYS * RAYS_AXES + SCENE * ROOM + FACES * 48, CUBE_ALONE),
     BLOCKS("", 0, false), BLOCKS_AT(3, true), BLOCKS_AT(17, false), BLOCKS_AT(33, true), BLOCKS_AT(48, true),
     BLOCKS_AT(56, true), BLOCKS_AT(64, true), BLOCKS_AT(65, true), BLOCKS_AT(72, true), BLOCKS_AT(80, true),
-    MARCH("shadows, by strides",     "ever shorter ones, regained where closing in came to nothing", FROM_AROUND + RAYS * RAYS_ANY + SCENE * PILLARS, CUBE_ALONE CUBE_STRIDES),
-    MARCH("shadows, exact surfaces", "whatever it goes behind without a jump is hit",      FROM_AROUND + RAYS * RAYS_ANY + SCENE * PILLARS, CUBE_ALONE " cubemap_trace.surfaces=exact"),
-    MARCH("after the screen",        "from where the screen's ray stopped, and the cube map that is nearest there", FROM_WALL + RAYS * RAYS_ANY + SCENE * PILLARS, ""),
+    MARCH("shadows, by strides",     "shrinking steps, restored after a refinement without a hit", FROM_AROUND + RAYS * RAYS_ANY + SCENE * PILLARS, CUBE_ALONE CUBE_STRIDES),
+    MARCH("shadows, exact surfaces", "every surface that a ray goes behind without a jump is hit",      FROM_AROUND + RAYS * RAYS_ANY + SCENE * PILLARS, CUBE_ALONE " cubemap_trace.surfaces=exact"),
+    MARCH("after the screen",        "from where the screen ray stopped, in the cube map that is nearest there", FROM_WALL + RAYS * RAYS_ANY + SCENE * PILLARS, ""),
 };
 /* clang-format on */
 

@@ -90,9 +90,9 @@ static void check_samples(struct case_run *run, const struct replay_case *c, str
 /* clang-format off */
 #define CUBES "downsample=none screen_trace=linear screen_trace.length_m=0 cubemap_active=nearest cubemap_select=nearest cubemap_trace=march "
 static const struct replay_case items[] = {
-    {"one texel in a chain",  "coarser levels are the mean of what is not sky: that texel, and nothing beside it", "relative", 2.4e-7, "a mean of one, divided by its own weight", check_chain, CUBES "cubemap_mips=plain", 0, false},
-    {"one texel in a cocoon", "is all that there is to fill the sky with, in every level", "relative", 2e-6, "means of two reciprocals and their reciprocal, Vulkan's 2.5 ULP each, in five levels after each other", check_cocoon, CUBES "cocoon=max", 0, false},
-    {"samples of a cocoon",   "of one texel: a ball, and nothing where all is sky",       "relative", 2e-6, "the same, once more divided", check_samples, CUBES "cocoon=max", 0, false},
+    {"one texel in a chain",  "coarser levels are the mean of the texels that are not sky: the value of that texel, and 0 elsewhere", "relative", 2.4e-7, "a mean of one, divided by its own weight", check_chain, CUBES "cubemap_mips=plain", 0, false},
+    {"one texel in a cocoon", "is the only value to fill the sky with, in every level", "relative", 2e-6, "means of two reciprocals and their reciprocal, Vulkan's 2.5 ULP each, in five levels after each other", check_cocoon, CUBES "cocoon=max", 0, false},
+    {"samples of a cocoon",   "of one texel: a sphere, and none where all is sky",       "relative", 2e-6, "the same, once more divided", check_samples, CUBES "cocoon=max", 0, false},
 };
 /* clang-format on */
 

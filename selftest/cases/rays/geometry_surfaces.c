@@ -211,12 +211,12 @@ static void check_pick(struct case_run *run, const struct replay_case *c, struct
 #define KOLMOGOROV "1.95/sqrt(4500), which one of a thousand samples of the true distribution passes"
 static const struct replay_case items[] = {
     {"roughness 0", "the normal itself, and no cone", "absolute", 4.8e-7, "four times 2^-23: Vulkan grants 2.5 ULP to a division, 2 to an inverse square root", check_smooth, DRAWN, RAYS_ANY, false},
-    {"roughness 1e-6", "normals that no float tells from the surface's own", "absolute", 7.2e-7, "the same, and three rounded products of a tangent frame and their sums", check_smooth, DRAWN, RAYS_ANY, false},
-    {"roughness 1", "GGX from above: even squared cosines, even azimuths", "Kolmogorov's distance", 0.029, KOLMOGOROV, check_roughest, DRAWN, RAYS_BACK, false},
+    {"roughness 1e-6", "normals that round to the surface's own normal", "absolute", 7.2e-7, "the same, and three rounded products of a tangent frame and their sums", check_smooth, DRAWN, RAYS_ANY, false},
+    {"roughness 1", "GGX from above: uniform squared cosines, uniform azimuths", "Kolmogorov's distance", 0.029, KOLMOGOROV, check_roughest, DRAWN, RAYS_BACK, false},
     {"drawn rays above the horizon", "GGX at grazing views, with half of its lobe as cones", "absolute", 2e-6, "sums of products of unit vectors, 2^-24 each; the arcs near a right angle", check_horizon, DRAWN "downsample.share=0.5", RAYS_GRAZING, false},
     {"drawn rays above the horizon, Blinn-Phong", "half-vectors at grazing views", "absolute", 2e-6, "sums of products of unit vectors, 2^-24 each", check_horizon, DRAWN "downsample.ndf=blinn_phong downsample.share=0.5", RAYS_GRAZING, false},
     {"drawn rays above the horizon, around the mirror's", "rays drawn around the reflection at grazing views", "absolute", 2e-6, "sums of products of unit vectors, 2^-24 each", check_horizon, DRAWN "downsample.lobe=reflection", RAYS_GRAZING, false},
-    {"stippled blocks", "checks, columns and rows of two depths: which pixel stands for four", "blocks", 0, "comparisons alone", check_pick, "downsample=pick", 1, false},
+    {"stippled blocks", "checks, columns and rows of two depths: which of four pixels is picked", "blocks", 0, "comparisons alone", check_pick, "downsample=pick", 1, false},
     {"blocks with rails", "one pixel of four is of the rail", "blocks", 0, "comparisons alone", check_pick, "downsample=pick", 2, false},
     {"blocks at edges", "of boards at all angles", "blocks", 0, "comparisons alone", check_pick, "downsample=pick", 0, false},
 };

@@ -3,6 +3,6 @@
 #include "cases/groups.h"
 #include "cases/rays/rays_lists.h"
 
-REPLAY_CASE_GROUP(geometry, "rays that are hard on arithmetic", &geometry_surfaces, &geometry_screen, &geometry_cubes,
-                  &geometry_hulls);
+REPLAY_CASE_GROUP(geometry, "rays in numerically difficult directions", &geometry_surfaces, &geometry_screen,
+                  &geometry_cubes, &geometry_hulls);
 REPLAY_CASE_GROUP(sizes, "pictures and cube maps of any size", &sizes_screen, &sizes_cubes);

@@ -101,7 +101,7 @@ static void check_pipeline(struct case_run *run, const struct replay_case *c, st
     "upscale=best_match resolve_sharp=hit temporal_sharp=clamped compose=brdf"
 #define BY_HIZ PIPELINE("screen_trace=hiz screen_trace.cells=65536 screen_trace.cells_lq=65536")
 #define BY_STEPS PIPELINE("screen_trace=linear")
-#define FLOOR "every texel's ray meets the wall where the closed form has it, and shows its light; every pixel is written, and finite"
+#define FLOOR "every ray hits the wall at the point of the closed form and returns its light; every pixel is written and finite"
 #define FLOOR_REASON "thirty roundings of 2^-24 of the wall's depth, a division being 2.5 ULP; light errs by 5e-4 in bilinear interpolation and twice 2.4e-4 as half floats: 2e-3 of that counts"
 #define RAYS(text, n, slow) {text ", in a pyramid", "rays of every direction between boards at all angles", SCREEN_UNIT, 5e-6, SCREEN_REASON, check_rays, SCREEN_HIZ, n, slow}
 #define WHOLE(text, use, n, slow) {text ", whole", FLOOR, "of the depth", 2e-6, FLOOR_REASON, check_pipeline, use, n, slow}

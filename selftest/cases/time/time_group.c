@@ -122,4 +122,5 @@ static bool time_run(const struct case_context *context, const bool *selected, s
     return ok;
 }
 
-const struct case_group time_group = {"time", "what frames take of those before them", time_count, time_get, time_run};
+const struct case_group time_group = {"time", "history and noise over consecutive frames", time_count, time_get,
+                                      time_run};

@@ -16,11 +16,11 @@ enum { CURVE, FLOOR, DRIFT, NUMBERS, CUT };
 
 /* clang-format off */
 const struct glint_selftest_case time_noise[NOISE_CASES] = {
-    {"noise of n frames", "a still camera's variance is 1/n of one frame's, n to 15; rays drawn by the pipeline", NULL, "relative", 0.18, "five standard deviations of 3.5 % of one variance of 2,048 rays: " ALARM " for each"},
-    {"noise's floor", "it settles at 1/31 of one frame's, which is 0.18 sigma at 15:1", NULL, "relative", 0.1, "five standard deviations: 3.5 % by the root of as many independent pictures as the frames hold, one in 15.5; at least three"},
+    {"noise of n frames", "the variance with a still camera is 1/n of one frame's, n up to 15; rays drawn by the pipeline", NULL, "relative", 0.18, "five standard deviations of 3.5 % of one variance of 2,048 rays: " ALARM " for each"},
+    {"noise's floor", "it converges to 1/31 of one frame's, which is 0.18 sigma at 15:1", NULL, "relative", 0.1, "five standard deviations: 3.5 % by the root of as many independent pictures as the frames hold, one in 15.5; at least three"},
     {"no drift", "the mean of all pixels after 256 frames is that of the rays; in half floats", NULL, "absolute", 0.012, "five standard deviations of 0.18 sigma/45, sigma 0.56, however a device rounds what it stores"},
     {"noise of frame numbers", "0, 1 and the last two: pairwise independent", NULL, "correlation", 0.11, "five standard deviations, 1/45 each: " ALARM},
-    {"cut through mafia3", "a frame after a cut has the bits that it has as the first of all, in every image", NULL, "images that differ", 0, "nothing else goes in"},
+    {"cut through mafia3", "a frame after a cut has the same bits as if it were the first frame, in every image", NULL, "images that differ", 0, "nothing else goes in"},
 };
 /* clang-format on */
 

@@ -132,16 +132,16 @@ static const struct shot list[] = {
     {"mean of mirrors, 3:1", "or a quarter", {OPEN, "temporal_sharp.history=3"}, .sharp = true, .frames = 6, .stage = mirrors, .past = three, .bound = 5e-7, .reason = ONE},
     {"mean of mirrors, 1:1", "or a half", {OPEN, "temporal_sharp.history=1"}, .sharp = true, .frames = 4, .stage = mirrors, .past = fill_history, .bound = 5e-7, .reason = ONE},
     {"mirrors' history of none", "0 keeps nothing", {OPEN, "temporal_sharp.history=0"}, .sharp = true, .frames = 3, .stage = mirrors, .past = none, .bound = 0, .reason = "the frame's own bits"},
-    {"mirrors' rays that found nothing", "without a source there is no history; with half of one there is", {OPEN}, .sharp = true, .frames = 3, .stage = alphas, .bound = 5e-7, .reason = ONE},
+    {"mirrors' rays that found nothing", "alpha 0 gives no history; alpha 0.5 does", {OPEN}, .sharp = true, .frames = 3, .stage = alphas, .bound = 5e-7, .reason = ONE},
     {"mirrors after a cut", "nothing of the frames before it", {OPEN}, .sharp = true, .frames = 6, .stage = cut_mirrors, .past = nothing_at_4, .bound = 5e-7, .reason = ONE},
-    {"history within its neighbours", "held within mean and deviation of nine, the rougher the wider; beyond the limit, none", {NULL}, .sharp = true, .frames = 4, .stage = smooth_by_rows, .past = smooth_alone, .hold = hold, .bound = 1.2e-5, .reason = WINDOW},
-    {"narrowest window", "holds a mirror's history at the mean", {"temporal_sharp.window=0"}, .sharp = true, .frames = 4, .stage = mirrors, .hold = hold_at_mean, .bound = 2e-6, .reason = "nine roundings of colours below 2"},
+    {"history within its neighbours", "clamped to mean and deviation of nine neighbours, wider for rougher surfaces; no clamp beyond the limit", {NULL}, .sharp = true, .frames = 4, .stage = smooth_by_rows, .past = smooth_alone, .hold = hold, .bound = 1.2e-5, .reason = WINDOW},
+    {"narrowest window", "clamps the history of a mirror to the mean", {"temporal_sharp.window=0"}, .sharp = true, .frames = 4, .stage = mirrors, .hold = hold_at_mean, .bound = 2e-6, .reason = "nine roundings of colours below 2"},
     {"wider window", "one and a half deviations", {"temporal_sharp.window=1.5"}, .sharp = true, .frames = 4, .stage = mirrors, .hold = hold_wide, .bound = 1.2e-5, .reason = WINDOW},
-    {"neighbours without variance", "one bright colour, then another: the history is held at it, nothing is left of the first", {NULL}, .sharp = true, .frames = 5, .stage = bright, .hold = hold, .bound = 2.5e-4, .reason = "two ULP of 1000, and of 3000"},
-    {"neighbours all but alike", "noise of a sixteenth on 1000: as wide a window as on 1", {NULL}, .sharp = true, .frames = 4, .stage = bright_noise, .hold = hold, .bound = 2.5e-4, .reason = "two ULP of 1000: differences of the neighbours are exact"},
-    {"mirrors' colours that are none", "NaN and infinite: the history stays, held by those around that are", {NULL}, .sharp = true, .frames = 5, .stage = bad_colours, .now = only_finite, .hold = hold, .bound = 1.2e-5, .reason = WINDOW},
+    {"neighbours without variance", "one bright colour, then another: the history is clamped to the second one", {NULL}, .sharp = true, .frames = 5, .stage = bright, .hold = hold, .bound = 2.5e-4, .reason = "two ULP of 1000, and of 3000"},
+    {"neighbours nearly equal", "noise of a sixteenth on 1000: as wide a window as on 1", {NULL}, .sharp = true, .frames = 4, .stage = bright_noise, .hold = hold, .bound = 2.5e-4, .reason = "two ULP of 1000: differences of the neighbours are exact"},
+    {"mirrors' colours that are none", "NaN and infinite: the history stays, clamped by the valid neighbours", {NULL}, .sharp = true, .frames = 5, .stage = bad_colours, .now = only_finite, .hold = hold, .bound = 1.2e-5, .reason = WINDOW},
     {"mirrors that are none", "sky and a normal without length have no history", {OPEN}, .sharp = true, .frames = 4, .stage = some_sky, .past = no_sky, .bound = 5e-7, .reason = ONE},
-    {"mirrors' motion", "the history moves along, between pixels by halves; none from beyond the picture", {OPEN}, .sharp = true, .frames = 5, .stage = moves, .past = from_there, .bound = 2e-5, .reason = "places are rounded by 4e-6 of a pixel in either direction, between colours that are 2 apart"},
+    {"mirrors' motion", "the history follows by fractions of a pixel; none from outside of the picture", {OPEN}, .sharp = true, .frames = 5, .stage = moves, .past = from_there, .bound = 2e-5, .reason = "places are rounded by 4e-6 of a pixel in either direction, between colours that are 2 apart"},
 };
 /* clang-format on */
 

@@ -222,35 +222,35 @@ static void held_down(const struct frame *frame, size_t pixel, bool has_past, do
 
 /* clang-format off */
 static const struct shot list[] = {
-    {"running mean", "a still camera: each of n frames weighs 1/n up to 16 of them, then the new one 1/16", {ALONE}, .frames = 20, .bound = 1.6e-6, .reason = ONE},
-    {"mean of 256 frames", "none of them weighs more than another, the first not less than the last", {ALONE, "temporal.history=255"}, .summed = true, .frames = 256, .past = up_to_255,
+    {"running mean", "a still camera: n frames have equal weights up to 16, then the new one has 1/16", {ALONE}, .frames = 20, .bound = 1.6e-6, .reason = ONE},
+    {"mean of 256 frames", "all frames have equal weights", {ALONE, "temporal.history=255"}, .summed = true, .frames = 256, .past = up_to_255,
      .bound = 2e-4, .reason = ONE ", in each frame, of which the mean of n keeps n/2"},
     {"mean in halves", "is the nearest half, whether a device rounds or cuts what it stores", {ALONE}, .half = true, .frames = 20, .stage = colours_in_halves,
      .bound = 4.9e-4, .reason = "half of the last place of a half below 2, 2^-11, and " ONE},
-    {"one colour for ever", "variance zero: the mean neither rises nor falls in 48 frames", {ALONE}, .summed = true, .frames = 48, .stage = even_colour,
+    {"one colour for ever", "variance zero: the mean does not drift in 48 frames", {ALONE}, .summed = true, .frames = 48, .stage = even_colour,
      .bound = 9e-6, .reason = ONE ": 16 frames' of 0.7"},
     {"history of none", "0 keeps nothing", {ALONE, "temporal.history=0"}, .frames = 3, .past = nothing, .bound = 0, .reason = "the frame's own bits"},
-    {"history of one", "leaves half of the frame before", {ALONE, "temporal.history=1"}, .frames = 3, .past = fill_history, .bound = 1.6e-6, .reason = ONE},
-    {"after a cut", "nothing of the frames before it, and all of those after it", {ALONE}, .frames = 6, .stage = cut_at_4, .past = nothing_at_4, .bound = 1.6e-6, .reason = ONE},
-    {"after a gap", "frame numbers that do not follow are a cut", {ALONE}, .frames = 6, .stage = gap_at_4, .past = nothing_at_4, .bound = 1.6e-6, .reason = ONE},
-    {"frame number 0", "the first of all frames has a history as every other", {ALONE}, .frames = 4, .stage = from_0, .bound = 1.6e-6, .reason = ONE},
-    {"frame number 4294967295", "after the last number comes 0, and the history goes on", {ALONE}, .frames = 6, .stage = to_the_last, .bound = 1.6e-6, .reason = ONE},
+    {"history of one", "keeps half of the previous frame", {ALONE, "temporal.history=1"}, .frames = 3, .past = fill_history, .bound = 1.6e-6, .reason = ONE},
+    {"after a cut", "no history from before it, and full history after it", {ALONE}, .frames = 6, .stage = cut_at_4, .past = nothing_at_4, .bound = 1.6e-6, .reason = ONE},
+    {"after a gap", "frame numbers that are not consecutive are a cut", {ALONE}, .frames = 6, .stage = gap_at_4, .past = nothing_at_4, .bound = 1.6e-6, .reason = ONE},
+    {"frame number 0", "frame number 0 can have a history, too", {ALONE}, .frames = 4, .stage = from_0, .bound = 1.6e-6, .reason = ONE},
+    {"frame number 4294967295", "the next number is 0, and the history is used", {ALONE}, .frames = 6, .stage = to_the_last, .bound = 1.6e-6, .reason = ONE},
 
     {"colours that are none", "NaN, infinite and next to it: the history stays, with as many samples", {ALONE}, .frames = 6, .stage = bad_colours, .now = only_finite, .bound = 1.6e-6, .reason = ONE},
-    {"rays that found nothing", "are no history; those of half an alpha are", {ALONE}, .frames = 3, .stage = nothing_found, .past = nothing_to_remember, .bound = 1.6e-6, .reason = ONE},
-    {"surfaces that are none", "sky, a depth of 0, a normal without length: neither have nor are a history", {ALONE}, .frames = 8, .stage = sky_and_bad_surfaces, .past = surfaces_alone, .bound = 1.6e-6, .reason = ONE},
-    {"objects entering", "boards that move, nearer or turned: what they uncover and where they enter begins anew, they keep their own", {ALONE}, .frames = 12, .stage = boards, .past = what_it_was_on, .bound = 1.6e-6, .reason = ONE},
-    {"steps of depth", "a step within 2 % of the depth is the same surface, one beyond is another", {ALONE}, .frames = 6, .stage = depth_steps, .past = every_second_pair, .bound = 1.6e-6, .reason = ONE},
+    {"rays that found nothing", "are not used as history; those with an alpha of 0.5 are", {ALONE}, .frames = 3, .stage = nothing_found, .past = nothing_to_remember, .bound = 1.6e-6, .reason = ONE},
+    {"surfaces that are none", "sky, a depth of 0, a normal of length 0: they have no history and are not used as history", {ALONE}, .frames = 8, .stage = sky_and_bad_surfaces, .past = surfaces_alone, .bound = 1.6e-6, .reason = ONE},
+    {"objects entering", "moving boards: disoccluded pixels and pixels that enter restart, the boards keep their history", {ALONE}, .frames = 12, .stage = boards, .past = what_it_was_on, .bound = 1.6e-6, .reason = ONE},
+    {"steps of depth", "a difference of up to 2 % of the depth is the same surface, more is another", {ALONE}, .frames = 6, .stage = depth_steps, .past = every_second_pair, .bound = 1.6e-6, .reason = ONE},
     {"steps of normals", "a cosine of 0.91 is the same surface, one of 0.89 is another", {ALONE}, .frames = 6, .stage = turned_normals, .past = every_second_pair, .bound = 1.6e-6, .reason = ONE},
 
-    {"motion by pixels", "the history moves along; what comes in from beyond the picture has none", {ALONE}, .frames = 8, .stage = by_pixels, .past = from_pixels, .bound = 1.6e-6, .reason = ONE},
-    {"motion by parts of pixels", "the mean of the four around, of those that lie in the picture", {ALONE}, .frames = 8, .stage = by_parts, .past = from_parts,
+    {"motion by pixels", "the history follows; pixels from outside of the picture have none", {ALONE}, .frames = 8, .stage = by_pixels, .past = from_pixels, .bound = 1.6e-6, .reason = ONE},
+    {"motion by parts of pixels", "bilinear mean of the four texels, as far as they are in the picture", {ALONE}, .frames = 8, .stage = by_parts, .past = from_parts,
      .bound = 4e-5, .reason = "places are rounded by 4e-6 of a pixel in either direction, between colours that are 2 apart, and samples 15"},
     {"motion off the screen", "NaN, infinite, huge, one and a half pictures: no history", {ALONE}, .frames = 4, .stage = off_the_screen, .past = every_seventh, .bound = 1.6e-6, .reason = ONE},
 
-    {"samples for what is new", "where there is no history, those at the centres of four pluses, of like roughness, rough surfaces more", {"temporal.extra=true"}, .frames = 5, .stage = rough_by_rows, .past = nothing_at_4, .now = with_centres,
+    {"samples for what is new", "without a history, samples at the centres of four pluses with similar roughness, weighted more on rough surfaces", {"temporal.extra=true"}, .frames = 5, .stage = rough_by_rows, .past = nothing_at_4, .now = with_centres,
      .bound = 4e-6, .reason = ONE ", and a sum of five"},
-    {"single bright samples", "are held at three times what is around, on smoother surfaces less so; colours that are none are nothing", {"temporal=outliers"}, .frames = 4, .stage = hot_pixels, .now = held_down, .bound = 1.6e-4, .reason = ONE " times 100"},
+    {"single bright samples", "are clamped to three times their surroundings, less on smoother surfaces; invalid colours are ignored", {"temporal=outliers"}, .frames = 4, .stage = hot_pixels, .now = held_down, .bound = 1.6e-4, .reason = ONE " times 100"},
 };
 /* clang-format on */
 

@@ -143,16 +143,16 @@ static void jittered(struct frame *frame, int n) {
 
 /* clang-format off */
 static const struct shot list[] = {
-    {"camera across", "a wall goes by, its history with it by the cameras alone", {ALONE, CAMERAS, TURNS}, .frames = 6, .stage = pan, .past = surface_seen, .bound = 1e-4, .reason = PLACES},
-    {"camera forwards", "the wall grows, and its history with it", {ALONE, CAMERAS, TURNS}, .frames = 6, .stage = forward, .past = surface_seen, .bound = 1e-4, .reason = PLACES},
-    {"camera turning", "turns no view of the wall: as long a history as ever", {ALONE, CAMERAS}, .frames = 6, .stage = turn_camera, .past = surface_turned, .bound = 1e-4, .reason = PLACES},
-    {"behind the camera before", "what was not in front of it has no history, whatever its depth", {ALONE, CAMERAS, TURNS, "temporal.history_depth=10"}, .frames = 4, .stage = there_and_back, .past = surface_seen, .bound = 1e-4, .reason = PLACES},
-    {"views that turn", "the smoother, the shorter the history; a mirror has none", {ALONE, CAMERAS}, .frames = 8, .stage = pan_by_roughness, .past = surface_turned, .bound = 1e-4, .reason = PLACES},
-    {"reflections' places", "looked for as far behind the surface as the ray went: 0 to infinite", {ALONE, "temporal.reprojection=reflection"}, .frames = 6, .stage = reflections, .past = reflection_seen, .bound = 1e-4, .reason = PLACES},
-    {"jitter", "by the cameras: a camera that stands still resamples nothing", {ALONE, CAMERAS}, .frames = 12, .stage = jittered, .bound = 1e-4, .reason = PLACES},
-    {"jitter in motion vectors", "the same with vectors that hold it", {ALONE}, .frames = 12, .stage = jittered, .bound = 1e-4, .reason = PLACES},
-    {"views of mirrors that turn", "at full resolution, where the history is one of so many frames", {"temporal_sharp.clamp_history=false"}, .sharp = true, .frames = 4, .stage = shift_of_mirrors, .past = view_turned,
-     .bound = 2e-4, .reason = "the turn, 1.2e-4, is a difference of unit vectors that are rounded by 6e-8 and less 1e-6; a history of 5 to 10 weighs by it"},
+    {"camera across", "the camera moves sideways past a wall: the history follows by the cameras alone", {ALONE, CAMERAS, TURNS}, .frames = 6, .stage = pan, .past = surface_seen, .bound = 1e-4, .reason = PLACES},
+    {"camera forwards", "the camera approaches a wall: its history is scaled", {ALONE, CAMERAS, TURNS}, .frames = 6, .stage = forward, .past = surface_seen, .bound = 1e-4, .reason = PLACES},
+    {"camera turning", "does not rotate the view: the history keeps its length", {ALONE, CAMERAS}, .frames = 6, .stage = turn_camera, .past = surface_turned, .bound = 1e-4, .reason = PLACES},
+    {"behind the camera before", "points behind the previous camera have no history, whatever their depth", {ALONE, CAMERAS, TURNS, "temporal.history_depth=10"}, .frames = 4, .stage = there_and_back, .past = surface_seen, .bound = 1e-4, .reason = PLACES},
+    {"views that turn", "smoother surfaces have a shorter history; a mirror has none", {ALONE, CAMERAS}, .frames = 8, .stage = pan_by_roughness, .past = surface_turned, .bound = 1e-4, .reason = PLACES},
+    {"reflections' places", "reprojected as far behind the surface as the ray travelled: 0 to infinite", {ALONE, "temporal.reprojection=reflection"}, .frames = 6, .stage = reflections, .past = reflection_seen, .bound = 1e-4, .reason = PLACES},
+    {"jitter", "by the cameras: a still camera does not resample the history", {ALONE, CAMERAS}, .frames = 12, .stage = jittered, .bound = 1e-4, .reason = PLACES},
+    {"jitter in motion vectors", "the same with motion vectors that include it", {ALONE}, .frames = 12, .stage = jittered, .bound = 1e-4, .reason = PLACES},
+    {"views of mirrors that turn", "at full resolution, with a history of a given number of frames", {"temporal_sharp.clamp_history=false"}, .sharp = true, .frames = 4, .stage = shift_of_mirrors, .past = view_turned,
+     .bound = 2e-4, .reason = "the rotation, 1.2e-4, is a difference of unit vectors that are rounded by 6e-8, minus 1e-6; it determines the weight of a history of 5 to 10"},
 };
 /* clang-format on */
 

@@ -15,7 +15,7 @@ enum glint_target {
     GLINT_TARGET_TRUTH,     /* the path tracer's result for the scene itself, which the capture may carry */
     GLINT_TARGET_COUNT
 };
-const char *glint_target_name(enum glint_target answer); /* "reference", "truth" */
+const char *glint_target_name(enum glint_target target); /* "reference", "truth" */
 
 enum { GLINT_JUDGE_RAYS = 64 };
 struct glint_judge_options {
@@ -50,7 +50,7 @@ const uint8_t *glint_judge_surfaces(const struct glint_judge *judge);
 
 /* The target that a pipeline is compared with, as R G B (A); valid until the next load. *error receives the relative standard error of
    each pixel, or NULL if it is unknown. Fails with GLINT_ERROR_FORMAT if the capture has no truth. */
-const struct glint_pixels *glint_judge_target(struct glint_judge *judge, enum glint_target answer,
+const struct glint_pixels *glint_judge_target(struct glint_judge *judge, enum glint_target target,
                                               const struct glint_pipeline *pipeline, const float **error,
                                               glint_progress progress, void *user, struct glint_error *err);
 
@@ -64,7 +64,7 @@ struct glint_verdict {
     /* Errors over the reflecting pixels: first of all, then by class of surface. Without rows if there is no such target. Pixels that
        the pipeline does not cover count with the value that they have. */
     struct glint_metric_table errors[GLINT_TARGET_COUNT];
-    struct glint_error no_truth;    /* why there is no truth although the options ask for it */
+    struct glint_error no_truth;    /* why there is no truth although the options request it */
     struct glint_ends ends;         /* why rays ended; steps and fetches a ray */
     double steps_px, fetches_px;    /* steps and fetches of all rays of a frame, divided by the capture's pixels */
     struct glint_pixels reflection; /* all 0 if the passes that make it were dropped */
@@ -74,7 +74,7 @@ struct glint_verdict {
     double run_seconds, metric_seconds; /* wall-clock time of passes and readback, and of the comparison after it */
 };
 void glint_verdict_finish(struct glint_verdict *verdict);
-/* Runs the pipeline with diagnostics, executing only passes that earlier runs did not execute alike, and compares its reflection. */
+/* Runs the pipeline with diagnostics, executing only passes that earlier runs did not execute in the same way, and compares its reflection. */
 bool glint_judge_evaluate(struct glint_judge *judge, const struct glint_pipeline *pipeline, uint32_t lineage,
                           struct glint_verdict *verdict, glint_progress progress, void *user, struct glint_error *err);
 

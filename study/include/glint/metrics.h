@@ -98,7 +98,7 @@ struct glint_metric_options {
 #define GLINT_RESAMPLES 400
 
 /* A value and its 95 % confidence interval, by percentile bootstrap over tiles of pixels, since the errors of neighbours are correlated.
-   NAN if it was not asked for or cannot be computed. */
+   NAN if it was not requested or cannot be computed. */
 struct glint_figure {
     double value, low, high;
 };
@@ -121,9 +121,9 @@ struct glint_metric_table {
     double start_exposure, stop_exposure; /* the values used, f-stops */
     uint32_t exposures;                   /* number of exposures of HDR-FLIP; 0: not computed */
     uint32_t resamples, seed, tile_px, tiles;
-    /* One value a pixel, malloc'd; NULL if not asked for. */
+    /* One value a pixel, malloc'd; NULL if not requested. */
     float *flip, *hdr_flip;
-    double *resampled; /* [row][metric][resample], malloc'd, NULL unless asked for */
+    double *resampled; /* [row][metric][resample], malloc'd, NULL unless requested */
 };
 
 /* Fails if the images differ in size or have no channel in common. */

@@ -48,7 +48,7 @@ struct glint_stability_image {
     double flip_share;                      /* fraction of texels that flip, as a mean over the seeds */
     struct glint_stability_pixel worst[GLINT_STABILITY_WORST];
     size_t worst_count;
-    /* Forecast of overflow in half: the largest finite magnitude of the unperturbed frame, and where it is. */
+    /* Distance to overflow in half: the largest finite magnitude of the unperturbed frame, and where it is. */
     double peak;
     uint32_t peak_x, peak_y, peak_component;
     uint64_t overflowing, invalid; /* finite values beyond 65504; NaN, and infinite values except distances */

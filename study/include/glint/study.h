@@ -41,15 +41,15 @@ const struct glint_image *glint_study_reflection_image(struct glint_replay *repl
 /* The reflection of a run folder. */
 bool glint_study_run_reflection(struct glint_run *run, struct glint_pixels *pixels, struct glint_error *err);
 /* The capture's true reflection (part truth.reflection.LOBE) for the lobe that the pipeline draws rays from, as R G B. *error receives
-   the relative standard error of each pixel, malloc'd: channel `error`, 0 if the part lacks it, +inf where the truth is unknown (`weight`
+   the relative standard error of each pixel, malloc'd: channel `error`, 0 if the part does not have it, +inf where the truth is unknown (`weight`
    is 0). */
 bool glint_study_truth(struct glint_capture *capture, const struct glint_pipeline *pipeline,
                        struct glint_pixels *pixels, float **error, struct glint_error *err);
 /* The preset `reference` with those parameters of `pipeline` that define what is to be estimated: its lobe and its fog. */
 struct glint_pipeline *glint_study_reference(const struct glint_pipeline *pipeline, struct glint_error *err);
 
-/* Coverage of the last run's reflection: 1 for each pixel of which the run traced at least half, by the alpha of `reflection` times the
-   image of role CONTRIBUTION if the run makes one; otherwise 0. malloc'd, NULL on failure. */
+/* Coverage of the last run's reflection: 1 for each pixel that shows it with a weight of at least one half, which is the alpha of
+   `reflection` times the image of role CONTRIBUTION if the run makes one; otherwise 0. malloc'd, NULL on failure. */
 uint8_t *glint_study_coverage(struct glint_replay *replay, const struct glint_pixels *reflection,
                               struct glint_error *err);
 

@@ -144,7 +144,7 @@ static void draw_heading(struct drawing *d, const struct ray_records *records, c
 /* The record after the weights names the texel that they were combined into. */
 static void title_of(const struct ray_records *records, size_t next, char *text, size_t size) {
     const struct glint_probe_record *made = next < records->count ? &records->records[next] : NULL;
-    if (made && glint_probe_is(made, "made"))
+    if (made && glint_probe_is(made, "result"))
         snprintf(text, size, "%s level %.0f, texel %.0f,%.0f combines", image_of(made), draw_value(made, "level"),
                  draw_value(made, "texel_x"), draw_value(made, "texel_y"));
     else snprintf(text, size, "combines");
@@ -169,17 +169,17 @@ static void draw_weights(struct drawing *d, const struct ray_records *records, s
 }
 
 static void draw_layer(struct drawing *d, const struct ray_records *records, const struct glint_probe_record *layer) {
-    static const char *const names[][3] = {{"r", "g", "b"}, {"below_r", "below_g", "below_b"}};
-    const struct glint_probe_label under = glint_probe_label("image", (float)draw_value(layer, "under"));
+    static const char *const names[][3] = {{"r", "g", "b"}, {"lower_r", "lower_g", "lower_b"}};
+    const struct glint_probe_label lower = glint_probe_label("image", (float)draw_value(layer, "lower"));
     const double share =
-        (draw_value(layer, "share_r") + draw_value(layer, "share_g") + draw_value(layer, "share_b")) / 3;
-    draw_heading(d, records, "blends one colour over another");
+        (draw_value(layer, "alpha_r") + draw_value(layer, "alpha_g") + draw_value(layer, "alpha_b")) / 3;
+    draw_heading(d, records, "blends one layer over another");
     for (int k = 0; k < 2; k++) {
         double rgb[3];
         char text[128];
         for (int c = 0; c < 3; c++) rgb[c] = draw_value(layer, names[k][c]);
-        snprintf(text, sizeof text, "%s: %s, %s %s %s", k ? "below" : "above",
-                 k ? under.name ? under.name : "" : image_of(layer), number_text(rgb[0]), number_text(rgb[1]),
+        snprintf(text, sizeof text, "%s: %s, %s %s %s", k ? "lower layer" : "upper layer",
+                 k ? lower.name ? lower.name : "" : image_of(layer), number_text(rgb[0]), number_text(rgb[1]),
                  number_text(rgb[2]));
         draw_bar(d, 24, d->top + k * ROW, rgb, k ? 1 - share : share, text);
     }

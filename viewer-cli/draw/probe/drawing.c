@@ -8,9 +8,9 @@
 #include "io/table.h"
 
 const struct draw_decision draw_decisions[DRAW_DECISIONS] = {
-    {"front", "#3b7dd8"},   {"hit", "#1a9850"},    {"behind", "#d95f02"},  {"back_face", "#b5179e"},
-    {"absent", "#8d5a2b"},  {"finer", "#9aa5b1"},  {"hidden", "#a06cd5"},  {"closing", "#e6a817"},
-    {"resting", "#5c6b7a"}, {"unseen", "#c1121f"}, {"skipped", "#7fb3e6"}, {"sky", "#00a6c8"},
+    {"front", "#3b7dd8"},    {"hit", "#1a9850"},      {"behind", "#d95f02"},     {"back_face", "#b5179e"},
+    {"rejected", "#8d5a2b"}, {"descend", "#9aa5b1"},  {"behind_all", "#a06cd5"}, {"bisect", "#e6a817"},
+    {"at_start", "#5c6b7a"}, {"occluded", "#c1121f"}, {"skipped", "#7fb3e6"},    {"sky", "#00a6c8"},
 };
 
 static size_t decision_of(const struct glint_probe_record *record) {
