@@ -1,5 +1,5 @@
-/* What each image's contents depend on, as a hash, and which passes therefore have to execute. An image whose stored
-   hash is the wanted one is left as it is, and then nothing that only it needs is read or computed. */
+/* Hashes everything that the contents of an image depend on, and decides which passes have to execute. An image whose stored hash
+   equals the required one stays as it is, and whatever only it depends on is neither read nor computed. */
 #include "run.h"
 
 #include <stdlib.h>
@@ -24,7 +24,7 @@ static uint64_t table_key(const struct glint_table *table) {
     return mix_bytes(key, table->texels.u, (size_t)table->width * table->height * table->components * 4);
 }
 
-/* Cube maps in a file beside the capture: told apart by what the file holds. False when some are in the capture. */
+/* Cube maps in a file beside the capture are identified by its contents. False if some are in the capture itself. */
 static bool sibling_key(const struct run *run, uint64_t *key) {
     const struct glint_frame *frame = glint_capture_frame(run->source->capture);
     const double scale[] = {frame->pre_exposure, frame->metres_per_unit};
@@ -39,7 +39,7 @@ static bool sibling_key(const struct run *run, uint64_t *key) {
     return siblings;
 }
 
-/* The sky: told apart by its pixels, which are kept for the upload. */
+/* The sky is identified by its pixels, which are kept for the upload. */
 static bool sky_key(const struct run *run, const struct graph_image *image, uint64_t *key, struct glint_error *err) {
     struct glint_capture *capture = run->source->capture;
     struct channels *sky = &run->source->sky;
@@ -58,8 +58,8 @@ static bool sky_key(const struct run *run, const struct graph_image *image, uint
     return true;
 }
 
-/* What a shot's frames may share keeps its key, so that work on it is done once. Everything else is another with every
-   load, or where its work may be found again, with another capture. */
+/* Images that the frames of a shot may share keep their key, so that they are processed once. All others get a new key with every load,
+   or with another capture if results may be restored from the cache folder. */
 static bool capture_key(const struct run *run, size_t i, uint64_t *key, struct glint_error *err) {
     const struct graph_image *image = &run->graph->images[i];
     if (image->source == SOURCE_CAPTURE && image->row->size == GLINT_SIZE_SKY) return sky_key(run, image, key, err);
@@ -69,7 +69,7 @@ static bool capture_key(const struct run *run, size_t i, uint64_t *key, struct g
     return true;
 }
 
-/* Of an image that no shader of this run makes. Images of a run folder are read, and told apart by their pixels. */
+/* The key of an image that no shader of this run writes. Images of a run folder are read and identified by their pixels. */
 static bool input_key(struct run *run, size_t i, uint64_t *key, struct glint_error *err) {
     const struct graph_image *image = &run->graph->images[i];
     *key = mix_text(mix_number(2 + (uint64_t)image->source, (uint64_t)run->images[i]->image.desc.format), image->name);
@@ -99,7 +99,7 @@ static bool step_key(struct run *run, struct step *step, struct glint_error *err
                         block_width(run->sizes, pass), run->gpu->info.filters_together, err))
         return false;
     uint64_t key = mix_number(step->spirv.hash, run->options->float_precision);
-    /* The first constants switch diagnostics and probes on, which changes nothing else; what a user's shader makes of them is not known. */
+    /* The first constants switch diagnostics and probes on, which changes no other image; a user's shader may use them for anything. */
     const uint32_t skipped = step->pass->entry->shader ? 0 : 2;
     key = mix_bytes(key, step->constants.data + skipped, (step->constants.count - skipped) * sizeof(uint32_t));
     key = mix_bytes(key, step->constants.push, step->constants.push_count * sizeof(uint32_t));
@@ -137,7 +137,7 @@ static void decide_step(struct run *run, struct step *step, size_t place) {
     }
     if (run_restore(run, step)) step->execute = false;
     step->execute |= step->constants.probed;
-    /* What a pass of the loop reads from another one is there for one ray at a time. */
+    /* An image that one pass of the loop reads from another exists for one ray at a time. */
     for (size_t later = place + 1; later < run->graph->loop_end && place >= run->graph->loop_first; later++)
         step->execute |=
             run->steps[later].execute && glint_pass_depends(run->steps[later].pass->pass, step->pass->pass);
@@ -155,7 +155,7 @@ bool run_keys(struct run *run, struct glint_error *err) {
             run->keys[i] = table_key(tables_find(run->plan->tables, image->name));
         else if (image->source == SOURCE_HISTORY) run->keys[i] = run->images[i]->key;
         else if (image->source != SOURCE_MADE && !input_key(run, i, &run->keys[i], err)) return false;
-        if (image->source == SOURCE_RUN && !image->history) run->needed[i] = true; /* it is among the run's images */
+        if (image->source == SOURCE_RUN && !image->history) run->needed[i] = true;
     }
     for (size_t p = 0; p < graph->pass_count; p++) {
         struct step *step = &run->steps[p];

@@ -1,5 +1,5 @@
-/* Fills the images that no shader makes: decoded capture parts, tables, images of a run folder, fallback values. Pixels go
-   straight into mapped staging memory in the image's format. */
+/* Fills the images that no shader writes: decoded parts of the capture, tables, images of a run folder, fallback values. Pixels are
+   written directly to mapped staging memory in the image's format. */
 #include "run.h"
 
 #include <stdio.h>
@@ -10,12 +10,12 @@ static bool submit_upload(struct run *run, struct glint_error *err) {
     return device_submit(run->gpu, "uploading images", err);
 }
 
-/* Whether the image comes from parts of this role: ids, which are read as integers, apart from the others. */
+/* Whether the image comes from parts of this role. Ids are read as integers and therefore separately. */
 static bool comes_with(const struct graph_image *image, const char *role, bool ids) {
     return strcmp(image->row->role, role) == 0 && glint_format_is_uint(image->row->format) == ids;
 }
 
-/* The layers of an image that are needed; the others hold nothing. */
+/* The required layers of an image; the others stay undefined. */
 static void record_layers(const struct run *run, size_t i, VkDeviceSize offset, uint32_t first, uint32_t layers) {
     struct pool *pool = run->pool;
     struct pooled *image = run->images[i];
@@ -33,7 +33,7 @@ static void record_layers(const struct run *run, size_t i, VkDeviceSize offset, 
                                 false);
 }
 
-/* All images of the graph that one part of the capture fills: `role`'s, each into `layers` layers from `first`. */
+/* All images of the graph that one part of the capture fills: those of `role`, each into `layers` layers from `first`. */
 static bool upload_part(struct run *run, const struct glint_part_info *part, const char *role,
                         struct channels *channels, uint32_t first, uint32_t layers, struct glint_error *err) {
     struct pool *pool = run->pool;
@@ -53,7 +53,7 @@ static bool upload_part(struct run *run, const struct glint_part_info *part, con
         if (!channels->data && !channels_add_row(channels, image->row, err)) return false;
         offset += ((VkDeviceSize)width * rows * format_bytes(desc->format) + 15) & ~(VkDeviceSize)15;
     }
-    for (size_t c = 0; !channels->data && c < channels->count; c++) /* optional ones that this part lacks */
+    for (size_t c = 0; !channels->data && c < channels->count; c++) /* optional channels that this part does not have */
         if (!glint_part_has_channel(part, channels->names[c])) {
             free((char *)channels->names[c]);
             channels->names[c--] = channels->names[--channels->count];
@@ -74,7 +74,7 @@ static bool upload_part(struct run *run, const struct glint_part_info *part, con
                                   .to = (char *)pool->staging.map + offset,
                                   .row = image->row};
         pack_place(&packing, channels, image->row);
-        run->images[i]->key = 0; /* until all of it is there */
+        run->images[i]->key = 0; /* until it is complete */
         pack_texels(&packing, width, rows);
         struct bad_values *bad = &run->images[i]->levels[0].bad;
         if (first == 0) *bad = (struct bad_values){0};
@@ -101,7 +101,7 @@ static bool upload_cubemaps(struct run *run, const char *role, struct glint_erro
     return ok;
 }
 
-/* Values that are in memory already: tables and images of runs or of the engine. */
+/* Values that are in memory already: tables, and images of runs or of the engine. */
 static bool upload_values(struct run *run, size_t i, const void *values, struct glint_error *err) {
     struct pool *pool = run->pool;
     struct pooled *image = run->images[i];
@@ -123,13 +123,13 @@ static bool upload_values(struct run *run, size_t i, const void *values, struct 
     return ok;
 }
 
-/* A level is a part of its own, named as run folders name it. */
+/* A level is a separate part, named as in run folders. */
 static bool read_engine_level(struct run *run, size_t i, uint32_t l, void *data, struct glint_error *err) {
     const struct graph_image *image = &run->graph->images[i];
     const struct glint_image *level = &run->images[i]->levels[l].info;
     char name[160];
     struct glint_row row = *image->row;
-    row.source = image->row->channels; /* the engine names them as the declaration does */
+    row.source = image->row->channels; /* the engine uses the names of the declaration */
     struct channels channels = {0};
     snprintf(name, sizeof name, "engine.%.48s.%.80s", image->pass->slot, level->name);
     channels.part = glint_capture_find(run->source->capture, name);
@@ -184,7 +184,7 @@ static bool upload_ids(struct run *run, size_t i, struct glint_error *err) {
     return ok;
 }
 
-/* Captures fill several images from one part; the first image met brings the others along. */
+/* Captures fill several images from one part; the first of these images fills the others, too. */
 static bool upload_captured(struct run *run, size_t i, struct glint_error *err) {
     const struct graph_image *image = &run->graph->images[i];
     struct frame_source *source = run->source;
@@ -200,7 +200,7 @@ static bool upload_captured(struct run *run, size_t i, struct glint_error *err) 
     return ok;
 }
 
-/* What a pass leaves out holds nothing. */
+/* The fallback value of the faces that a limited pass skips. */
 static bool clear_left_out(struct run *run, size_t i, struct glint_error *err) {
     const struct graph_image *image = &run->graph->images[i];
     if (!plan_limits(run->plan, &run->graph->passes[image->maker])) return true;

@@ -1,9 +1,9 @@
-/* What rows DISPATCH go over: levels and texels. */
+/* The levels and texels that rows DISPATCH run over. */
 #include <math.h>
 
 #include "frame_plan.h"
 
-/* The finest level that is no wider than a parameter says. */
+/* The finest level that is no wider than the value of a parameter. */
 static int level_of_width(const struct graph_pass *pass, const struct image_desc *desc, const char *parameter) {
     const double width = *pipeline_value(pass->entry, parameter);
     int level = 0;

@@ -7,7 +7,7 @@
 
 #include "shared/work_list.h"
 
-/* Width and height of an image whose contents already exist; false for one that will be made on the device. */
+/* Width and height of an image whose contents already exist; false for one that the device will write. */
 static bool existing_size(const struct frame_plan *plan, const struct graph_image *image, uint32_t size[2]) {
     const struct glint_table *table = tables_find(plan->tables, image->name);
     size[0] = size[1] = 0;
@@ -100,7 +100,7 @@ bool plan_describe(const struct frame_plan *plan, const struct graph_image *imag
                                 .buffer = size_is_buffer(row->size)};
     if (plan->options->float_precision) desc->format = format_widened(row->format);
     if (image->source == SOURCE_FALLBACK && !image->blank) {
-        if (desc->buffer) desc->width = LIST_WIDTH; /* the header is there */
+        if (desc->buffer) desc->width = LIST_WIDTH; /* the header needs this width */
         return true;
     }
     uint32_t expected[2] = {0, 0}, found[2];
@@ -158,7 +158,7 @@ bool plan_describe(const struct frame_plan *plan, const struct graph_image *imag
                           image->source == SOURCE_RUN ? plan->options->inputs
                                                       : glint_capture_path(plan->source->capture),
                           image->name, expected[0], expected[1] * image_layers(desc), found[0], found[1]);
-    if (!expected[0] || !expected[1]) desc->layers = layers; /* nothing is active: a stand-in */
+    if (!expected[0] || !expected[1]) desc->layers = layers; /* no active cube map: a placeholder */
     else desc->width = expected[0], desc->height = expected[1];
     if (size_has_levels(row->size)) desc->levels = level_count(desc->width, desc->height);
     if (row->size == GLINT_SIZE_HALF_MIPS3 && desc->levels > 3) desc->levels = 3;

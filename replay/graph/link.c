@@ -18,7 +18,7 @@ static bool capture_has(struct glint_capture *capture, const struct glint_row *r
     return false;
 }
 
-/* "a, b": the variants of a slot that make an image. */
+/* "a, b": the variants of a slot that write an image. */
 static void name_makers(const char *slot, const char *image, char *text, size_t size) {
     size_t count, length = 0;
     const struct glint_pass *all = glint_passes(&count);
@@ -28,7 +28,7 @@ static void name_makers(const char *slot, const char *image, char *text, size_t 
             length += (size_t)snprintf(text + length, size - length, "%s%s", length ? ", " : "", all[i].variant);
 }
 
-/* `left_out`: the pipeline has no such slot; else it was not asked for. */
+/* `left_out`: the pipeline does not have the slot; otherwise it was not requested. */
 static void complain_missing(const struct graph_pass *reader, const char *image, const struct glint_pass *maker,
                              bool left_out, const struct glint_replay_options *options, struct faults *faults) {
     const char *inputs = options->inputs ? options->inputs : "no run was given for its inputs";
@@ -46,8 +46,8 @@ static void complain_missing(const struct graph_pass *reader, const char *image,
                    reader->pass->variant, image);
 }
 
-/* Where an image that pass `reader` reads comes from; adds it to the graph's images. `optional`: the row that says what
-   it is when no pass makes it, or NULL. */
+/* Finds the source of an image that pass `reader` reads, and adds it to the graph's images. `optional`: the row with the fallback value
+   if no pass writes it, or NULL. */
 static void link_read(struct graph *graph, size_t reader, const char *name, const struct glint_row *optional,
                       const struct graph_inputs *inputs, struct faults *faults) {
     struct graph_image *image = graph_find(graph, name);
@@ -59,7 +59,7 @@ static void link_read(struct graph *graph, size_t reader, const char *name, cons
     }
     struct graph_image fresh = {.name = name, .first_use = reader, .last_use = reader};
     const size_t maker = graph_maker(graph, name);
-    /* Dropped by the plan, it gets nothing; one merely not asked for has to come from somewhere. */
+    /* An image of a pass that the plan dropped has no source; one that was merely not requested needs one. */
     const bool dropped =
         maker < graph->pass_count &&
         (!inputs->options->passes || list_has(inputs->options->passes, graph->passes[maker].pass->slot));
@@ -91,7 +91,7 @@ static void link_read(struct graph *graph, size_t reader, const char *name, cons
     if (fresh.row) graph->images[graph->image_count++] = fresh;
 }
 
-/* What an image held at the end of the frame before. The image itself is kept for the next one. */
+/* The contents of an image at the end of the previous frame. The image itself is kept for the next frame. */
 static void link_history(struct graph *graph, size_t reader, const struct glint_row *row,
                          const struct graph_inputs *inputs, struct faults *faults) {
     struct graph_image *image = graph_find(graph, row->image), *known = graph_bound(graph, row);
@@ -126,7 +126,7 @@ static void link_history(struct graph *graph, size_t reader, const struct glint_
     graph_check_kind(graph->passes[reader].pass, row, fresh.row, faults);
 }
 
-/* What a dropped pass would have passed on as it is stands for what it would have made, for the next frame. */
+/* The input that a dropped pass would have passed on unchanged becomes its history for the next frame. */
 static void link_passed_on(struct graph *graph, const struct glint_pass *dropped) {
     for (size_t r = 0; r < dropped->row_count; r++) {
         const struct glint_row *row = &dropped->rows[r];
@@ -138,7 +138,7 @@ static void link_passed_on(struct graph *graph, const struct glint_pass *dropped
     }
 }
 
-/* What would have been made of the capture's image as it is, is that image. */
+/* The output of a dropped pass that would not have changed the capture's image is that image. */
 static void link_alias(struct graph *graph, size_t dropped, const struct graph_inputs *inputs, struct faults *faults) {
     const struct graph_pass *pass = &graph->passes[dropped];
     if (!pass->alias) return;
@@ -150,7 +150,7 @@ static void link_alias(struct graph *graph, size_t dropped, const struct graph_i
     image->wanted = !inputs->options->outputs || list_has(inputs->options->outputs, pass->alias->image);
 }
 
-/* Whether a row FACT is about the image, and does not hold. */
+/* Whether a row FACT names the image, and the fact does not hold. */
 static bool is_left_out(const struct graph_pass *pass, const char *image) {
     uint32_t fact = 0;
     for (size_t r = 0; r < pass->pass->row_count; r++) {
@@ -173,7 +173,7 @@ static void link_images(struct graph *graph, const struct graph_inputs *inputs, 
                 link_read(graph, i, names[n], row->optional && n == 0 ? row : NULL, inputs, faults);
             const struct graph_image *read = row->kind == GLINT_ROW_READ ? graph_find(graph, row->name) : NULL;
             if (read && read->source == SOURCE_RUN && size_is_array(read->row->size))
-                link_read(graph, i, cubemap_order_image(), NULL, inputs, faults); /* how many cube maps there are */
+                link_read(graph, i, cubemap_order_image(), NULL, inputs, faults); /* contains the number of cube maps */
             if (read) graph_check_kind(pass->pass, row, read->row, faults);
             if (!glint_row_is_output(row)) continue;
             const bool diagnostic = row->kind == GLINT_ROW_DIAGNOSTIC;
@@ -189,7 +189,7 @@ static void link_images(struct graph *graph, const struct graph_inputs *inputs, 
                 .last_use = i};
         }
     }
-    for (size_t i = 0; i < graph->pass_count; i++) /* once it is known what is made */
+    for (size_t i = 0; i < graph->pass_count; i++) /* after it is known which images are written */
         for (size_t r = 0; graph->passes[i].runs && r < graph->passes[i].pass->row_count; r++)
             if (graph->passes[i].pass->rows[r].kind == GLINT_ROW_HISTORY)
                 link_history(graph, i, &graph->passes[i].pass->rows[r], inputs, faults);
