@@ -7,11 +7,7 @@ import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-<<<<<<< HEAD
-# Strings that are something else where they stand, by file.
-=======
 # Words with another meaning in these files.
->>>>>>> comments
 EXCEPTIONS = {
     "replay/include/glint/replay.h": {"none"},  # disables a slot; also a variant of downsample
     "replay/plan/survey_record.c": {"none"},  # a kind of motion
@@ -19,27 +15,18 @@ EXCEPTIONS = {
     "study/shown/ends.c": {"sky"},  # the source of a reflection
     "study/shown/regions.c": {"hit", "sky"},  # the kind of end of a mirror ray
 }
-<<<<<<< HEAD
 # Slots whose names are also what replay/ calls things of its own: the survey, and layers of a capture.
 OWN_WORDS = {"survey", "planar", "water"}
 # Roles and size classes, some of which are called after images.
 DECLARED = re.compile(r"^GLINT_(ROLE|SIZE)_[A-Z_]+$")
-# JSON's keys are the words of run.json. These calls take keys as literals; what json_string makes is a value.
-=======
 # JSON keys are the terms of run.json. These calls take literal keys; the argument of json_string is a value.
->>>>>>> comments
 KEYED = re.compile(r"\bjson_(?:object_\w+|pack)\s*\(")
 STRING = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
 
 
 def registry():
-<<<<<<< HEAD
     """Every name that the passes declare, and which of them are slots."""
     names, slots = set(), set()
-=======
-    """All names that the passes declare."""
-    names = set()
->>>>>>> comments
     for path in (ROOT / "passes").rglob("*.pass.h"):
         slot, variant = path.parent.name, path.name.removesuffix(".pass.h")
         names |= {slot, variant, f"{slot}/{variant}"}

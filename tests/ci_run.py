@@ -32,8 +32,8 @@ def run(demo, test, readme=None):
 class Tests:
     def test_runs_the_commands_of_the_readme_in_their_order(self):
         assert run("echo pictures", "echo 12 passed, 0 failed, 1 skipped") == (0, ["demo", "test"], "12 passed, 0 failed, 1 skipped")
-        told = "text\n\n    ./dev test     # this\n    ./dev demo && ./dev test\n\ntext\n\n    ./dev install\n"
-        assert run("echo pictures", "echo 3 passed, 0 failed", told)[:2] == (0, ["test", "demo", "test"])
+        report = "text\n\n    ./dev test     # this\n    ./dev demo && ./dev test\n\ntext\n\n    ./dev install\n"
+        assert run("echo pictures", "echo 3 passed, 0 failed", report)[:2] == (0, ["test", "demo", "test"])
 
     def test_stops_at_the_first_failure(self):
         assert run("exit 3", "echo 12 passed, 0 failed") == (1, ["demo"], "0 passed, 1 failed")

@@ -93,10 +93,10 @@ def time_sweep(options, folder):
     sweep, _ = measured([options.glint, "sweep", capture, "-o", swept, "--reference", "truth", "--no-pictures", "--repeat", str(SWEPT_ROUNDS),
                          *(word for axis in SWEPT for word in ("--vary", axis))])
     with open(os.path.join(swept, "points.json"), encoding="utf-8") as text:
-        told = json.load(text)
-    if len(told["points"]) != SWEPT_POINTS:
-        sys.exit(f"bench: a sweep of {len(told['points'])} points, expected {SWEPT_POINTS}")
-    metrics = [p["captures"][0]["metric_seconds"] for p in told["points"]]
+        report = json.load(text)
+    if len(report["points"]) != SWEPT_POINTS:
+        sys.exit(f"bench: a sweep of {len(report['points'])} points, expected {SWEPT_POINTS}")
+    metrics = [p["captures"][0]["metric_seconds"] for p in report["points"]]
     return {"points": SWEPT_POINTS, "rounds": SWEPT_ROUNDS, "sweep_s": sweep - sum(metrics), "replay_s": spread(whole), "metrics_s": spread(metrics)}
 
 

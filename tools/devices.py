@@ -31,8 +31,8 @@ def weights(glint, capture, folder, *more):
     """The largest errors of filtered lookups compared with exact weights, and with weights of 8 bits, relative to the texels' difference."""
     made = folder / "filter"
     replay(glint, capture, made, "mafia3", "float", "--shader", f"resolve={HERE.parent / 'tests/filter.comp'}", "--outputs", "reflection_half", *more)
-    told = json.loads(run(glint, "info", next(made.glob("*-resolve.exr")), "--json"))
-    found = {row["name"]: row["range"]["max"] for row in told["parts"][0]["channels"]}
+    report = json.loads(run(glint, "info", next(made.glob("*-resolve.exr")), "--json"))
+    found = {row["name"]: row["range"]["max"] for row in report["parts"][0]["channels"]}
     shutil.rmtree(made)
     return {"exact": found["R"], "eight_bits": found["G"]}
 
@@ -63,9 +63,9 @@ def difference(glint, a, b):
 def flips(folder, image, places):
     """The number of these pixels whose decision some seed changes."""
     found = 0
-    told = json.loads((folder / "run.json").read_text())
-    for row in (row for p in told["passes"] for row in p["images"] if row["name"] == image):
-        parts = [i["name"] for p in told["passes"] for i in p["images"] if i["file"] == row["file"]]
+    report = json.loads((folder / "run.json").read_text())
+    for row in (row for p in report["passes"] for row in p["images"] if row["name"] == image):
+        parts = [i["name"] for p in report["passes"] for i in p["images"] if i["file"] == row["file"]]
         for x, y in places:
             with tempfile.NamedTemporaryFile(suffix=".exr") as cut:
                 run("oiiotool", folder / row["file"], "--subimage", parts.index(image), "--crop", f"1x1+{x}+{y}", "--ch", "flips", "-o", cut.name)
@@ -76,16 +76,16 @@ def flips(folder, image, places):
 
 def census_of(glint, a, b, stable):
     """stable(): the folder of glint stability, which is run where rays end differently."""
-    told = difference(glint, a, b)
+    report = difference(glint, a, b)
     rows = []
-    for image in told["images"]:
+    for image in report["images"]:
         if ".level" in image["name"] or "pixels" not in image or image["unit"] in ("steps", "fetches"):
             continue
         row = {key: image[key] for key in ("slot", "name", "unit", "pixels", "differing", "failed", "rms", "largest")}
         if image["unit"] == "end reason" and image["differing"]:
             row["ties"] = flips(stable(), image["name"], image["places"])
         rows.append(row)
-    return {"settings": told.get("settings", []), "images": rows}
+    return {"settings": report.get("settings", []), "images": rows}
 
 
 def census(args):

@@ -97,17 +97,17 @@ def main():
     parser.add_argument("glint")
     parser.add_argument("gpu_paraboloid")
     parser.add_argument("-o", "--docs", default="docs", type=pathlib.Path)
-    given = parser.parse_args()
+    args = parser.parse_args()
     times = Times("gtav")
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
-        rows, sizes = lake(given.glint, folder, given.docs, times)
-        looked_up = lookups(given.glint, folder, times)
-    map_rows, texel, seams = paraboloids(given.gpu_paraboloid)
-    (given.docs / "gtav.md").write_text(f"""# GTA V's reflections
+        rows, sizes = lake(args.glint, folder, args.docs, times)
+        looked_up = lookups(args.glint, folder, times)
+    map_rows, texel, seams = paraboloids(args.gpu_paraboloid)
+    (args.docs / "gtav.md").write_text(f"""# GTA V's reflections
 
 Written by `./dev docs`; do not edit. Scenes at {SIZE}, cube maps of {CUBE}²; errors are means of |found − true|/(found + true + 0.05).
-{times.told()}
+{times.report()}
 ## Water
 
 `lake` against its path traced picture (`scene`: Fresnel's and Snell's formulas, both rays followed to their ends), pixels of water

@@ -59,9 +59,9 @@ def trust(program, captures, scenes, wanted, times):
         command += ['hiz', *words.split(), ',']
     found = [[json.loads(line) for line in run(program, capture, *command[:-1]).splitlines()][1:] for capture in captures]
     rows = []
-    for (name, words), *told in zip(wanted, *found):
-        cells = [f"{100 * r['hits'] / r['rays']:.1f}, {100 * r['recall']:.1f}, {100 * r['precision']:.1f}" for r in told]
-        rows.append([name, *cells, f"{sum(r['fetches'] for r in told) / len(told):.1f}", *times.cells('street', words)])
+    for (name, words), *report in zip(wanted, *found):
+        cells = [f"{100 * r['hits'] / r['rays']:.1f}, {100 * r['recall']:.1f}, {100 * r['precision']:.1f}" for r in report]
+        rows.append([name, *cells, f"{sum(r['fetches'] for r in report) / len(report):.1f}", *times.cells('street', words)])
     return table(['settings', *(f'{scene}: coverage, recall, precision, %' for scene in scenes), 'texture fetches per ray', *(f'{head}, street' for head in times.heads)], rows)
 
 
@@ -108,23 +108,23 @@ def main():
     parser.add_argument('glint')
     parser.add_argument('program')
     parser.add_argument('-o', '--docs', default='docs', type=pathlib.Path)
-    given = parser.parse_args()
+    args = parser.parse_args()
     times, text = Times('kf2'), pathlib.Path(__file__).with_name('kf2.md.in').read_text()
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
 
         def captures(scenes, *more):
-            return [sample(given.glint, scene, folder, SIZE, CUBE, *more) for scene in scenes]
+            return [sample(args.glint, scene, folder, SIZE, CUBE, *more) for scene in scenes]
 
         plain = captures(SCENES, '--truth', TRUTH)
-        text = text.replace('@TRUST@\n', trust(given.program, plain, SCENES, TRUST, times)).replace('@COLOUR@\n', colour(given.glint, plain, times))
+        text = text.replace('@TRUST@\n', trust(args.program, plain, SCENES, TRUST, times)).replace('@COLOUR@\n', colour(args.glint, plain, times))
         finished = captures(FINISHED_SCENES, '--truth', FINISHED, '--finished', FINISHED)
-        text = text.replace('@DEFERRED@\n', deferred(given.glint, finished))
-        lookups(given.glint, finished[1], folder, given.docs)
+        text = text.replace('@DEFERRED@\n', deferred(args.glint, finished))
+        lookups(args.glint, finished[1], folder, args.docs)
         front = captures(FRONT_SCENES, '--truth', TRUTH, '--finished', FINISHED, '--foreground')
-        text = text.replace('@FRONT@\n', trust(given.program, front, FRONT_SCENES, FRONT, Times()))
-        attenuations(given.glint, front[0], folder, given.docs)
-    (given.docs / 'kf2.md').write_text(text.replace('@TIMES@', times.told()))
+        text = text.replace('@FRONT@\n', trust(args.program, front, FRONT_SCENES, FRONT, Times()))
+        attenuations(args.glint, front[0], folder, args.docs)
+    (args.docs / 'kf2.md').write_text(text.replace('@TIMES@', times.report()))
 
 
 if __name__ == '__main__':

@@ -102,22 +102,22 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument('glint')
     parser.add_argument('-o', '--docs', default='docs', type=pathlib.Path)
-    given = parser.parse_args()
+    args = parser.parse_args()
     times, text = Times('mafia_de'), pathlib.Path(__file__).with_name('mafia_de.md.in').read_text()
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
 
         def captures(scenes, *more):
-            return [sample(given.glint, scene, folder, SIZE, CUBE, '--truth', TRUTH, *more) for scene in scenes]
+            return [sample(args.glint, scene, folder, SIZE, CUBE, '--truth', TRUTH, *more) for scene in scenes]
 
         still = captures(SCENES)
-        text = text.replace('@COLOUR@\n', colour(given.glint, still, SCENES, COLOUR, times))
-        levels(given.glint, still[1], folder, given.docs)
+        text = text.replace('@COLOUR@\n', colour(args.glint, still, SCENES, COLOUR, times))
+        levels(args.glint, still[1], folder, args.docs)
         moved = captures(MOVED_SCENES, *MOVED)
-        text = text.replace('@MOVING@\n', colour(given.glint, moved, MOVED_SCENES, MOVING, Times()))
-        previous(given.glint, moved[1], folder, given.docs)
-        text = text.replace('@GLASS@\n', glass(given.glint, folder, times))
-    (given.docs / 'mafia_de.md').write_text(text.replace('@TIMES@', times.told()))
+        text = text.replace('@MOVING@\n', colour(args.glint, moved, MOVED_SCENES, MOVING, Times()))
+        previous(args.glint, moved[1], folder, args.docs)
+        text = text.replace('@GLASS@\n', glass(args.glint, folder, times))
+    (args.docs / 'mafia_de.md').write_text(text.replace('@TIMES@', times.report()))
 
 
 if __name__ == '__main__':

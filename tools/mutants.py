@@ -127,7 +127,7 @@ def opened(folder):
 
 
 def control_of(program):
-    """How long unchanged sources take, and which of them are opened: told by the time of access, which a file system keeps when
+    """The time of unchanged sources, and which of them are opened, by the time of access, which a file system keeps when
     it lies before that of the last change."""
     with tempfile.TemporaryDirectory(prefix="gm") as folder:
         passes = pathlib.Path(folder) / "passes"
@@ -142,10 +142,10 @@ def control_of(program):
 
 def control(programs, jobs):
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        told = dict(zip([p.name for p in programs], pool.map(control_of, programs)))
-    if not any(t["files"] for t in told.values()):
+        report = dict(zip([p.name for p in programs], pool.map(control_of, programs)))
+    if not any(t["files"] for t in report.values()):
         sys.exit("mutants: the file system does not tell which files were opened; set TMPDIR to one that does (relatime)")
-    return told
+    return report
 
 
 # ---- Mutants ----
@@ -200,7 +200,7 @@ def slot_of(file):
     return file if file.startswith("shared/") else file.split("/")[-2]
 
 
-def likeliest(programs, file, told):
+def likeliest(programs, file, report):
     """Those that have the file in what they run: first those that are there for it, by their names; then by the chance, as found so
     far, that a second of theirs notices."""
     def is_own(program):
@@ -211,27 +211,27 @@ def likeliest(programs, file, told):
     def chance(program):
         with LOCK:
             found = OUTCOMES[slot_of(file), program.name]
-            return (sum(found) + 0.3) / (len(found) + 1) / told[program.name]["seconds"]
+            return (sum(found) + 0.3) / (len(found) + 1) / report[program.name]["seconds"]
 
-    return sorted((p for p in programs if file in told[p.name]["files"]), key=lambda p: (is_own(p), chance(p)), reverse=True)
+    return sorted((p for p in programs if file in report[p.name]["files"]), key=lambda p: (is_own(p), chance(p)), reverse=True)
 
 
-def in_order(row, programs, told):
+def in_order(row, programs, report):
     """What noticed it before, of the self-test only the case that did; then the others that may. Where a reason is known why nothing
     does, only so many of these as take a minute."""
-    others, spent_s = likeliest(programs, row["file"], told), 0
+    others, spent_s = likeliest(programs, row["file"], report), 0
     by, failed = row.get("before_by"), row.get("before_failed", [""])
     for program in (p for p in others if p.name == by):
         yield program.only(failed[0]) if program.selftest and failed[0] in program.command else program
     for program in others:
         if mutants_page.reason_of(row) and spent_s >= ARGUED_S:
             return
-        spent_s += told[program.name]["seconds"]
+        spent_s += report[program.name]["seconds"]
         if program.name != by or program.selftest:
             yield program
 
 
-def attempt(row, build, programs, told):
+def attempt(row, build, programs, report):
     """The row with its result."""
     failed, by, spent_s, tried = [], None, 0, set()
     with tempfile.TemporaryDirectory(prefix="gm") as folder:
@@ -239,8 +239,8 @@ def attempt(row, build, programs, told):
             (failed, _, spent_s), by = try_host(row, folder, build), HOST_TEST
         else:
             write_mutant(row, folder)
-            for program in in_order(row, programs, told):
-                failed, _, seconds = program.run(folder, max(AT_LEAST_S, SLOWER * told[program.name]["seconds"]))
+            for program in in_order(row, programs, report):
+                failed, _, seconds = program.run(folder, max(AT_LEAST_S, SLOWER * report[program.name]["seconds"]))
                 spent_s += seconds
                 by = program.name
                 tried.add(by)
@@ -249,7 +249,7 @@ def attempt(row, build, programs, told):
                 if failed:
                     break
     made = {k: v for k, v in row.items() if k not in OUTCOME}
-    untried = sum(row["file"] in told[p.name]["files"] and p.name not in tried for p in programs)
+    untried = sum(row["file"] in report[p.name]["files"] and p.name not in tried for p in programs)
     return {**made, "verdict": "killed" if failed else "survived", **({"by": by, "failed": failed} if failed else {"untried": untried}),
             "seconds": round(spent_s, 1)}
 

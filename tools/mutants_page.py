@@ -95,5 +95,5 @@ def of_record(record):
 
 
 def write(records, path):
-    told = [json.loads(pathlib.Path(r).read_text()) for r in records]
-    pathlib.Path(path).write_text("\n".join([HEAD] + [of_record(r) for r in told]))
+    report = [json.loads(pathlib.Path(r).read_text()) for r in records]
+    pathlib.Path(path).write_text("\n".join([HEAD] + [of_record(r) for r in report]))

@@ -58,7 +58,7 @@ def usable(glint, presets):
 
 def compare(glint, capture, presets, rounds, together=6):
     """The device, and the results of glint compare for each of {key: preset}; a limited number alternates and shares the memory."""
-    told, keys, presets = {}, list(presets), usable(glint, presets)
+    report, keys, presets = {}, list(presets), usable(glint, presets)
     with tempfile.TemporaryDirectory() as folder:
         for first in range(0, len(keys), together):
             chosen = keys[first:first + together]
@@ -66,14 +66,14 @@ def compare(glint, capture, presets, rounds, together=6):
             for file, key in zip(files, chosen):
                 file.write_text(json.dumps(presets[key]))
             answer = json.loads(run(glint, "compare", capture, "--presets", ",".join(map(str, files)), "--repeat", rounds, "--json"))
-            told.update(zip(chosen, answer["captures"][0]["presets"]))
-    return answer["device"], told
+            report.update(zip(chosen, answer["captures"][0]["presets"]))
+    return answer["device"], report
 
 
 def errors(glint, capture, name, words, *more, figures=("rmse",)):
     """Error of the reflection against the truth: mirror-like, glossy and rough surfaces, one cell for each figure."""
-    told = json.loads(run(glint, "replay", capture, "--preset", name, "--json", "--against", "truth", *options(words), *more))
-    found = {row["surfaces"]: row for row in told["runs"][0]["against_truth"]["image"]["surfaces"]}
+    report = json.loads(run(glint, "replay", capture, "--preset", name, "--json", "--against", "truth", *options(words), *more))
+    found = {row["surfaces"]: row for row in report["runs"][0]["against_truth"]["image"]["surfaces"]}
     return [", ".join(f"{found[kind][figure]:.3f}" for kind in KINDS) for figure in figures]
 
 
@@ -142,7 +142,7 @@ class Times:
             return "not timed"
         return f"{ms['frame']:.3g}" + (f" + {ms['cubemaps']:.3g}" if ms["cubemaps"] else "")
 
-    def told(self):
+    def report(self):
         if not self.records:
             return ""
         devices = "; ".join(f"{r['as']}: {r['size'].replace('x', '×')}, cube maps of {r['cube']}², median of {r['rounds']} alternating rounds"

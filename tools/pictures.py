@@ -133,8 +133,8 @@ def main():
             browser.open(os.path.join(folder, "screen.html"))
             box = browser.evaluate("(r => [r.width, r.height])(document.querySelector('main').getBoundingClientRect())")
             browser.picture(os.path.join(docs, f"{name}.png"), *box)
-        told = json.loads(subprocess.run([glint, "diff", "run", "run2", "--html", "diff.html", "--json"], cwd=folder, capture_output=True, check=False).stdout)
-        image = next(i for i in told["images"] if i["name"] == "composed")
+        report = json.loads(subprocess.run([glint, "diff", "run", "run2", "--html", "diff.html", "--json"], cwd=folder, capture_output=True, check=False).stdout)
+        image = next(i for i in report["images"] if i["name"] == "composed")
         most = [(image["largest"][k] + 0.5) / image[size] for k, size in (("x", "width"), ("y", "height"))]
         browser.look(dark=True)
         browser.show(os.path.join(folder, "diff.html"))

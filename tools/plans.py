@@ -28,83 +28,83 @@ READ = pages.HERE / "read.comp"
 
 # ---- recording ----
 
-def time_of(told):
-    return {"planned": told["planned_ms"], "whole": told["all_ms"], "ratio": told["ratio"]}
+def time_of(report):
+    return {"planned": report["planned_ms"], "whole": report["all_ms"], "ratio": report["ratio"]}
 
 
-def planned(given, capture, *options):
-    told = json.loads(pages.run(given.glint, "plan", capture, "--measure", given.rounds, "--json", *options))
-    measured = told["measured"]
+def planned(args, capture, *options):
+    report = json.loads(pages.run(args.glint, "plan", capture, "--measure", args.rounds, "--json", *options))
+    measured = report["measured"]
     return {"passes": {p["slot"]: {"runs": p["runs"], "why": p["reason"], "planned": p["saves"]["planned_ms"], "whole": p["saves"]["all_ms"]}
-                       for p in told["passes"]},
+                       for p in report["passes"]},
             "survey": measured["survey_ms"], "all": time_of(measured["all"]), "frame": time_of(measured["frame"])}
 
 
-def counts(given, capture, folder, *options):
+def counts(args, capture, folder, *options):
     """Filtered texels of cube maps, pixels whose ray was traced, on screen or in cube maps, and reflecting surfaces."""
     run = pathlib.Path(folder) / "run"
-    pages.run(given.glint, "replay", capture, "-o", run, "--outputs", "composed,screen_end,cubemap_end", "--diagnostics", "--no-cache", *options)
-    told = json.loads((run / "run.json").read_text())
-    work = [(p, p["work"]) for p in told["passes"] if "work" in p]
-    survey = told["survey"]
-    return {"cubes": sum(w["texels"] for p, w in work if p.get("cached_work")), "faces": told["cube_faces"],
+    pages.run(args.glint, "replay", capture, "-o", run, "--outputs", "composed,screen_end,cubemap_end", "--diagnostics", "--no-cache", *options)
+    report = json.loads((run / "run.json").read_text())
+    work = [(p, p["work"]) for p in report["passes"] if "work" in p]
+    survey = report["survey"]
+    return {"cubes": sum(w["texels"] for p, w in work if p.get("cached_work")), "faces": report["cube_faces"],
             "rays": max((w.get("rays", 0) for _, w in work), default=0),
             "texels": {p["slot"]: [w["texels"], w["of"]] for p, w in work if p["ran"]},
             **({"reflecting": survey["reflecting"]["count"] / survey["pixels"]} if survey else {})}
 
 
-def reading(given, capture):
+def reading(args, capture):
     """Milliseconds for reading the inputs of all pixels once."""
-    told = json.loads(pages.run(given.glint, "replay", capture, "--shader", f"compose={READ}", "--repeat", max(given.rounds, 10), "--json"))
-    return next(p["time_ns"]["median"] for p in told["runs"][0]["passes"] if p["slot"] == "compose") / 1e6
+    report = json.loads(pages.run(args.glint, "replay", capture, "--shader", f"compose={READ}", "--repeat", max(args.rounds, 10), "--json"))
+    return next(p["time_ns"]["median"] for p in report["runs"][0]["passes"] if p["slot"] == "compose") / 1e6
 
 
-def ruled(given, capture, folder):
+def ruled(args, capture, folder):
     """The savings of rules with an error, and the difference of their image from one without them."""
     base, other, found = pathlib.Path(folder) / "base", pathlib.Path(folder) / "other", {}
     for rule in ("", *RULES):
         into, options = (other, ["--set", rule]) if rule else (base, [])
-        row = {"rays": counts(given, capture, folder, *options)["rays"], "frame": planned(given, capture, *options)["frame"]["planned"]}
-        pages.run(given.glint, "replay", capture, "-o", into, "--outputs", "composed", *options)
+        row = {"rays": counts(args, capture, folder, *options)["rays"], "frame": planned(args, capture, *options)["frame"]["planned"]}
+        pages.run(args.glint, "replay", capture, "-o", into, "--outputs", "composed", *options)
         if rule:
-            done = subprocess.run([given.glint, "diff", base, other, "--json"], capture_output=True, text=True)
+            done = subprocess.run([args.glint, "diff", base, other, "--json"], capture_output=True, text=True)
             row["rms"] = next(i["rms"] for i in json.loads(done.stdout)["images"] if i["name"] == "composed")
         found[rule] = row
     return found
 
 
-def make(given, folder, names):
+def make(args, folder, names):
     """Captures of scenes and of the series, as many at once as there are four cores for; all of them before anything is measured,
     which would wait for the cores that they are rendered on."""
     def one(name):
         scene, *rest = name.split("-")
         path = pathlib.Path(folder) / f"{name}.exr"
         more = ["--reflecting", rest[1], "--light", "1"] + (["--scattered"] if rest[0] == "scattered" else []) if rest else []
-        pages.run(given.glint, "sample", scene, "-o", path, "--size", given.size, "--cube-size", given.cube, "--compression", "none", *more)
+        pages.run(args.glint, "sample", scene, "-o", path, "--size", args.size, "--cube-size", args.cube, "--compression", "none", *more)
         return name, path
     with concurrent.futures.ThreadPoolExecutor(max(1, (os.cpu_count() or 1) // 4)) as pool:
         return list(pool.map(one, names))
 
 
-def record(given):
-    device = json.loads(pages.run(given.glint, "devices", "--json"))["devices"][0]
-    told = {"as": given.name, "device": device["name"], "size": given.size, "cube": given.cube, "rounds": given.rounds, "scenes": {}, "series": {}}
+def record(args):
+    device = json.loads(pages.run(args.glint, "devices", "--json"))["devices"][0]
+    report = {"as": args.name, "device": device["name"], "size": args.size, "cube": args.cube, "rounds": args.rounds, "scenes": {}, "series": {}}
     series = [f"room-{kind}-{share}" for kind in KINDS for share in SHARES]
-    with tempfile.TemporaryDirectory(dir=given.work) as folder:
-        for name, capture in make(given, folder, [*SCENES, *series]):
-            row = planned(given, capture)
+    with tempfile.TemporaryDirectory(dir=args.work) as folder:
+        for name, capture in make(args, folder, [*SCENES, *series]):
+            row = planned(args, capture)
             if name in SCENES:
-                if not given.no_counts:
-                    row["counts"] = {"planned": counts(given, capture, folder), "whole": counts(given, capture, folder, "--all")}
-                if name in RULED and not given.no_counts:
-                    row["rules"] = ruled(given, capture, folder)
+                if not args.no_counts:
+                    row["counts"] = {"planned": counts(args, capture, folder), "whole": counts(args, capture, folder, "--all")}
+                if name in RULED and not args.no_counts:
+                    row["rules"] = ruled(args, capture, folder)
                 if name == "matte":
-                    row["read"] = reading(given, capture)
-            told["scenes" if name in SCENES else "series"][name] = row
+                    row["read"] = reading(args, capture)
+            report["scenes" if name in SCENES else "series"][name] = row
             capture.unlink()
-    path = pathlib.Path(given.output)
+    path = pathlib.Path(args.output)
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(json.dumps(told, indent=1) + "\n", encoding="utf-8")
+    path.write_text(json.dumps(report, indent=1) + "\n", encoding="utf-8")
 
 
 # ---- the page ----
@@ -165,8 +165,8 @@ def bounds(r, cpu):
         lines.append(f"`matte` under 5 % of `--all`: {percent(matte['all']['ratio'][1])}, {verdict(matte['all']['ratio'][1] < 0.05)}.")
         lines.append(f"`desert_night` under 15 %: {percent(desert['all']['ratio'][1])}, {verdict(desert['all']['ratio'][1] < 0.15)}.")
     times_read = matte["all"]["planned"] / matte["read"]
-    told = f"`matte` takes {matte['all']['planned']:.3f} ms, {times_read:.2f} times what reading its inputs once takes ({matte['read']:.3f} ms)"
-    lines.append(told + ("." if cpu else f"; at most twice: {verdict(times_read <= 2)}."))
+    report = f"`matte` takes {matte['all']['planned']:.3f} ms, {times_read:.2f} times what reading its inputs once takes ({matte['read']:.3f} ms)"
+    lines.append(report + ("." if cpu else f"; at most twice: {verdict(times_read <= 2)}."))
     late = street["all"]["planned"] - street["all"]["whole"]
     lines.append(f"`street` takes at most 2 % or 0.03 ms longer than with `--all`, survey included: {late:.3f} ms, {percent(street['all']['ratio'][1] - 1)} in the "
                  f"median of the rounds; {verdict(late <= 0.03 or street['all']['ratio'][1] <= 1.02)}.")
@@ -225,11 +225,11 @@ def rules(r):
     return pages.table(["scene: parameter", "screen rays saved", "frame time saved", "RMS difference of the picture"], rows)
 
 
-def page(given):
+def page(args):
     records = [json.loads(path.read_text(encoding="utf-8")) for path in sorted(RECORDS.glob("*.json"))]
     counted = next(r for r in records if "counts" in r["scenes"]["matte"])
     charts = {f"plans-{i}.svg": chart(r) for i, r in enumerate(records, 1)}
-    pages.draw(given.glint, charts, given.output)
+    pages.draw(args.glint, charts, args.output)
     parts = []
     for r, name in zip(records, charts):
         cpu = "llvmpipe" in r["device"]
@@ -240,7 +240,7 @@ def page(given):
     text = pathlib.Path(__file__).with_name("plans.md.in").read_text(encoding="utf-8")
     for key, value in {"WORKED": worked(counted), "RULES": rules(counted), "EVERY": every, "DEVICES": "\n".join(parts)}.items():
         text = text.replace(f"@{key}@", value)
-    (given.output / "plans.md").write_text(text, encoding="utf-8")
+    (args.output / "plans.md").write_text(text, encoding="utf-8")
 
 
 def main():
@@ -260,8 +260,8 @@ def main():
     p.add_argument("glint")
     p.add_argument("-o", "--output", type=pathlib.Path, default=pages.HERE.parent / "docs")
     p.set_defaults(run=page)
-    given = parser.parse_args()
-    given.run(given)
+    args = parser.parse_args()
+    args.run(args)
 
 
 main()

@@ -156,8 +156,8 @@ End reasons: the share of all rays, and in brackets the error of their pixels:
 {ends(compared)}"""
     else:
         text += "No pixel reflects here, so that no preset traces a ray or takes GPU time for a pass.\n"
-    told = notes(compared)
-    return text + (f"\n{told}" if told else "")
+    report = notes(compared)
+    return text + (f"\n{report}" if report else "")
 
 
 def write(docs, found, names):
@@ -172,7 +172,7 @@ and a truth of {TRUTH} rays a pixel, without fog.
 - **Covered** is the share of the reflecting pixels for which a preset finds a reflection: an alpha of at least one half, times the weight in presets that weight
   their reflections. A preset with low coverage may cover only the easy pixels; hence the tables over the pixels
   that every preset covers.
-- {times.told().strip() or 'No device has been timed.'}
+- {times.report().strip() or 'No device has been timed.'}
 
 {summary(found, names)}{"".join(section(scene, compared, times) for scene, compared in found.items())}""")
 
@@ -182,10 +182,10 @@ def main():
     parser.add_argument("glint")
     parser.add_argument("-o", "--docs", type=pathlib.Path, default=pathlib.Path("docs"))
     parser.add_argument("--scenes", default=",".join(SCENES))
-    given = parser.parse_args()
-    given.docs.mkdir(parents=True, exist_ok=True)
+    args = parser.parse_args()
+    args.docs.mkdir(parents=True, exist_ok=True)
     names = presets()
-    write(given.docs, measure(given.glint, given.scenes.split(","), names, given.docs), names)
+    write(args.docs, measure(args.glint, args.scenes.split(","), names, args.docs), names)
 
 
 if __name__ == "__main__":

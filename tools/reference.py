@@ -89,23 +89,23 @@ def help_of_assumed(glint):
             if row.get("assumed") and (p["slot"], p["variant"]) in (("screen_trace", "dda"), ("cubemap_trace", "exact"))}
 
 
-def record(given):
-    glint, rays = given.glint, [int(n) for n in given.rays.split(",")]
-    made = {"as": given.name, "size": given.size, "cube": given.cube, "truth": given.truth, "rays": rays, "sensitivity_rays": given.sensitivity,
+def record(args):
+    glint, rays = args.glint, [int(n) for n in args.rays.split(",")]
+    made = {"as": args.name, "size": args.size, "cube": args.cube, "truth": args.truth, "rays": rays, "sensitivity_rays": args.sensitivity,
             "assumed": help_of_assumed(glint), "scenes": {}}
     for scene in SCENES:
-        with tempfile.TemporaryDirectory(dir=given.work) as name:
+        with tempfile.TemporaryDirectory(dir=args.work) as name:
             folder = pathlib.Path(name)
-            capture = sample(glint, scene, folder, given.size, given.cube, "--truth", given.truth)
-            found, kept = progress(glint, capture, folder, rays, given.sensitivity)
+            capture = sample(glint, scene, folder, args.size, args.cube, "--truth", args.truth)
+            found, kept = progress(glint, capture, folder, rays, args.sensitivity)
             found["parts"] = {preset: parts(glint, capture, preset, kept) for preset in PRESETS}
             shutil.rmtree(kept)
             capture = sample(glint, scene, folder, MIRROR_SIZE, MIRROR_CUBE, "--truth", MIRROR_TRUTH)
             found["mirror"] = {key: mirror(glint, capture, words) for key, words in TRACES + [(UNSKIPPED, "cubemap_trace.skip=false")]}
             made["scenes"][scene] = found
             print(f"{scene}: {found['seconds']:.1f} s for {rays[-1]} rays", flush=True)
-    given.output.parent.mkdir(parents=True, exist_ok=True)
-    given.output.write_text(json.dumps(made, indent=1) + "\n")
+    args.output.parent.mkdir(parents=True, exist_ok=True)
+    args.output.write_text(json.dumps(made, indent=1) + "\n")
 
 
 def pixels(record):
@@ -114,7 +114,7 @@ def pixels(record):
 
 
 def times_table(records):
-    rows = [[f"{r['as']}, `{scene}`", told(r["size"]), f"{r['rays'][-1]}", f"{found['seconds']:.1f} s", f"{1e6 * found['seconds'] / pixels(r) / r['rays'][-1]:.3g} µs",
+    rows = [[f"{r['as']}, `{scene}`", size_text(r["size"]), f"{r['rays'][-1]}", f"{found['seconds']:.1f} s", f"{1e6 * found['seconds'] / pixels(r) / r['rays'][-1]:.3g} µs",
              f"{found['process_bytes'] / 2**20:.0f} MiB", f"{found['folder_bytes'] / 2**20:.1f} MiB"] for r in records for scene, found in r["scenes"].items()]
     return table(["device, scene", "picture", "rays a pixel", "total time", "time of a ray", "peak memory of the process", "size of the folder"], rows)
 
@@ -152,7 +152,7 @@ def parts_table(record):
     return table(["scene, preset, surfaces", "algorithms: preset against reference", "missing information: reference against truth", "together: preset against truth"], rows)
 
 
-def told(size):
+def size_text(size):
     return size.replace("x", "×")
 
 
@@ -164,20 +164,20 @@ def helps(names):
     return {name: re.sub(r" \(assumed: [^)]*\)$", "", row[1]) for name, row in rows.items()}
 
 
-def page(given):
+def page(args):
     records = sorted((json.loads(file.read_text()) for file in RECORDS.glob("*.json")), key=lambda r: pixels(r) * r["rays"][-1], reverse=True)
     best = records[0]
     text = (HERE / "reference.md.in").read_text()
     places = {
-        "DEVICE": f"{best['as']}, {told(best['size'])}, cube maps of {best['cube']}²", "TRUTH": best["truth"], "RAYS": f"{best['rays'][-1]}",
+        "DEVICE": f"{best['as']}, {size_text(best['size'])}, cube maps of {best['cube']}²", "TRUTH": best["truth"], "RAYS": f"{best['rays'][-1]}",
         "TIMES": times_table(records), "NOISE": noise_table(best), "SENSITIVITY": sensitivity_table(best), "SENSITIVITY_RAYS": f"{best['sensitivity_rays']}",
         "ASSUMED": "\n".join(f"- `{name}`: {words}" for name, words in helps(best["assumed"]).items()) + "\n",
         "TRACES": mirror_table(best, [name for name, _ in TRACES]), "SKIP": skip_table(best), "UNSKIPPED": mirror_table(best, [CHOSEN, UNSKIPPED]),
-        "MIRROR": f"{told(MIRROR_SIZE)}, cube maps of {MIRROR_CUBE}², truth of {MIRROR_TRUTH} rays", "PARTS": parts_table(best),
+        "MIRROR": f"{size_text(MIRROR_SIZE)}, cube maps of {MIRROR_CUBE}², truth of {MIRROR_TRUTH} rays", "PARTS": parts_table(best),
     }
     for name, value in places.items():
         text = text.replace(f"@{name}@", value)
-    given.output.write_text(text)
+    args.output.write_text(text)
 
 
 def main():
@@ -197,8 +197,8 @@ def main():
     two = commands.add_parser("page")
     two.add_argument("-o", "--output", default=HERE.parent / "docs/reference.md", type=pathlib.Path)
     two.set_defaults(run=page)
-    given = parser.parse_args()
-    given.run(given)
+    args = parser.parse_args()
+    args.run(args)
 
 
 main()

@@ -49,9 +49,9 @@ DRAWN = {"reference": [("screen", "reference"), ("cubes", "own"), ("cubes", "ref
 
 def swept(glint, capture, folder, words, vary, reference, rays):
     """Per point: the varied values, and the row of the capture."""
-    told = json.loads(pages.run(glint, "sweep", capture, "-o", folder, "-p", "reference", *pages.options(f"{words} {rays}"), "--vary", vary,
+    results = json.loads(pages.run(glint, "sweep", capture, "-o", folder, "-p", "reference", *pages.options(f"{words} {rays}"), "--vary", vary,
                                 "--reference", reference, "--repeat", "0", "--no-pictures", "--json"))
-    return [(next(iter(p["values"].values())), p["captures"][0]) for p in told["points"]]
+    return [(next(iter(p["values"].values())), p["captures"][0]) for p in results["points"]]
 
 
 def figures(row):
@@ -59,41 +59,41 @@ def figures(row):
     return {**errors, "steps": row["steps"], "fetches": row["fetches"]}
 
 
-def measure_set(given, found, capture, folder, n):
+def measure_set(args, found, capture, folder, n):
     """One set of rays: its references, and the error of each curve."""
     def against(words, vary, reference, name):
-        return [(steps, figures(row)) for steps, row in swept(given.glint, capture, f"{folder}-{name}", words, vary, reference, rays)]
+        return [(steps, figures(row)) for steps, row in swept(args.glint, capture, f"{folder}-{name}", words, vary, reference, rays)]
 
-    rays, once = f"pipeline.rays={given.rays} pipeline.first_ray={n * given.rays}", f"pipeline.rays={given.rays}"
+    rays, once = f"pipeline.rays={args.rays} pipeline.first_ray={n * args.rays}", f"pipeline.rays={args.rays}"
     full, own = f"{folder}-full", f"{folder}-own"
     for run, words in ((full, ""), (own, OWN)):
-        pages.run(given.glint, "replay", capture, "-p", "reference", *pages.options(f"{words} {rays}"), "-o", run, "--outputs", "reflection")
+        pages.run(args.glint, "replay", capture, "-p", "reference", *pages.options(f"{words} {rays}"), "-o", run, "--outputs", "reflection")
     found["reference"].append(against("", once, full, "f")[0][1])
     found["own"].append(against(OWN, once, full, "o")[0][1])
     found["half"].append(against(CHAIN, once, own, "h")[0][1])
     for key, (_, words, vary) in CURVES.items():
-        if key not in SHOWN and n >= given.other_sets:
+        if key not in SHOWN and n >= args.other_sets:
             continue
-        rows = against(words, f"{vary}={given.steps}", full, key)
-        limits = dict(against(words, f"{vary}={given.steps}", own, f"{key}-own")) if key in ("cubes", "both", "samples") else {}
+        rows = against(words, f"{vary}={args.steps}", full, key)
+        limits = dict(against(words, f"{vary}={args.steps}", own, f"{key}-own")) if key in ("cubes", "both", "samples") else {}
         for steps, row in rows:
             if steps in limits:
                 row["own"] = limits[steps]["reference"]
             found["curves"][key].setdefault(steps, []).append(row)
 
 
-def measure(given):
-    record = {"size": given.size, "cube": given.cube, "rays": given.rays, "sets": given.sets, "truth": given.truth, "scenes": {}}
-    record["device"] = json.loads(pages.run(given.glint, "devices", "--json"))["devices"][0]["name"]
-    with tempfile.TemporaryDirectory(dir=given.work) as folder:
+def measure(args):
+    record = {"size": args.size, "cube": args.cube, "rays": args.rays, "sets": args.sets, "truth": args.truth, "scenes": {}}
+    record["device"] = json.loads(pages.run(args.glint, "devices", "--json"))["devices"][0]["name"]
+    with tempfile.TemporaryDirectory(dir=args.work) as folder:
         folder = pathlib.Path(folder)
-        for scene in given.scenes.split(","):
+        for scene in args.scenes.split(","):
             start = time.monotonic()
-            capture = pages.sample(given.glint, scene, folder, given.size, given.cube, "--truth", given.truth)
+            capture = pages.sample(args.glint, scene, folder, args.size, args.cube, "--truth", args.truth)
             found = record["scenes"][scene] = {"curves": {key: {} for key in CURVES}, "reference": [], "own": [], "half": []}
-            for n in range(given.sets):
-                measure_set(given, found, capture, folder / f"{scene}-{n}", n)
-                given.output.write_text(json.dumps(record, indent=1) + "\n")
+            for n in range(args.sets):
+                measure_set(args, found, capture, folder / f"{scene}-{n}", n)
+                args.output.write_text(json.dumps(record, indent=1) + "\n")
             print(f"{scene}: {time.monotonic() - start:.0f} s", flush=True)
 
 
@@ -164,7 +164,7 @@ def chart(scene, found, kind):
             "y": {"name": "RMSE", "min": 0}}
 
 
-def told(value, noise):
+def error_text(value, noise):
     return f"{value:.4f} ± {noise:.4f}"
 
 
@@ -175,12 +175,12 @@ COLUMNS = [("screen", "reference"), ("cubes", "own"), ("cubes", "reference"), ("
 def rows(found):
     curves = found["curves"]
     for steps in sorted(curves["both"], key=int):
-        cells = [told(*estimate(curves[key][steps], answer)) for key, answer in COLUMNS]
+        cells = [error_text(*estimate(curves[key][steps], answer)) for key, answer in COLUMNS]
         yield [steps, *cells, f"{statistics.mean(s['fetches'] for s in curves['both'][steps]):.0f}"]
-    full, own, half = found["reference"], found["own"], told(*estimate(found["half"], "reference"))
-    between, truth = told(*estimate(own, "reference")), told(*estimate(full, "truth"))
+    full, own, half = found["reference"], found["own"], error_text(*estimate(found["half"], "reference"))
+    between, truth = error_text(*estimate(own, "reference")), error_text(*estimate(full, "truth"))
     yield ["the reference", "0", "n/a", "0", "n/a", "0", truth, truth, truth, f"{statistics.mean(s['fetches'] for s in full):.0f}"]
-    yield ["the march's limit", "n/a", "0", between, "0", between, "n/a", *[told(*estimate(own, "truth"))] * 2,
+    yield ["the march's limit", "n/a", "0", between, "0", between, "n/a", *[error_text(*estimate(own, "truth"))] * 2,
            f"{statistics.mean(s['fetches'] for s in own):.0f}"]
     yield ["the march's limit in half texels", "n/a", half, "n/a", half, "n/a", "n/a", "n/a", "n/a", f"{statistics.mean(s['fetches'] for s in found['half']):.0f}"]
 
@@ -189,14 +189,14 @@ def fall(found, key, answer):
     """The properties of a curve as an item of a list."""
     curve = found["curves"][key]
     up, at, points = rises(curve, answer), knee(curve, answer), sorted(curve, key=int)
-    first, last, limit = (told(*estimate(curve[p], answer)) for p in (points[0], "128", points[-1]))
+    first, last, limit = (error_text(*estimate(curve[p], answer)) for p in (points[0], "128", points[-1]))
     line = (f"- {CURVES[key][0]}, against {ANSWERS[answer]}: {first} at {points[0]} steps, {last} at 128, {limit} at {points[-1]}; "
             f"{f'knee at {at}' if at else 'no knee'}; ")
     if not up:
         return line + "it rises nowhere by more than twice its noise."
     before, after, rise, noise = max(up, key=lambda r: r[2])
     return line + (f"**it rises** between {len(up)} pairs of points by more than twice its noise, most from {before} to {after} steps, "
-                   f"by {told(rise, noise)}.")
+                   f"by {error_text(rise, noise)}.")
 
 
 def falls(found):
@@ -205,11 +205,11 @@ def falls(found):
     return [fall(found, key, answer) for key, answer in COLUMNS + others]
 
 
-def page(given):
-    record = json.loads(given.record.read_text())
+def page(args):
+    record = json.loads(args.record.read_text())
     charts = {f"sweep-{scene}-{answer}.svg": chart(scene, found, answer) for scene, found in record["scenes"].items()
               for answer in DRAWN}
-    pages.draw(given.glint, charts, given.docs)
+    pages.draw(args.glint, charts, args.docs)
     text = pathlib.Path(__file__).with_name("sweep.md.in").read_text()
     parts = []
     for scene, found in record["scenes"].items():
@@ -220,7 +220,7 @@ def page(given):
                         "TRUTH": record["truth"], "DEVICE": record["device"], "SCREEN": SCREEN, "CUBES": CUBES, "OWN": OWN,
                         "SCENES": "\n\n".join(parts)}.items():
         text = text.replace(f"@{name}@", str(value))
-    (given.docs / "sweep.md").write_text(text)
+    (args.docs / "sweep.md").write_text(text)
 
 
 def main():
@@ -243,8 +243,8 @@ def main():
     writing.add_argument("record", type=pathlib.Path)
     writing.add_argument("-o", "--docs", default=pathlib.Path("docs"), type=pathlib.Path)
     writing.set_defaults(call=page)
-    given = parser.parse_args()
-    given.call(given)
+    args = parser.parse_args()
+    args.call(args)
 
 
 main()

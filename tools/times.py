@@ -20,19 +20,19 @@ def milliseconds(showing):
     return {kind: float(f"{showing[f'{kind}_ms']['median']:.4g}") for kind in ("frame", "cubemaps")}
 
 
-def measure(given):
-    wanted = {page: importlib.import_module(page).timed() for page in given.pages.split(",")}
+def measure(args):
+    wanted = {page: importlib.import_module(page).timed() for page in args.pages.split(",")}
     scenes = dict.fromkeys(scene for scenes in wanted.values() for scene in scenes)
-    record = {"as": given.name, "size": given.size, "cube": given.cube, "rounds": given.rounds, "tries": TRIES, "pages": {page: {} for page in wanted}}
-    with tempfile.TemporaryDirectory(dir=given.work) as folder:
+    record = {"as": args.name, "size": args.size, "cube": args.cube, "rounds": args.rounds, "tries": TRIES, "pages": {page: {} for page in wanted}}
+    with tempfile.TemporaryDirectory(dir=args.work) as folder:
         for scene in scenes:
             start = time.monotonic()
-            capture = pages.sample(given.glint, scene, folder, given.size, given.cube)
+            capture = pages.sample(args.glint, scene, folder, args.size, args.cube)
             for page in wanted:
                 if scene in wanted[page]:
-                    tries = [pages.compare(given.glint, capture, wanted[page][scene], given.rounds) for _ in range(TRIES)]
-                    record["device"], told = min(tries, key=lambda one: sum(milliseconds(showing)["frame"] for showing in one[1].values()))
-                    record["pages"][page][scene] = {key: milliseconds(showing) for key, showing in told.items()}
+                    tries = [pages.compare(args.glint, capture, wanted[page][scene], args.rounds) for _ in range(TRIES)]
+                    record["device"], report = min(tries, key=lambda one: sum(milliseconds(showing)["frame"] for showing in one[1].values()))
+                    record["pages"][page][scene] = {key: milliseconds(showing) for key, showing in report.items()}
             capture.unlink()
             print(f"{scene}: {time.monotonic() - start:.1f} s", flush=True)
     return record
@@ -48,10 +48,10 @@ def main():
     parser.add_argument("--pages", default=",".join(PAGES))
     parser.add_argument("--work", help="folder for temporary files")
     parser.add_argument("-o", "--output", default=pages.RECORDS / "here.json", type=pages.pathlib.Path)
-    given = parser.parse_args()
-    record = measure(given)
-    given.output.parent.mkdir(parents=True, exist_ok=True)
-    given.output.write_text(json.dumps(record, indent=1) + "\n")
+    args = parser.parse_args()
+    record = measure(args)
+    args.output.parent.mkdir(parents=True, exist_ok=True)
+    args.output.write_text(json.dumps(record, indent=1) + "\n")
 
 
 main()

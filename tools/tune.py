@@ -29,15 +29,15 @@ FRAME = ("lit_mips.reach=0..3", "screen_trace=hiz,linear", "screen_trace.steps=2
          "blur=plus,none", "temporal.extra", "cubemap_select=score,nearest")
 
 
-def tuned(given, folder, captures, held_out, budget):
+def tuned(args, folder, captures, held_out, budget):
     """The result, or why there is none."""
-    command = [given.glint, "tune", *captures, "--held-out", held_out, "-o", folder / f"{budget}.json", "--folder", given.folder or folder / "tune",
-               f"--budget-{given.cost}", f"{budget}%", "--baseline", "scale", "--over", "worst", "--rays", given.rays,
-               "--tries", given.tries, "--rounds", given.rounds, "--repeat", given.repeat, "--seed", given.seed, "--json"]
-    for name in TRACES + (FRAME if given.cost == "ms" and not given.slots else ()):
+    command = [args.glint, "tune", *captures, "--held-out", held_out, "-o", folder / f"{budget}.json", "--folder", args.folder or folder / "tune",
+               f"--budget-{args.cost}", f"{budget}%", "--baseline", "scale", "--over", "worst", "--rays", args.rays,
+               "--tries", args.tries, "--rounds", args.rounds, "--repeat", args.repeat, "--seed", args.seed, "--json"]
+    for name in TRACES + (FRAME if args.cost == "ms" and not args.slots else ()):
         command += ["--vary", name]
-    if given.slots:
-        command += ["--slots", given.slots]
+    if args.slots:
+        command += ["--slots", args.slots]
     done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
     if done.returncode and not done.stdout:
         if "no point reaches" not in done.stderr:
@@ -46,24 +46,24 @@ def tuned(given, folder, captures, held_out, budget):
     return json.loads(done.stdout)
 
 
-def measure(given):
+def measure(args):
     """Adds the budgets to those of the same measurement in the record."""
-    record = {"as": given.name, "cost": given.cost, "slots": given.slots, "size": given.size, "cube": given.cube, "rays": given.rays, "tries": given.tries,
-              "repeat": given.repeat, "device": json.loads(pages.run(given.glint, "devices", "--json"))["devices"][0]["name"]}
-    before = json.loads(given.output.read_text()) if given.output.exists() else {}
+    record = {"as": args.name, "cost": args.cost, "slots": args.slots, "size": args.size, "cube": args.cube, "rays": args.rays, "tries": args.tries,
+              "repeat": args.repeat, "device": json.loads(pages.run(args.glint, "devices", "--json"))["devices"][0]["name"]}
+    before = json.loads(args.output.read_text()) if args.output.exists() else {}
     record["budgets"] = before.get("budgets", {}) if {**before, "budgets": 0} == {**record, "budgets": 0} else {}
-    given.output.parent.mkdir(parents=True, exist_ok=True)
-    with tempfile.TemporaryDirectory(dir=given.work) as folder:
+    args.output.parent.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(dir=args.work) as folder:
         folder = pathlib.Path(folder)
-        captures = [pages.sample(given.glint, scene, folder, given.size, given.cube) for scene in (*SEEN, HELD_OUT)]
-        for budget in given.budgets:
+        captures = [pages.sample(args.glint, scene, folder, args.size, args.cube) for scene in (*SEEN, HELD_OUT)]
+        for budget in args.budgets:
             start = time.monotonic()
-            found = record["budgets"][str(budget)] = tuned(given, folder, captures[:-1], captures[-1], budget)
+            found = record["budgets"][str(budget)] = tuned(args, folder, captures[:-1], captures[-1], budget)
             for one in found.get("confirmed", ()):
                 one["capture"] = pathlib.Path(one["capture"]).stem
             if "provenance" in found:
                 found["provenance"] = {key: found["provenance"][key] for key in ("limit", "points", "moved", "error", "cost")}
-            given.output.write_text(json.dumps(record, indent=1) + "\n")
+            args.output.write_text(json.dumps(record, indent=1) + "\n")
             print(f"{budget} %: {time.monotonic() - start:.1f} s", flush=True)
 
 
@@ -75,17 +75,17 @@ def scene(record, one):
     """Rows of a scene: error and cost of each; then the differences."""
     rows, names = [], {"start": "`mafia3`", "tuned": "tuned", "scaled": f"all steps × {one['contenders']['scaled']['factor']:.3g}"}
     for key, name in names.items():
-        told = one["contenders"][key]
-        cost = (interval(told["ms"], "median"),) if record["cost"] == "ms" else (f"{told['fetches_px']:.2f}",)
-        kinds = [f"{told['errors'][kind]['value']:.4f}" if kind in told["errors"] else "no such surface" for kind in pages.KINDS]
+        report = one["contenders"][key]
+        cost = (interval(report["ms"], "median"),) if record["cost"] == "ms" else (f"{report['fetches_px']:.2f}",)
+        kinds = [f"{report['errors'][kind]['value']:.4f}" if kind in report["errors"] else "no such surface" for kind in pages.KINDS]
         difference = "is the tuned one"
         if key != "tuned":
             d = one[f"tuned_less_{key}"]["all"]
             difference = f"{d['value']:+.4f} [{d['low']:+.4f} {d['high']:+.4f}]: {d['verdict']}"
         if record["cost"] == "ms":
-            part = told["tuned_takes"]
+            part = report["tuned_takes"]
             cost += ("is the tuned one" if key == "tuned" else f"{interval(part, 'median', 3)}: {part['verdict']}",)
-        rows.append((name, interval(told["errors"]["all"]), *kinds, difference, *cost))
+        rows.append((name, interval(report["errors"]["all"]), *kinds, difference, *cost))
     return rows
 
 
@@ -115,9 +115,9 @@ def chapter(record):
 
 def page(records, docs):
     """Of files; those of devices lie in tools/records/tune."""
-    told = [json.loads(pathlib.Path(file).read_text()) for file in (*records, *sorted(RECORDS.glob("*.json")))]
+    report = [json.loads(pathlib.Path(file).read_text()) for file in (*records, *sorted(RECORDS.glob("*.json")))]
     lines = [(pages.HERE / "tune.md.in").read_text(encoding="utf-8")]
-    for record in told:
+    for record in report:
         lines += chapter(record)
     (docs / "tune.md").write_text("\n".join(lines).rstrip() + "\n")
 
@@ -140,15 +140,15 @@ def main():
     parser.add_argument("--repeat", type=int, default=0)
     parser.add_argument("--work", help="folder for temporary files")
     parser.add_argument("-o", "--output", type=pathlib.Path)
-    given = parser.parse_args()
+    args = parser.parse_args()
     docs = pages.HERE.parent / "docs"
-    if given.what == "page":
-        return page(given.files, given.output or docs)
-    given.glint = given.files[0]
-    if given.what == "measure":
-        return measure(given)
-    docs, given.output = given.output or docs, RECORDS / "fetches.json"
-    measure(given)
+    if args.what == "page":
+        return page(args.files, args.output or docs)
+    args.glint = args.files[0]
+    if args.what == "measure":
+        return measure(args)
+    docs, args.output = args.output or docs, RECORDS / "fetches.json"
+    measure(args)
     page([], docs)
 
 

@@ -258,8 +258,8 @@ def library(tool, folder, found, truth, ppd, exposure, start=0.0, stop=0.0):
     maps = array.array("f")
     with open(paths[2], "rb") as file:
         maps.fromfile(file, 2 * width * height)
-    told = {name: float(value) for name, value in (line.split() for line in out.splitlines())}
-    return told, maps[:width * height], maps[width * height:]
+    report = {name: float(value) for name, value in (line.split() for line in out.splitlines())}
+    return report, maps[:width * height], maps[width * height:]
 
 
 def rounded(image):
@@ -286,30 +286,30 @@ def main(tool):
     with tempfile.TemporaryDirectory() as folder:
         for name, found, truth, ppd, exposure in pairs():
             found, truth = rounded(found), rounded(truth)
-            told, low_map, high_map = library(tool, folder, found, truth, ppd, exposure)
+            report, low_map, high_map = library(tool, folder, found, truth, ppd, exposure)
             display = [zipped(lambda c: tuple(clipped(2**exposure * v) for v in c), image) for image in (found, truth)]
             expected = flat(flip(*display, ppd))
             # floats: seven digits of what is filtered; a square root makes 1e-9 of an edge that both have 3e-5
-            checks.near(f"{name}: FLIP", told["flip"], mean(expected), 5e-5)
+            checks.near(f"{name}: FLIP", report["flip"], mean(expected), 5e-5)
             checks.maps(f"{name}: FLIP", low_map, expected, 2e-4)
             if name != "more than half is black":
                 start, stop, count = exposures(truth)
-                checks.near(f"{name}: start exposure", told["start"], start, 1e-5)
-                checks.near(f"{name}: stop exposure", told["stop"], stop, 1e-5)
+                checks.near(f"{name}: start exposure", report["start"], start, 1e-5)
+                checks.near(f"{name}: stop exposure", report["stop"], stop, 1e-5)
             else:  # the median is that of all values that are not black
                 rest = [[c for c in flat(truth) if any(v > 0 for v in c)]]
                 start, stop, count = exposures(rest)
-                checks.near(f"{name}: stop exposure", told["stop"], stop, 1e-5)
-            checks.near(f"{name}: exposures", told["exposures"], count, 0)
+                checks.near(f"{name}: stop exposure", report["stop"], stop, 1e-5)
+            checks.near(f"{name}: exposures", report["exposures"], count, 0)
             expected = flat(hdr_flip(found, truth, ppd, start, stop, count))
-            checks.near(f"{name}: HDR-FLIP", told["hdr_flip"], mean(expected), 5e-5)
+            checks.near(f"{name}: HDR-FLIP", report["hdr_flip"], mean(expected), 5e-5)
             checks.maps(f"{name}: HDR-FLIP", high_map, expected, 2e-4)
-            checks.near(f"{name}: SSIM", told["ssim"], ssim(found, truth, exposure), 2e-5)
-        told, _, high_map = library(tool, folder, truth, truth, 20, 0)
-        checks.near("equal images: FLIP", told["flip"], 0, 0)
-        checks.near("equal images: HDR-FLIP", told["hdr_flip"], 0, 0)
-        told, _, high_map = library(tool, folder, found, truth, 20, 0, -2, 1.5)
-        checks.near("given exposures: how many", told["exposures"], 4, 0)
+            checks.near(f"{name}: SSIM", report["ssim"], ssim(found, truth, exposure), 2e-5)
+        report, _, high_map = library(tool, folder, truth, truth, 20, 0)
+        checks.near("equal images: FLIP", report["flip"], 0, 0)
+        checks.near("equal images: HDR-FLIP", report["hdr_flip"], 0, 0)
+        report, _, high_map = library(tool, folder, found, truth, 20, 0, -2, 1.5)
+        checks.near("given exposures: how many", report["exposures"], 4, 0)
         checks.maps("given exposures: HDR-FLIP", high_map, flat(hdr_flip(found, truth, 20, -2, 1.5, 4)), 2e-4)
     print(f"1..{len(checks.lines)}")
     print("\n".join(checks.lines))

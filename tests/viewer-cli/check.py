@@ -46,8 +46,8 @@ class Tests:
     def test_the_same_run_passes_and_a_changed_one_names_its_first_pass(self):
         base = self.approved("base")
         assert "PASS" in glint("check", self.replay("again"), "--baseline", base)
-        told = glint("check", self.other, "--baseline", base, status=2)
-        assert "cubemap_trace.steps_hq" in told and "the first that differs is cubemap_trace: travelled" in told, told
+        report = glint("check", self.other, "--baseline", base, status=2)
+        assert "cubemap_trace.steps_hq" in report and "the first that differs is cubemap_trace: travelled" in report, report
         found = json.loads(glint("check", self.other, "--baseline", base, "--json", status=2))
         assert found["status"] == 2 and found["runs"][0]["first"]["slot"] == "cubemap_trace"
         assert not glint("check", self.other, "--baseline", base, "-q", status=2)
@@ -73,14 +73,14 @@ class Tests:
 
     def test_approving_says_what_changed_and_keeps_the_baseline_before(self):
         base, before = self.approved("to/be/approved"), contents(self.one)
-        told = glint("check", self.other, "--baseline", base + "/", "--approve")
+        report = glint("check", self.other, "--baseline", base + "/", "--approve")
         found = json.loads(subprocess.run([GLINT, "diff", "--json", self.one, self.other], capture_output=True, text=True).stdout)
         changed = sum(image["differing"] > 0 for image in found["images"])
-        assert changed > 3 and f"{changed} images changed, 0 added, 0 removed" in told, told
+        assert changed > 3 and f"{changed} images changed, 0 added, 0 removed" in report, report
         assert contents(base) == contents(self.other) and contents(base + "~") == before
         assert sorted(os.listdir(os.path.dirname(base))) == ["approved", "approved~"]
-        told = glint("check", self.replay("three", "--outputs=travelled"), "--baseline", base, "--approve")
-        assert " removed" in told and ", 0 removed" not in told, told
+        report = glint("check", self.replay("three", "--outputs=travelled"), "--baseline", base, "--approve")
+        assert " removed" in report and ", 0 removed" not in report, report
         assert contents(base + "~") == contents(self.other)
 
     def test_what_is_no_run_s_is_not_lost(self):
@@ -137,8 +137,8 @@ class Tests:
         states = {os.path.basename(run["b"]): (run["status"], run.get("note", "")) for run in found["runs"]}
         assert found["status"] == 2 and states["b"][0] == 2 and "no run" in states["a"][1] and "no baseline" in states["c"][1], states
         glint("check", self.path("runs"), "--baseline", base, "--html", self.path("x.html"), status=5)
-        told = glint("check", self.path("runs"), "--baseline", base, "--approve")
-        assert sorted(os.listdir(base)) == ["a", "b", "b~", "c"] and "no run of this name" in told, told
+        report = glint("check", self.path("runs"), "--baseline", base, "--approve")
+        assert sorted(os.listdir(base)) == ["a", "b", "b~", "c"] and "no run of this name" in report, report
 
 
 with tempfile.TemporaryDirectory() as place:

@@ -113,8 +113,8 @@ class Tests:
         self.browser.evaluate("document.querySelector('.plot').focus()")
         for key in ("ArrowRight", "ArrowRight", "Enter"):
             self.browser.key(key)
-        told = self.browser.evaluate("[...document.querySelectorAll('aside h4')].map(e => e.textContent)")
-        assert told == ["many", "many"], told
+        output = self.browser.evaluate("[...document.querySelectorAll('aside h4')].map(e => e.textContent)")
+        assert output == ["many", "many"], output
         lines = self.browser.evaluate("[...document.querySelectorAll('tr.chosen')].map(e => e.cells[0].textContent)")
         assert lines == ["many", "many"], lines
         self.browser.key("Escape")
@@ -199,8 +199,8 @@ class Tests:
         table = {"columns": [{"name": str(i)} for i in range(len(columns))], "rows": [list(row) for row in zip(*(c[0] for c in columns))]}
         self.browser.show(report(self.folder, page({"table": table})))
         for i, (_, wanted) in enumerate(columns):
-            told = self.browser.evaluate(f"[...document.querySelectorAll('tbody tr')].map(r => r.cells[{i}].textContent)")
-            assert told == wanted, (told, wanted)
+            output = self.browser.evaluate(f"[...document.querySelectorAll('tbody tr')].map(r => r.cells[{i}].textContent)")
+            assert output == wanted, (output, wanted)
 
     def test_a_chart_as_svg_is_xml(self):
         points = [point(1, 0.1, HOSTILE, 8, "red.png"), point(4, 0.02, "many", 64, "blue.png"), [0, 0.5], [2, None]]

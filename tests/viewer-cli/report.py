@@ -70,11 +70,11 @@ class Tests:
         run = self.run_json("b")
         self.show("b")
         for which, cached in ((1, False), (3, True)):  # each follows the table of its chart
-            told = dict(self.table("Times", which))
+            report = dict(self.table("Times", which))
             passes = [p for p in run["passes"] if p["ran"] and p.get("cached_work", False) == cached]
-            assert list(told) == [p["slot"] for p in passes], (list(told), cached)
+            assert list(report) == [p["slot"] for p in passes], (list(report), cached)
             for p in passes:
-                found = float(told[p["slot"]].replace("\u202f", ""))
+                found = float(report[p["slot"]].replace("\u202f", ""))
                 assert abs(found - p["time_ns"]["median"] / 1e6) <= 0.06 * found + 1e-4, (p, found)  # two digits at least
 
     def test_pictures_are_whole(self):
@@ -102,9 +102,9 @@ class Tests:
         with open(os.path.join(self.path("a"), "errors.json"), encoding="utf-8") as file:
             (everything,) = [s for s in json.load(file)["against_truth"]["image"]["surfaces"] if s["surfaces"] == "all"]
         self.show("a")
-        (told,) = [row for table in (0, 1) for row in self.table("Error", table) if row[0] == "all" and len(row) > 5]
-        assert int(told[1].replace("\u202f", "")) == everything["pixels"]
-        assert abs(float(told[4]) - everything["rmse"]) < 1e-3, (told, everything)
+        (report,) = [row for table in (0, 1) for row in self.table("Error", table) if row[0] == "all" and len(row) > 5]
+        assert int(report[1].replace("\u202f", "")) == everything["pixels"]
+        assert abs(float(report[4]) - everything["rmse"]) < 1e-3, (report, everything)
         assert not os.path.exists(os.path.join(self.path("b"), "errors.json"))
 
     def test_a_reference_says_what_noise_is_left_and_what_it_assumed(self):
@@ -120,8 +120,8 @@ class Tests:
         changes = self.table("Reference", 1)
         assert [(c[0], c[1]) for c in changes] == [(c["slot"], c["parameter"]) for c in reference["sensitivity"]["rows"]]
         assert any(c["ran"] for c in reference["sensitivity"]["rows"])
-        for told, c in zip(changes, reference["sensitivity"]["rows"]):
-            assert (told[7] == "–") == (not c["ran"]), (told, c)
+        for report, c in zip(changes, reference["sensitivity"]["rows"]):
+            assert (report[7] == "–") == (not c["ran"]), (report, c)
         self.browser.quiet()
 
     def test_classes_of_pixels_have_names_of_their_own(self):
@@ -149,9 +149,9 @@ class Tests:
         places = {}
         for _ in points:
             self.browser.key("ArrowRight")
-            told, shown = self.browser.evaluate(name), self.browser.evaluate(terms)
-            places[told] = self.browser.evaluate(ring)
-            assert points[told]["values"].items() <= shown.items(), (points[told]["values"], shown)
+            report, shown = self.browser.evaluate(name), self.browser.evaluate(terms)
+            places[report] = self.browser.evaluate(ring)
+            assert points[report]["values"].items() <= shown.items(), (points[report]["values"], shown)
             assert self.browser.evaluate(image) >= 96
         assert set(places) == set(points), places
         for x, y in places.values():

@@ -38,8 +38,8 @@ class Tests:
         glint("replay", capture, "-o", self.path("one"))
         glint("replay", capture, "-o", self.path("two"), "--set=cubemap_trace.steps_hq=3", "--set=resolve.fog=false")
         self.page = self.path("page.html")
-        self.told = json.loads(glint("diff", self.path("one"), self.path("two"), "--json", "--html", self.page, status=2))
-        self.composed = next(i for i in self.told["images"] if i["name"] == "composed")
+        self.report = json.loads(glint("diff", self.path("one"), self.path("two"), "--json", "--html", self.page, status=2))
+        self.composed = next(i for i in self.report["images"] if i["name"] == "composed")
 
     def path(self, name):
         return os.path.join(self.folder, name)
@@ -72,10 +72,10 @@ class Tests:
     def test_the_table_lists_what_differs_in_the_order_of_the_passes(self):
         self.show()
         rows = self.ask("[...[...document.querySelectorAll('section')].find(s => s.querySelector('h2')?.textContent.startsWith('Images that differ')).querySelectorAll('tbody tr')].map(r => [...r.cells].map(c => c.textContent))")
-        expected = [(i["slot"], i["name"]) for i in self.told["images"] if i["status"] or i.get("differing")]
-        assert [(r[1], r[2]) for r in rows] == expected and 3 < len(rows) < len(self.told["images"]), rows
+        expected = [(i["slot"], i["name"]) for i in self.report["images"] if i["status"] or i.get("differing")]
+        assert [(r[1], r[2]) for r in rows] == expected and 3 < len(rows) < len(self.report["images"]), rows
         facts = self.ask("document.querySelector('header dl').textContent")
-        assert f"{self.told['first']['slot']}: {self.told['first']['image']}" in facts, facts
+        assert f"{self.report['first']['slot']}: {self.report['first']['image']}" in facts, facts
         settings = self.ask("document.querySelector('main table').textContent")
         assert "cubemap_trace.steps_hq" in settings and "resolve.fog" in settings, settings
         self.browser.quiet()
