@@ -27,10 +27,10 @@ OCIO::ConstConfigRcPtr open_config(const char *path) {
 std::string find_name(const char *what, const char *name, const std::vector<std::string> &names) {
     struct nearest near = nearest_to(name);
     std::string list;
-    for (const std::string &name : names) {
-        if (name == name) return name;
-        nearest_offer(&near, name.c_str());
-        list += (list.empty() ? "" : ", ") + name;
+    for (const std::string &known : names) {
+        if (known == name) return known;
+        nearest_offer(&near, known.c_str());
+        list += (list.empty() ? "" : ", ") + known;
     }
     throw std::invalid_argument(std::string("there is no ") + what + " " + name + nearest_text(&near) +
                                 "; the configuration has " + list);
