@@ -19,11 +19,10 @@ static struct glint_camera camera_in_floats(const double eye[3], bool mirrored) 
     struct glint_camera camera = fixture_camera(eye, 0.1, 500);
     double *m = camera.world_to_view;
     for (int i = 0; i < 3; i++) {
-        m[4 * i + 3] = 0;
-        for (int k = 0; k < 3; k++) {
-            m[4 * i + k] = (double)(float)(mirrored && i == 0 ? -m[k] : m[4 * i + k]);
-            m[4 * i + 3] -= m[4 * i + k] * eye[k];
-        }
+        float row[3];
+        for (int k = 0; k < 3; k++) row[k] = (float)(mirrored && i == 0 ? -m[k] : m[4 * i + k]);
+        for (int k = 0; k < 3; k++) m[4 * i + k] = (double)row[k];
+        m[4 * i + 3] = -(m[4 * i] * eye[0] + m[4 * i + 1] * eye[1] + m[4 * i + 2] * eye[2]);
     }
     return camera;
 }
