@@ -7,12 +7,12 @@
 
 enum decoding { AS_STORED, LENGTH, DEPTH, NORMAL, ROUGHNESS, MOTION, PACKED, COLOR };
 
-/* A wanted channel: the planes of the file that it is decoded from, and how. */
+/* A requested channel: the planes of the file that it is decoded from, and how. */
 struct output {
     enum decoding decoding;
     enum glint_normal_encoding normal;
     int axis;     /* X, Y, Z: 0, 1, 2 */
-    int plane[3]; /* of the file's wanted channels; a normal has X, Y, Z, the others one; -1 for none */
+    int plane[3]; /* of the file's requested channels; a normal has X, Y, Z, the others one; -1 for none */
 };
 
 struct job {
@@ -272,7 +272,7 @@ bool glint_capture_read(struct glint_capture *capture, const struct glint_part_i
             return glint_fail(err, GLINT_ERROR_USAGE, "%s: part %s: %s: expected half or float, found uint",
                               capture->exr->path, part->name, channels[i]);
     }
-    if (!job.planes) { /* only zeros are wanted */
+    if (!job.planes) { /* only zeros are requested */
         memset(out, 0, (size_t)part->width * part->height * count * (type == GLINT_F16 ? 2 : 4));
         return true;
     }

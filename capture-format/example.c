@@ -62,7 +62,7 @@ static bool dump_frame(const char *path, struct glint_error *err) {
     struct glint_writer *writer = glint_writer_create(path, &options, err);
     bool ok = writer && glint_writer_set_frame(writer, &frame, err);
     for (size_t i = 0; ok && i < sizeof parts / sizeof *parts; i++) ok = glint_writer_add_part(writer, &parts[i], err);
-    ok = ok && glint_writer_finish(writer, err); /* the frame goes on; the buffers are the engine's again */
+    ok = ok && glint_writer_finish(writer, err); /* the engine may continue the frame and reuse its buffers */
     ok = ok && glint_writer_wait(writer, err);   /* later, or never: destroy waits, too */
     glint_writer_destroy(&writer);
     return ok;

@@ -47,7 +47,7 @@ struct glint_exr {
     size_t part_count;
 };
 
-/* Receives lines y .. y + lines - 1 of the wanted channels, as stored: planes[i] is the first line of channel i (NULL
+/* Receives lines y .. y + lines - 1 of the requested channels, as stored: planes[i] is the first line of channel i (NULL
    for a NULL name), the next line is line_bytes further. Called from several threads, each line once. */
 typedef bool (*glint_exr_rows_fn)(void *user, uint32_t y, uint32_t lines, const uint8_t *const *planes,
                                   size_t line_bytes, struct glint_error *err);

@@ -1,4 +1,4 @@
-/* The parts of a capture that the survey tells of: is there one, or not. Rows only, read by C. SURVEY_PART(figure, part) */
+/* The parts of a capture whose presence the survey records. Rows only, read by C. SURVEY_PART(figure, part) */
 SURVEY_PART(has_sky, GLINT_PART_SKY)
 SURVEY_PART(has_planar, GLINT_PART_MIRROR)
 SURVEY_PART(has_water, GLINT_PART_WATER)

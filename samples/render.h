@@ -32,7 +32,6 @@ struct texel {
 /* N × 6N texels: faces +X -X +Y -Y +Z -Z one below the other, oriented as in Vulkan. */
 bool render_cubemap(const struct world *world, vec3 center, uint32_t size, struct texel *texels, struct job *job,
                     double weight, struct glint_error *err);
-/* Renders only the sky. */
 bool render_sky(const struct world *world, uint32_t size, struct texel *texels, struct job *job, double weight,
                 struct glint_error *err);
 vec3 cube_direction(uint32_t face, uint32_t x, uint32_t y, uint32_t size);

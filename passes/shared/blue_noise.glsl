@@ -54,7 +54,7 @@ uvec2 sobol2(uint index) {
     return uvec2(bitfieldReverse(index), second);
 }
 
-// The points of a pixel's rays: the same sequence, scrambled anew for each pixel, frame and RAYS_SPREAD rays, so that what many
+// The points of a pixel's rays: the same sequence, scrambled separately for each pixel, frame and RAYS_SPREAD rays, so that what many
 // rays find converges faster than by independent ones while pixels, and stretches of that many rays, stay independent.
 const uint RAYS_SPREAD = 1u << 20u;
 vec2 ray_points2(uvec2 pixel, uint frame_number, uint ray) {

@@ -65,7 +65,7 @@ struct run {
     struct pool *pool;
     struct gpu *gpu;
     struct pooled **images; /* one for each image of the graph, as are keys, needed and stored */
-    uint64_t *keys;         /* hash of everything that the image's wanted contents depend on */
+    uint64_t *keys;         /* hash of everything that the image's contents depend on */
     bool *needed;           /* whether an executing pass or the caller reads it */
     void **stored;          /* values read from the run folder, as float or uint, or NULL */
     struct step *steps;     /* one for each pass of the graph */
@@ -78,7 +78,7 @@ struct run {
     void *user;
     bool touched; /* images may have changed */
 };
-/* Computes the frame. Call engine_release in any case; until then the run tells what was done. */
+/* Computes the frame. Call engine_release in any case; until then the run records what was done. */
 bool engine_run(struct run *run, struct engine *engine, const struct frame_plan *plan, glint_progress progress,
                 void *user, struct glint_error *err);
 void engine_release(struct run *run);

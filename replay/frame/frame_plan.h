@@ -19,7 +19,7 @@ struct frame_source {
     struct glint_capture *capture;
     const struct glint_part_info **cubemaps; /* its cube maps by number */
     size_t cubemap_count;
-    uint64_t serial;         /* number of the load, by which images of different captures are told apart */
+    uint64_t serial;         /* number of the load, which distinguishes the images of different captures */
     char hash[33];           /* of the capture; "": not computed yet */
     struct channels gbuffer; /* read for the survey and kept for the upload after it */
     struct channels sky;     /* read for its hash and kept for the upload after it */

@@ -25,7 +25,7 @@ struct graph_image {
     bool history; /* contents of the previous frame */
     bool blank;   /* FALLBACK that is allocated in full size */
     bool kept;    /* becomes history of the next frame; memory is not shared */
-    const struct glint_row *alias; /* the image of a dropped pass that this image stands for as well, or NULL */
+    const struct glint_row *alias; /* the image of a dropped pass that this image also replaces, or NULL */
     const struct glint_pass *alias_pass;
     const char *kept_as;        /* the image of a dropped pass as whose history it is kept (row BYPASS), or NULL */
     size_t maker;               /* MADE: index of the pass in the graph */

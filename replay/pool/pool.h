@@ -63,7 +63,7 @@ void pool_trim(struct pool *pool, uint64_t keep_bytes);
 void pool_drop(struct pool *pool, bool all); /* releases the transient images, or all */
 /* Makes an image serve as image i of the plan. */
 void pool_adopt(struct pool *pool, const struct frame_plan *plan, size_t i, struct pooled *pooled);
-/* Replaces images whose contents are outdated by others that have the wanted contents (`keys`), where there are such. */
+/* Replaces images whose contents are outdated by others that already have the required contents (`keys`), if any. */
 void pool_recall(struct pool *pool, const struct frame_plan *plan, struct pooled **images, const uint64_t *keys);
 /* Replaces images that this run will overwrite by others, so that a later run finds their contents again. */
 bool pool_put_aside(struct pool *pool, const struct frame_plan *plan, struct pooled **images, const uint64_t *keys,

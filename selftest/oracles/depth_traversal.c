@@ -220,7 +220,7 @@ static bool decide(void *user, const struct depth_cell *cell) {
     return !tracing->blocked;
 }
 
-/* Whether the ray goes on for ever within the picture, to where that shows the sky. */
+/* Whether the ray never ends within the picture and reaches a pixel that shows the sky. */
 static bool ends_in_sky(const struct depth_grid *grid, const struct depth_ray *ray, double end) {
     const double toward = ray->direction[2] * grid->front, size[2] = {grid->width, grid->height};
     double place[2], depth, apart = 0, vanishing[2];

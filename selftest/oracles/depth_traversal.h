@@ -61,7 +61,7 @@ extern const struct traversal_rules traversal_rules_default;
 /* Why the ray ends (end_reason_names.h), and its distance: of a ray that hits nothing, where it was last in front of all. */
 uint32_t traversal_end(const struct depth_grid *grid, const struct depth_ray *ray, const struct traversal_rules *rules,
                        double *t);
-/* The same ray with its direction rounded another way, by up to `by` in each component. */
+/* The same ray with its direction rounded differently, by up to `by` in each component. */
 struct depth_ray depth_ray_rounded(const struct depth_ray *ray, double by, uint32_t way);
 /* True for a hit; then *t is its distance. */
 bool traversal_hit(const struct depth_grid *grid, const struct depth_ray *ray, const struct traversal_rules *rules,

@@ -6,7 +6,7 @@
 
 enum plane_scene_rays {
     RAYS_MIRROR,   /* of the surfaces themselves */
-    RAYS_ANY,      /* every way that leaves the surface */
+    RAYS_ANY,      /* every direction that leaves the surface */
     RAYS_AXES,     /* along the view's axes */
     RAYS_PARALLEL, /* to the screen */
     RAYS_BACK,     /* to the camera */

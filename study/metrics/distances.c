@@ -13,7 +13,7 @@ double distance_relative_error(double found, double truth) {
     return fabs(found - truth) / truth;
 }
 
-/* `values` is scratch memory for `count` values; surface 0 stands for all surfaces. */
+/* `values` is scratch memory for `count` values; surface 0 means all surfaces. */
 static struct glint_distance_error distance_error(const float *found, const float *truth, const uint8_t *surfaces,
                                                   size_t count, uint8_t surface, double *values) {
     struct glint_distance_error e = {0};

@@ -102,7 +102,6 @@ static void each_term_alone_and_together_decides(void **state) {
     check_selection(gpu, &(struct weights){0.3, 1, 0.5, 0.2, 0.5}, "all");
 }
 
-/* At the centre of a cube map no direction is preferred. */
 static void a_start_in_a_centre_has_a_score(void **state) {
     struct gpu *gpu = *state;
     enum { ODD = 33, MIDDLE = ODD / 2 * ODD + ODD / 2 };

@@ -29,7 +29,6 @@ void camera_eye(const struct glint_camera *camera, double eye[3]);
 /* The direction through the centre of a pixel, with length 1 along the view axis, from the matrices alone. */
 void camera_ray(const struct glint_camera *camera, uint32_t x, uint32_t y, uint32_t width, uint32_t height,
                 double direction[3]);
-/* The uv of a world point. */
 void camera_project(const struct glint_camera *camera, const double point[3], double uv[2]);
 /* Direction of a texel by Vulkan's cube face table, not normalised. */
 void vulkan_texel(uint32_t face, uint32_t x, uint32_t y, uint32_t size, double direction[3]);

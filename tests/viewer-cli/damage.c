@@ -356,7 +356,7 @@ static bool lit_of_another(struct rewrite *r, double strength) {
     return true;
 }
 
-/* ---- What cannot be told ---- */
+/* ---- Damage that the data cannot reveal ---- */
 
 static bool each_roughness(struct rewrite *r, bool invert) {
     float *v = damage_floats(r, "gbuffer", "material.roughness");

@@ -203,7 +203,7 @@ class Tests:
                 changed.write(text)
             lines = selftest("--only", "dither", "--passes", folder, status=1).stdout.splitlines()
         failed = [line for line in lines if line.startswith("FAIL ")]
-        assert len(failed) == 1 and "ordered dither (Bayer's matrix" in failed[0] and "expected" in failed[0], lines
+        assert len(failed) == 1 and "ordered dither (the Bayer matrix" in failed[0] and "expected" in failed[0], lines
         assert lines[-1].endswith("1 cases, 1 failed"), lines[-1]
 
     def test_groups_that_get_no_device_beside_others_run_after_them(self):

@@ -1,4 +1,4 @@
-/* Writes the shares known so far into the folder at intervals, so that they can be read while the work goes on. */
+/* Writes the shares known so far into the folder at intervals, so that they can be read during the computation. */
 #include <stdlib.h>
 
 #include "blame/blame.h"

@@ -27,7 +27,6 @@ struct progress {
 void progress_begin(struct progress *progress);
 /* A glint_progress callback; `user` is a struct progress. Returns false after Ctrl-C. */
 bool progress_report(void *user, const char *what, double done);
-/* Removes the bar. */
 void progress_end(struct progress *progress);
 bool progress_interrupted(void);
 

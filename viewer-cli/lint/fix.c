@@ -208,7 +208,7 @@ static void ignore_violation(void *user, const char *rule, const char *message) 
     (void)user, (void)rule, (void)message;
 }
 
-/* Writes a trial copy next to the wanted one, so that relative paths of sibling files resolve, and measures it. */
+/* Writes a trial copy next to the output file, so that relative paths of sibling files resolve, and measures it. */
 static bool copy_is_worse(const char *from, const char *trial, const struct lint_findings *findings,
                           struct lint_agreement *agreement, bool *worse, struct glint_error *err) {
     struct lint_agreement after;

@@ -26,7 +26,7 @@ struct watch {
     const char *capture, *out, *cache;
     struct glint_device *device;
 };
-/* OUT holds the newest version that ran, OUT/first the first one; OUT/watch.html compares them and tells why a newer
+/* OUT holds the newest version that ran, OUT/first the first one; OUT/watch.html compares them and states why a newer
    version fails. Ends with Ctrl-C. */
 enum status watch_run(const struct watch *watch);
 

@@ -1,4 +1,4 @@
-// Which pixel stands for a 2x2 block. Next include of a pass with the rows of pick_rows.h.
+// Chooses the pixel that represents a 2x2 block. Next include of a pass with the rows of pick_rows.h.
 #include "shared/constants.glsl"
 
 // The pixel of the block that a frame prefers. Diagonal pixels come first, so that two frames already cover both rows and columns.

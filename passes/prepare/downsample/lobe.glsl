@@ -32,10 +32,10 @@ float kept_normals(float roughness) {
 
 struct Drawn {
     vec3 normal;
-    float cone; // half-angle of the cone that the ray stands for
+    float cone; // half-angle of the cone that the ray represents
 };
 
-// The cone of a ray, by its half-vector. In a mean over n strata of equal probability each ray stands for 1/n of the lobe.
+// The cone of a ray, by its half-vector. In a mean over n strata of equal probability each ray represents 1/n of the lobe.
 // Deviation from J. Křivánek, M. Colbert, Real-time Shading with Filtered Importance Sampling, CGF 27(4), 2008: n is not the number
 // of rays but the amount by which a cone may blur the lobe: at share 0.25 a step in the light is reproduced within 5 % of its height for
 // any roughness, angle and elevation (gpu_lobe_share).

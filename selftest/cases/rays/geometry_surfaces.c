@@ -148,7 +148,7 @@ static void check_roughest(struct case_run *run, const struct replay_case *c, st
     drawn_free(&d);
 }
 
-/* ---- Which pixel stands for a block ---- */
+/* ---- Which pixel represents a block ---- */
 
 /* The pixel that is picked in a block of inverse depths, which are 0 for sky and -1 outside of the picture. A gap of a twentieth divides the block in
    two sides, of which the one with more pixels counts, or the near one if both are equal; of two diagonals every other block takes the far one. */

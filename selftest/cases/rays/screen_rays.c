@@ -45,7 +45,7 @@ static void traced_free(struct traced *traced) {
     free(traced->normal);
 }
 
-/* A replay; way 0 is the exact one, others round differently. */
+/* A replay; path 0 is exact, the others round differently. */
 static uint32_t reference_end(const struct traced *traced, const struct depth_ray *ray, uint32_t way, double *t) {
     const struct depth_ray rounded = depth_ray_rounded(ray, way ? direction_rounding : 0, way);
     struct depth_grid grid = traced->grid;

@@ -75,7 +75,7 @@ void glint_classes_cross(const struct glint_classes *a, const struct glint_class
 /* A zero-initialised struct selects the defaults that are stated. */
 struct glint_metric_options {
     uint32_t metrics; /* bits 1 << GLINT_METRIC_…; 0: GLINT_METRICS_CHEAP */
-    /* Names of the components, such as "R G B A", which NULL stands for. Channels that both images have are compared. SSIM uses the
+    /* Names of the components, such as "R G B A", the default for NULL. Channels that both images have are compared. SSIM uses the
        luminance of R G B, or a single channel if not all three are there; FLIP needs R G B. */
     const char *found_channels, *truth_channels;
     /* Pixels that are 0 here are left out; for SSIM and FLIP they are black in both images. NULL: all pixels count. */

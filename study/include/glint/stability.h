@@ -38,7 +38,7 @@ struct glint_stability_image {
     const struct glint_row *row;
     uint32_t width, height, components;
     bool per_pixel; /* each texel belongs to a pixel, or a block of pixels, of the picture */
-    bool discrete;  /* integers that stand for a decision, such as why a ray ended; only `flips` applies to them */
+    bool discrete;  /* integers that encode a decision, such as why a ray ended; only `flips` applies to them */
     /* One value a texel, or NULL. */
     float *change;        /* root mean square of the relative change, over the seeds in which no decision flipped */
     float *amplification; /* `change` divided by the same of the image's inputs */

@@ -54,7 +54,6 @@ bool falsecolor_prepare(struct legend *legend, const struct source *source, enum
 struct legend legend_of_color(const struct source *source);
 /* Puts "LABEL: " before the title; LABEL ends at a slash. */
 void legend_label(struct legend *legend, const char *label);
-/* Appends the legend below the picture. */
 bool legend_add(struct picture *picture, const struct legend *legend, struct glint_error *err);
 
 #endif

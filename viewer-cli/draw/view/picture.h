@@ -22,7 +22,6 @@ struct picture {
     uint8_t *rgba;
 };
 
-/* Creates a picture filled with one colour. */
 bool picture_init(struct picture *picture, uint32_t width, uint32_t height, struct rgb color, struct glint_error *err);
 void picture_finish(struct picture *picture);
 void picture_set(struct picture *picture, uint32_t x, uint32_t y, struct rgb color);

@@ -7,7 +7,6 @@
 struct text;
 struct text *text_create(uint32_t height_px, struct glint_error *err);
 void text_destroy(struct text **text);
-/* The width of a UTF-8 string in pixels. */
 int text_measure(struct text *text, const char *string);
 /* Draws with the baseline at y. */
 void text_draw(struct text *text, struct picture *picture, int x, int y, const char *string, struct rgb color);
