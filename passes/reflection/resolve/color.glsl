@@ -138,15 +138,14 @@ float opacity(float alpha) { return min(alpha / (1.0 - 1.0 / 128.0), 1.0); }
 // map's nearest texels, not on the width of the cone.
 vec4 surface_in_cubemap(Ray ray, vec3 center, uint place) {
     vec4 at = vec4(ray.end - center, place);
-    if (cube_finest(cubemap_color, at).a < 0.5) return vec4(sky_color(ray), 1.0);
+    if (fact_sky_seen && cube_finest(cubemap_color, at).a < 0.5) return vec4(sky_color(ray), 1.0);
     return vec4(cubemap_texel(ray, at, true).rgb, 1.0);
 }
 
 vec4 cubemap_lookup(Ray ray, uint place) {
     vec3 center = active_centers[place].xyz;
-    bool surface = joint && !ray.endless;
-    if (surface && fact_sky_seen) return surface_in_cubemap(ray, center, place);
-    vec4 color = cubemap_texel(ray, vec4(ray.endless ? ray.direction : ray.end - center, place), surface);
+    if (joint && !ray.endless) return surface_in_cubemap(ray, center, place);
+    vec4 color = cubemap_texel(ray, vec4(ray.endless ? ray.direction : ray.end - center, place), false);
     if (!fact_sky_seen) return vec4(color.rgb, 1.0);
     color.a = opacity(color.a);
     if (color.a < 1.0) color.rgb += sky_color(ray) * (1.0 - color.a);

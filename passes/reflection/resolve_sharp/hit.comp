@@ -82,8 +82,8 @@ float own_hit(vec3 position, vec3 direction, float first_m) {
 // chosen ray hit, it is treated like a surrounding ray without a hit on screen.
 const int AROUND = 4;
 const float APART = 1.005; // ratio of distances below which two hits are of the same surface, so that only the first is tried
-End own_end(ivec2 pixel, ivec2 chosen, vec3 position, vec3 direction) {
-    End end = end_of(chosen), past = end;
+End own_end(ivec2 pixel, ivec2 chosen, End end, vec3 position, vec3 direction) {
+    End past = end;
     if (end.finished && own_hit(position, direction, end.travelled_m) > 0.0) return end;
     ivec2 own = pixel / int(reduction(frame.size)), toward = 2 * (pixel & 1) - 1, last = ivec2(frame.size.zw) - 1;
     float hits_m[AROUND];
@@ -126,7 +126,7 @@ void main() {
         float cone = min(cone_factor * lobe, WIDEST_CONE);
         vec3 position = mat3(frame.world_from_view) * view;
         End end = end_of(texel);
-        if (neighbours) end = own_end(pixel, texel, position, mirror_direction(position, surface.xyz));
+        if (neighbours) end = own_end(pixel, texel, end, position, mirror_direction(position, surface.xyz));
         vec4 sharp = color_at_end(ended_ray(position, surface.xyz, end.travelled_m, cone), end.finished, end.place);
         if (sharp.a > 0.0) color = mix(sharp, color, blend > 0.0 ? fade(roughness, sharp_roughness - blend, sharp_roughness) : 0.0);
     }
