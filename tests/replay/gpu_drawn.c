@@ -14,8 +14,10 @@
 static uint32_t count = 6,
                 first = 6; /* two of these six once revealed lookups that depended on neighbouring invocations */
 
-/* Seeds of small captures that once found that a cube map's colour was divided by its opacity only in frames that show sky. */
+/* Seeds of small captures that once revealed that a cube map's colour was divided by its opacity only in frames that show sky. They are
+   replayed besides the default seeds, not with those of the command line. */
 static const uint32_t found_before[] = {65, 115};
+static size_t found_count = sizeof found_before / sizeof *found_before;
 
 static size_t preset_count(void) {
     size_t count = 0;
@@ -60,15 +62,15 @@ static void plans_of_drawn_captures_change_no_bit(void **state) {
     for (size_t turn = 0; turn < 2 * presets; turn++)
         for (uint32_t seed = first; seed < first + count; seed++)
             if (seed % presets == turn / 2 && stores_halves(seed) == turn % 2) faults += differences(pair, seed) > 0;
-    for (size_t i = 0; i < sizeof found_before / sizeof *found_before; i++)
-        faults += differences(pair, found_before[i]) > 0;
-    if (faults) fail_msg("%u captures differ; to see one again: gpu_drawn 1 SEED", faults);
+    for (size_t i = 0; i < found_count; i++) faults += differences(pair, found_before[i]) > 0;
+    if (faults)
+        fail_msg("%u of %zu captures differ; to see one again: gpu_drawn 1 SEED", faults, (size_t)count + found_count);
     fixture_check_messages(pair->fixture);
 }
 
 int main(int argc, char **argv) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(plans_of_drawn_captures_change_no_bit)};
-    if (argc > 1) count = (uint32_t)strtoul(argv[1], NULL, 10);
+    if (argc > 1) count = (uint32_t)strtoul(argv[1], NULL, 10), found_count = 0;
     if (argc > 2) first = (uint32_t)strtoul(argv[2], NULL, 10);
     return cmocka_run_group_tests(tests, pair_set_up, pair_tear_down);
 }
