@@ -111,26 +111,26 @@ def census(args):
 
 # ---- the page ----
 
-def brief(value):
-    """Two digits, without an exponent for large values."""
+def two_digits(value):
+    """Two significant digits, without an exponent for large values."""
     return f"{float(f'{value:.2g}'):.0f}" if abs(value) >= 10 else f"{value:.2g}"
 
 
 def share(part, of):
-    return "none" if not part else f"{brief(100 * part / of)} %"
+    return "none" if not part else f"{two_digits(100 * part / of)} %"
 
 
 def largest(row):
     found = row["largest"]
     if not row["differing"]:
         return "none"
-    by = found["by"] if isinstance(found["by"], str) else brief(found["by"])
+    by = found["by"] if isinstance(found["by"], str) else two_digits(found["by"])
     a, b = ("∞" if found[k] is None else f"{found[k]:.5g}" for k in ("a", "b"))
     return f"{by} at {found['x']},{found['y']} {found['channel']}: {a}, {b}"
 
 
 def images_table(found):
-    rows = [[row["slot"], f"`{row['name']}`", share(row["differing"], row["pixels"]), str(row["failed"] or "none"), brief(row["rms"]) if isinstance(row["rms"], (int, float)) else "∞",
+    rows = [[row["slot"], f"`{row['name']}`", share(row["differing"], row["pixels"]), str(row["failed"] or "none"), two_digits(row["rms"]) if isinstance(row["rms"], (int, float)) else "∞",
              largest(row)] for row in found["images"] if row["differing"]]
     same = [f"`{row['name']}`" for row in found["images"] if not row["differing"]]
     text = table(["pass", "image", "texels that differ at all", "texels that differ by more than a thousandth", "RMS difference", "largest difference"], rows)
@@ -148,7 +148,7 @@ def ends_table(made):
 
 def filters_table(made):
     return table(["device", "largest difference from exact weights", "largest difference from weights of 8 bits"],
-                 [[d["as"], brief(d["filter"]["exact"]), brief(d["filter"]["eight_bits"])] for d in made["devices"]])
+                 [[d["as"], two_digits(d["filter"]["exact"]), two_digits(d["filter"]["eight_bits"])] for d in made["devices"]])
 
 
 def page(args):

@@ -202,7 +202,6 @@ REASONS = {
     ("29 taps", "error, rough"): "levels of a box filter are wider than their cone, which reduces noise where light is uniform; glossy "
     "pixels and street's RMSE need the narrower ones",
     ("29 taps instead of 1009", None): "29 taps are enough: the level is within 0.02 of the lobe, with 1009 within 0.002 (`gpu_mips`)",
-    ("colour filtered for cones", "error, rough"): "as for the taps: a box blurs more, which uniform light hides",
     ("sky MIPs", None): "the skies of the scenes are smooth over the cones of the rays that end in them",
     ("dither", None): "steps are refined and hits verified: little depends on their start",
     ("visibility", None): "a cube map that sees the start from afar has coarse texels along the whole ray; NOTES.md has the weight on three scenes",
