@@ -123,7 +123,7 @@ def main():
         call("view", "run", "--sheet", "--image", "normal_jittered,screen_end,cubemap_end,travelled,cubemap_index,reflection",
              "-o", os.path.join(docs, "street-passes.png"))
         # The screen image shows nothing behind a car: the cube map continues the ray.
-        call("probe", "street.exr", "552,318", "-o", "ray.svg")
+        call("probe", "street.exr", "662,280", "-o", "ray.svg")
         browser.open(os.path.join(folder, "ray.svg"))
         browser.picture(os.path.join(docs, "probe.png"), 1000, 1350)
         for name, lines, command in (("terminal-view", 40, "glint view run"), ("terminal-diff", 26, "glint diff run run2")):
