@@ -40,7 +40,7 @@ def tuned(args, folder, captures, held_out, budget):
         command += ["--slots", args.slots]
     done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
     if done.returncode and not done.stdout:
-        if "no point reaches" not in done.stderr:
+        if "no preset was written" not in done.stderr:
             sys.exit(done.stderr)
         return {"none": done.stderr.strip().split(": ", 1)[1]}
     return json.loads(done.stdout)
