@@ -92,6 +92,10 @@ const struct glint_pass *glint_pipeline_pass(const struct glint_pipeline *pipeli
 uint32_t glint_pipeline_rays(const struct glint_pipeline *pipeline); /* rays a pixel, at least 1 */
 /* The pass in a slot, or NULL if the pipeline does not have the slot. */
 const struct glint_pass *glint_pipeline_find(const struct glint_pipeline *pipeline, const char *slot);
+/* The parameter that glint_pipeline_set calls "slot.parameter", and its pass. Otherwise NULL, with a message that suggests the nearest
+   known name or lists all of them. */
+const struct glint_row *glint_pipeline_parameter(const struct glint_pipeline *pipeline, const char *name,
+                                                 const struct glint_pass **pass, struct glint_error *err);
 double glint_pipeline_value(const struct glint_pipeline *pipeline, const struct glint_pass *pass,
                             const struct glint_row *parameter);
 /* Checks the range as glint_pipeline_set does. The value of a choice is the index of its name. */
