@@ -24,3 +24,4 @@ PER_RAY
 ROLE(RAY_DISTANCE, travelled)
 ROLE(CUBEMAP_END, cubemap_end)
 ROLE(CUBEMAP_FETCHES, cubemap_fetches)
+TRACER("cube map", cubemap_end)

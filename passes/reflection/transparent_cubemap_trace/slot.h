@@ -19,3 +19,4 @@ DISPATCH_LIST(transparent_tiles, shown)
 NEEDS(transparent)
 PER_RAY
 REFERENCE_NONE("it is composed over the picture and is not part of the reflection that the reference computes")
+TRACER("cube map (transparent surfaces)", transparent_cubemap_end)
