@@ -50,7 +50,7 @@ class Tests:
         """Its lines below the headings."""
         return self.browser.evaluate(f"{TABLE}({json.dumps(title)})[{which}].slice(1)")
 
-    def test_a_run_is_told_whole(self):
+    def test_all_of_a_run_is_reported(self):
         run = self.run_json("b")
         self.show("b")
         facts = self.browser.evaluate("Object.fromEntries([...document.querySelectorAll('header dt')].map(e => [e.textContent, e.nextSibling.textContent]))")
