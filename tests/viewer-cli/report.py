@@ -127,7 +127,7 @@ class Tests:
     def test_classes_of_pixels_have_names_of_their_own(self):
         self.show("a")
         names = [row[0] for row in self.table("Error", 2)]
-        assert len(set(names)) == len(names) and "hit: farther" in names and "distance: farther" in names, names
+        assert len(set(names)) == len(names) and "hit distance: farther" in names and "distance: farther" in names, names
         intervals = self.browser.evaluate("document.querySelectorAll('td.interval').length")
         assert intervals > len(names), intervals
 
