@@ -291,7 +291,7 @@ static bool check_selection(const char *what, struct glint_error *err) {
         if (!strcmp(passes[i].effect, what)) return true;
     char name[64];
     snprintf(name, sizeof name, "%.*s", (int)slot, what);
-    return what[slot] ? glint_check_variant(name, what + slot + 1, err) : glint_check_slot(name, err);
+    return what[slot] ? glint_variant_check(name, what + slot + 1, err) : glint_slot_check(name, err);
 }
 
 static const char introduction[] =

@@ -51,7 +51,7 @@ static bool set_text(struct glint_pipeline *pipeline, const struct glint_pass *p
 }
 
 static bool not_in_pipeline(const struct glint_pipeline *pipeline, const char *slot, struct glint_error *err) {
-    return glint_check_slot(slot, err) &&
+    return glint_slot_check(slot, err) &&
            glint_fail(err, GLINT_ERROR_USAGE, "slot %s is not part of the pipeline %s", slot, pipeline->name);
 }
 

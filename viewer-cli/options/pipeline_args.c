@@ -57,7 +57,7 @@ void pipeline_args_finish(struct pipeline_args *args) {
 
 static bool check_slots(const struct list *slots, struct glint_error *err) {
     for (size_t i = 0; i < slots->count; i++)
-        if (!glint_check_slot(slots->items[i], err)) return false;
+        if (!glint_slot_check(slots->items[i], err)) return false;
     return true;
 }
 

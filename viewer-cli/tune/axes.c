@@ -290,7 +290,7 @@ static bool read_vary(const struct tune *tune, const char *text, struct tune_axi
             text);
     if (is_variant(axis->name)) {
         const struct glint_pass *pass = glint_pipeline_find(tune->base, axis->name);
-        if (!glint_check_slot(axis->name, err)) return false;
+        if (!glint_slot_check(axis->name, err)) return false;
         if (!values) return fail_vary(axis, "variants, such as SLOT=A,B", text, err);
         return read_list(tune, axis, values, pass ? pass->variant : GLINT_NO_VARIANT, err);
     }
