@@ -192,8 +192,8 @@ static bool decode_row(struct context *c, void *to) {
     const struct glint_exr_attribute *from = glint_exr_attribute(c->part, row->name);
     if (!from) {
         if (row->kind == GLINT_KIND_DOUBLE) memcpy(member, &row->fallback, sizeof row->fallback);
-        const bool wanted = row->required && (row->group == GLINT_NO_GROUP || *(bool *)((char *)to + row->group));
-        return wanted ? BROKEN(c, ATTRIBUTE, "missing") : true;
+        const bool required = row->required && (row->group == GLINT_NO_GROUP || *(bool *)((char *)to + row->group));
+        return required ? BROKEN(c, ATTRIBUTE, "missing") : true;
     }
     if (from->type != exr_type(row->kind))
         return BROKEN(c, ATTRIBUTE, "expected type %s, found %s", glint_kind_type(row->kind), from->type_name);

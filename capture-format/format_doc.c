@@ -1,5 +1,5 @@
 /* Keeps FORMAT.md's tables those of the registry.
-   usage: format_doc FORMAT.md          writes the tables anew
+   usage: format_doc FORMAT.md          rewrites the tables
           format_doc --check FORMAT.md  exit 1 when they differ */
 #include <stdio.h>
 #include <stdlib.h>

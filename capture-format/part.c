@@ -139,15 +139,16 @@ static bool is_required(const struct glint_part_info *out, const struct glint_ro
 static bool check_required(struct glint_check *check, const struct glint_part_info *out) {
     for (size_t i = 0; i < out->role->channel_count; i++) {
         const struct glint_role_channel *row = &out->role->channels[i];
-        bool wanted = is_required(out, row);
+        bool required = is_required(out, row);
         char other[64];
         snprintf(other, sizeof other, "%s", row->name);
         /* Optional vectors must be complete: one of X, Y, Z requires the others; motion.Z remains optional. */
         for (const char *axis = axes_of(row); axis && *axis; axis++) {
             other[strlen(other) - 1] = *axis;
-            wanted = wanted || glint_part_has_channel(out, other);
+            required = required || glint_part_has_channel(out, other);
         }
-        if (wanted && !glint_part_has_channel(out, row->name) && !BROKEN(CHANNELS, row->name, "missing")) return false;
+        if (required && !glint_part_has_channel(out, row->name) && !BROKEN(CHANNELS, row->name, "missing"))
+            return false;
     }
     return true;
 }

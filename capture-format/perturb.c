@@ -33,8 +33,8 @@ static struct glint_precision floating_of(int bits) {
 /* "R11G11B10…": the bits of the component that holds the channel, 0 when this is no such name. *rest: what follows. */
 static int bits_of(const char *name, const char *channel, const char **rest) {
     const char *dot = strrchr(channel, '.'), *last = dot ? dot + 1 : channel;
-    char wanted = last[1] ? 0 : last[0];
-    if (wanted >= 'X' && wanted <= 'Z') wanted = "RGB"[wanted - 'X'];
+    char component = last[1] ? 0 : last[0];
+    if (component >= 'X' && component <= 'Z') component = "RGB"[component - 'X'];
     int first = 0, found = 0;
     while (strchr("RGBADE", *name) && *name) {
         const size_t letters = strspn(name, "RGBADE");
@@ -43,7 +43,7 @@ static int bits_of(const char *name, const char *channel, const char **rest) {
         if (end == name + letters || bits < 1 || bits > 64) break;
         for (size_t i = 0; i < letters && name[i] != 'E'; i++) {
             if (!first) first = (int)bits;
-            if (name[i] == wanted || name[i] == 'D') found = (int)bits;
+            if (name[i] == component || name[i] == 'D') found = (int)bits;
         }
         name = end;
     }

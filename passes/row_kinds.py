@@ -110,6 +110,8 @@ KINDS = [
          row=VALUE, push='$type $name;'),
     Kind('ROLE', 'role, name', 'What this image or parameter is to replay and study, which know none by name: enum glint_pass_role.',
          row='.name = "", .image = #$name, .first = GLINT_ROLE_##$role'),
+    Kind('TRACER', 'label, image', 'The pass traces rays: tables call it by the label, and `image`, a DIAGNOSTIC, holds why each ray ended.',
+         row='.name = $label, .image = #$image'),
     Kind('ASSUMED', 'parameter',
          'This parameter stands for something that the capture does not contain, such as how thick objects are. `glint reference` halves and '
          'doubles it to find how far the answer depends on it.', row='.name = #$parameter'),

@@ -89,7 +89,7 @@ static enum wrap wrap_of(enum aiTextureMapMode mode) {
     return mode == aiTextureMapMode_Clamp ? WRAP_CLAMP : mode == aiTextureMapMode_Mirror ? WRAP_MIRROR : WRAP_REPEAT;
 }
 
-static bool plain(const struct aiUVTransform *t) {
+static bool is_identity(const struct aiUVTransform *t) {
     return fabsf(t->mTranslation.x) < 1e-6f && fabsf(t->mTranslation.y) < 1e-6f && fabsf(t->mRotation) < 1e-6f &&
            fabsf(t->mScaling.x - 1) < 1e-6f && fabsf(t->mScaling.y - 1) < 1e-6f;
 }
@@ -105,7 +105,7 @@ static bool read_map(const struct source *s, const struct aiMaterial *from, enum
     if (set)
         return glint_fail(s->err, GLINT_ERROR_UNSUPPORTED, "%s: a texture uses TEXCOORD_%u, expected 0", s->path, set);
     if (aiGetMaterialUVTransform(from, AI_MATKEY_UVTRANSFORM(type, 0), &transform) == aiReturn_SUCCESS &&
-        !plain(&transform))
+        !is_identity(&transform))
         return glint_fail(s->err, GLINT_ERROR_UNSUPPORTED, "%s: KHR_texture_transform is not read", s->path);
     *map = (struct map){NULL, wrap_of(modes[0]), wrap_of(modes[1])};
     return load_texture(s, name.data, srgb, &map->texture);

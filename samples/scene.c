@@ -42,11 +42,11 @@ void scene_finish(struct scene *scene) {
 static bool reserve(void *array, uint32_t *room, uint32_t count, size_t element_bytes) {
     void **memory = array;
     if (count <= *room) return true;
-    uint32_t wanted = count < 64 ? 64 : count + count / 2;
-    void *larger = realloc(*memory, wanted * element_bytes);
+    uint32_t capacity = count < 64 ? 64 : count + count / 2;
+    void *larger = realloc(*memory, capacity * element_bytes);
     if (!larger) return false;
     *memory = larger;
-    *room = wanted;
+    *room = capacity;
     return true;
 }
 

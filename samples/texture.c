@@ -114,7 +114,7 @@ static void look_up(const struct map *map, const struct point *at, float footpri
     texture_sample(map, at->u, at->v, footprint * at->density * size, rgba);
 }
 
-static vec3 rgb(const float rgba[4]) {
+static vec3 first_three(const float rgba[4]) {
     return v3(rgba[0], rgba[1], rgba[2]);
 }
 
@@ -139,9 +139,9 @@ void look_apply(const struct mesh *mesh, uint32_t triangle, float u, float v, st
     vec3 vertex =
         along(along(scale(mesh->skins[i[0]].color, 1 - u - v), mesh->skins[i[1]].color, u), mesh->skins[i[2]].color, v);
     look_up(&look->color, &at, surface->footprint, rgba);
-    surface->albedo = times(times(look->color_factor, vertex), rgb(rgba));
+    surface->albedo = times(times(look->color_factor, vertex), first_three(rgba));
     look_up(&look->emission, &at, surface->footprint, rgba);
-    surface->emission = times(look->emission_factor, rgb(rgba));
+    surface->emission = times(look->emission_factor, first_three(rgba));
     look_up(&look->surface, &at, surface->footprint, rgba);
     surface->roughness = look->roughness_factor * rgba[1];
     surface->metalness = look->metalness_factor * rgba[2];

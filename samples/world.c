@@ -65,8 +65,8 @@ static RTCScene build_tree(struct world *world, bool front, struct glint_error *
     rtcSetSceneFlags(tree, RTC_SCENE_FLAG_ROBUST);
     for (uint32_t i = 0; i < world->scene->mesh_count; i++) {
         const struct mesh *mesh = &world->scene->meshes[i];
-        bool wanted = front ? mesh->triangle_count && mesh->flags & MESH_FOREGROUND : part_of(mesh, world->kind);
-        if (!wanted || attach(world, tree, mesh, err)) continue;
+        bool belongs = front ? mesh->triangle_count && mesh->flags & MESH_FOREGROUND : part_of(mesh, world->kind);
+        if (!belongs || attach(world, tree, mesh, err)) continue;
         rtcReleaseScene(tree);
         return NULL;
     }

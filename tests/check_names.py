@@ -9,13 +9,10 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 # Words with another meaning in these files.
 EXCEPTIONS = {
-    "replay/include/glint/replay.h": {"none"},  # disables a slot; also a variant of downsample
-    "replay/plan/survey_record.c": {"none"},  # a kind of motion
     "study/metrics/metrics.c": {"rough"},  # a class of surfaces
-    "study/shown/ends.c": {"sky"},  # the source of a reflection
-    "study/shown/regions.c": {"hit", "sky"},  # the kind of end of a mirror ray
 }
-# Slots whose names are also what replay/ calls things of its own: the survey, and layers of a capture.
+# Slots whose names are also what replay/ calls things of its own: the survey, and layers of a capture. In identifiers, includes and keys of run.json
+# they are that; in any other string they are the slots.
 OWN_WORDS = {"survey", "planar", "water"}
 # Roles and size classes, some of which are called after images.
 DECLARED = re.compile(r"^GLINT_(ROLE|SIZE)_[A-Z_]+$")
@@ -58,15 +55,16 @@ def matches(text, names, slots, where, used):
     several = re.compile(r"(?<![a-z])(?:" + "|".join(sorted((n for n in names if "_" in n), key=len, reverse=True)) + r")(?![a-z])", re.I)
     assigned = re.compile(r"(?:" + "|".join(sorted(slots)) + r")(?:[=./].*)?")
     for literal in STRING.finditer(text):
-        if several.search(literal[1]) or assigned.fullmatch(literal[1]):
+        own = literal[1] in OWN_WORDS or text.endswith("#include ", 0, literal.start()) and re.match(r"\w+", literal[1])[0] in OWN_WORDS
+        if several.search(literal[1]) or assigned.fullmatch(literal[1]) and not own:
             yield literal.start(), literal[0]
     for literal in STRING.finditer(without_keys(text)):
         if literal[1] in EXCEPTIONS.get(where, {}):
             used.add((where, literal[1]))
-        elif literal[1] in names and "_" not in literal[1] and not assigned.fullmatch(literal[1]):
+        elif literal[1] in OWN_WORDS or literal[1] in names and "_" not in literal[1] and not assigned.fullmatch(literal[1]):
             yield literal.start(), literal[0]
     for word in re.finditer(r"\b[A-Za-z_]\w*", STRING.sub(lambda s: " " * len(s[0]), text)):
-        if not DECLARED.match(word[0]) and (several.search(word[0]) or slots & set(word[0].lower().split("_"))):
+        if not DECLARED.match(word[0]) and (several.search(word[0]) or (slots - OWN_WORDS) & set(word[0].lower().split("_"))):
             yield word.start(), word[0]
 
 
@@ -78,7 +76,7 @@ def main():
     for path in sorted(p for folder in ("replay", "study") for kind in ("*.[ch]", "*.cc") for p in (ROOT / folder).rglob(kind)):
         text = re.sub(r"/\*.*?\*/", lambda c: re.sub(r"[^\n]", " ", c[0]), path.read_text(encoding="utf-8"), flags=re.S)
         where = path.relative_to(ROOT).as_posix()
-        for start, found in matches(text, names, slots - OWN_WORDS, where, used):
+        for start, found in matches(text, names, slots, where, used):
             line = text.count("\n", 0, start) + 1
             faults.append(f"{where}:{line}: {found} is a name of the passes; expected a row ROLE, and its kind here")
     faults += [f"tests/check_names.py: {where} names {word} no more: take the exception out"

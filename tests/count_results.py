@@ -1,5 +1,5 @@
-"""Adds up the cases of the given build folders' test runs and prints the closing line of the suite. A program that ended badly
-although none of its cases failed (it was killed, say) is a failure of its own."""
+"""Adds up the cases of the given build folders' test runs and prints the closing line of the suite. A program that
+fails although none of its cases did, such as one that was killed, is a failure of its own."""
 import json
 import os
 import re

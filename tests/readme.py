@@ -1,8 +1,8 @@
 """Runs every command of README.md as it is printed, in order: readme.py GLINT.
 
 Command blocks are indented by four spaces; what follows a # is a remark. `./dev` runs in the clone, all else in FOLDER, with the
-program that `./dev install` has put there; lines under a command that begins with $ are what it prints. GLINT only makes what a
-reader has before. What an interruption or a failure leaves is gone on with by the next call, unless the tree has changed.
+program that `./dev install` has put there; lines under a command that begins with $ are what it prints. GLINT only makes the
+files that a reader has before. After an interruption or a failure the next call continues, unless the tree has changed.
 `./dev readme` calls this."""
 import hashlib
 import json

@@ -57,8 +57,8 @@ def copy_gbs():
 
 
 def least_bytes(glint, result):
-    """Bytes that each pass has to move: every image it names once, and of cube maps one texel for each pixel that it
-    writes, which is what a single fetch costs. What the caches make of it is not counted."""
+    """The least number of bytes that each pass must read and write: each image once, and of cube maps one texel for each pixel that it
+    writes. Caches are not considered."""
     passes = json.loads(subprocess.run([glint, "passes", "--json"], check=True, capture_output=True).stdout)["passes"]
     full, half = (w * h for w, h in (result["resolution"]["full"], result["resolution"]["half"]))
     moved = {}

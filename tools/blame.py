@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""docs/blame.md: where the error of a preset comes from, and what each millisecond buys, as `glint blame` tells it.
+"""docs/blame.md: where the error of a preset comes from, and what each millisecond buys, measured by `glint blame`.
 
 blame.py measure GLINT RECORD [--rays N] [--player-rays N] [--rounds N]   on this device, into a folder
 blame.py page RECORD... [-o DOCS]                                        the page of those folders"""
@@ -22,10 +22,10 @@ def measure(glint, record, rays, player_rays, rounds):
         captures = [sample(glint, scene, folder, SIZE, CUBE, "--truth", TRUTH) for scene in SCENES]
         found = pathlib.Path(folder) / "blame"
         run(glint, "blame", *captures, "-p", PRESET, "-o", found, "--rays", rays, "--player-rays", player_rays, "--repeat", rounds)
-        told = json.loads((found / "shares.json").read_text())
-        for capture in told["captures"]:
+        results = json.loads((found / "shares.json").read_text())
+        for capture in results["captures"]:
             capture["capture"] = pathlib.Path(capture["capture"]).name
-        (pathlib.Path(record) / "shares.json").write_text(json.dumps(told, indent=1) + "\n")
+        (pathlib.Path(record) / "shares.json").write_text(json.dumps(results, indent=1) + "\n")
         for name in CHARTS:
             shutil.copy(found / name, pathlib.Path(record) / name)
 
@@ -34,7 +34,7 @@ def number(value, digits=4):
     return "unknown" if value is None else f"{value:.{digits}f}".replace("-", "−")
 
 
-def brief(value):
+def short(value):
     return "not timed" if value is None else f"{value:.3g}".replace("-", "−")
 
 
@@ -45,17 +45,17 @@ def bought(player, cost):
         return "not timed"
     if removed * ms <= 0:
         return "better and faster" if removed > 0 else "no gain"
-    return brief(removed / ms) + (" (spent already)" if ms < 0 else "")
+    return short(removed / ms) + (" (spent already)" if ms < 0 else "")
 
 
-def shares(told, answer):
-    errors = told["errors"][answer]["all"]
+def shares(results, answer):
+    errors = results["errors"][answer]["all"]
     total = errors["preset"] - errors["reference"]
     rows = []
     for name, player in errors["players"].items():
-        cost = told["costs"][name]
+        cost = results["costs"][name]
         rows.append([f"`{name}`", number(player["share"]), number(100 * player["share"] / total, 0) + " %", number(player["removed"]), number(player["made"]),
-                     brief(cost["added_ms"]), bought(player, cost), brief(cost["added_fetches_px"]), brief(cost["saved_ms"])])
+                     short(cost["added_ms"]), bought(player, cost), short(cost["added_fetches_px"]), short(cost["saved_ms"])])
     sums = {key: sum(p[key] for p in errors["players"].values()) for key in ("share", "removed", "made")}
     if abs(sums["share"] - total) > 1e-9:
         raise SystemExit(f"shares add up to {sums['share']}, expected {total}")
@@ -64,22 +64,22 @@ def shares(told, answer):
             table(["player", "share of the error", "of the difference", "removes, replaced alone", "makes, kept alone", "ms added by the replacement", "error removed per ms added", "fetches a pixel added", "ms saved by keeping it"], rows))
 
 
-def by_surface(told):
-    classes = told["errors"]["reference"]
+def by_surface(results):
+    classes = results["errors"]["reference"]
     names = [s for s in SURFACES if s in classes]
     rows = [[f"`{name}`", *(number(classes[s]["players"][name]["share"]) for s in names)] for name in classes["all"]["players"]]
     rows += [[f"*{what}*", *(number(classes[s][key]) for s in names)] for what, key in (("error of the preset", "preset"), ("of its reference", "reference"))]
     return table(["player", *(f"share, {name}" for name in names)], rows)
 
 
-def scene(told):
-    name = pathlib.Path(told["capture"]).stem
-    text = f"\n## {name}\n\n### Against the reference\n\n{shares(told, 'reference')}\n{by_surface(told)}"
-    return text + (f"\n### Against the truth\n\n{shares(told, 'truth')}" if "truth" in told["errors"] else "")
+def scene(results):
+    name = pathlib.Path(results["capture"]).stem
+    text = f"\n## {name}\n\n### Against the reference\n\n{shares(results, 'reference')}\n{by_surface(results)}"
+    return text + (f"\n### Against the truth\n\n{shares(results, 'truth')}" if "truth" in results["errors"] else "")
 
 
-def said(mean):
-    """A sentence: the largest share, the largest single improvement, and where time is best spent."""
+def summary(mean):
+    """The largest share, the largest single improvement, and where time is best spent, in sentences."""
     errors = mean["errors"]["reference"]["all"]
     players = errors["players"]
     total = errors["preset"] - errors["reference"]
@@ -94,21 +94,21 @@ def said(mean):
             + f"Players interact: single replacements in the preset add up to {number(removed)}, those in the reference to {number(made)}, while the difference is {number(total)}.")
 
 
-def players(told):
-    return "\n".join(f"- `{p['name']}`: {p['change']}{'. Together: ' + p['why'] if p['why'] else ''}." for p in told["players"])
+def players(results):
+    return "\n".join(f"- `{p['name']}`: {p['change']}{'. Together: ' + p['why'] if p['why'] else ''}." for p in results["players"])
 
 
 def page(records, docs):
     text = ""
     for record in map(pathlib.Path, records):
-        told = json.loads((record / "shares.json").read_text())
-        device, mean = told["device"], told["mean"]
+        results = json.loads((record / "shares.json").read_text())
+        device, mean = results["device"], results["mean"]
         for name in CHARTS:
             shutil.copy(record / name, docs / f"blame-{name}")
         text += f"""
-Measured on {device['name']}{' (a CPU: its times say nothing about a GPU)' if device['is_cpu'] else ''}, median of {told['rounds']} rounds; a frame of the
-preset takes {brief(mean['frame_ms']['preset'])} ms at this size, one of the reference {brief(mean['frame_ms']['reference'])}. Errors are
-against a reference of {told['reference_rays']} rays a pixel; the error of the pipeline with all players replaced is the noise of its own rays. All
+Measured on {device['name']}{' (a CPU: its times say nothing about a GPU)' if device['is_cpu'] else ''}, median of {results['rounds']} rounds; a frame of the
+preset takes {short(mean['frame_ms']['preset'])} ms at this size, one of the reference {short(mean['frame_ms']['reference'])}. Errors are
+against a reference of {results['reference_rays']} rays a pixel; the error of the pipeline with all players replaced is the noise of its own rays. All
 {mean['pipelines']} pipelines between the two were run on each scene, so that shares are {'exact' if mean['exact'] else 'sampled'}.
 
 ![Share, error removed and error made of each player](blame-shares.svg)
@@ -117,9 +117,9 @@ against a reference of {told['reference_rays']} rays a pixel; the error of the p
 
 ## Mean of both scenes
 
-{said(mean)}
+{summary(mean)}
 
-{shares(mean, 'reference')}{"".join(scene(c) for c in told["captures"])}
+{shares(mean, 'reference')}{"".join(scene(c) for c in results["captures"])}
 ## The players
 
 Slots that cannot be replaced alone form one player: their declarations say so, or only one variant makes an image that another needs. In `kf2`, which
@@ -127,7 +127,7 @@ has no cube maps, one player is `resolve` and the slots of the cube maps: the re
 `blurred` of `kf2` does not read it. Cube maps without the other resolve change nothing, and the other resolve does not run without them, so that
 no measurement can separate their shares.
 
-{players(told)}
+{players(results)}
 """
     (docs / "blame.md").write_text(f"""# Where the error comes from
 

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """How far two devices are apart on the same captures, pass by pass; writes docs/devices.md.
 
-devices.py run GLINT --as NAME -o FOLDER [--captures F...]      replays on this machine's device, with what runs leave
+devices.py run GLINT --as NAME -o FOLDER [--captures F...]      replays on this machine's device
 devices.py census GLINT FOLDER FOLDER -o RECORD.json            compares two of them, with glint diff
 devices.py page [-o docs/devices.md]                            from the records in tools/records/devices
 
-The first needs nothing but the program, so that it can be done wherever a bundle runs; captures of its own are made where none are
-given. The second asks `glint stability` which decisions are ties, and reads its answer with oiiotool."""
+The first needs nothing but the program, so that it can be done wherever a bundle runs; without --captures it makes them. The second finds with
+`glint stability` which decisions are ties, and reads its images with oiiotool."""
 import argparse
 import json
 import pathlib

@@ -1,9 +1,12 @@
-"""Which mechanisms there are: what turns each off, on which scene, what is looked at, what is traded, and where nothing is
-gained, why.
+"""The mechanisms of docs/mechanisms.md: the switch that turns each off, the scene, the figure that is compared, what is traded for it, and the
+explanation where nothing is gained.
 
-Scenes: NAME is one frame; still:NAME a shot of a camera that stands, jittered, with the truth of the pixels' areas;
-centred:NAME the same through the pixels' centres; moving:NAME a camera that moves aside, unjittered; full:NAME a frame at
-1920x1080, for times."""
+Scenes:
+    NAME            one frame
+    still:NAME      a shot of a static, jittered camera, whose truth covers the pixels' areas
+    centred:NAME    the same, with rays through the pixels' centres
+    moving:NAME     a shot of an unjittered camera that moves sideways
+    full:NAME       one frame at 1920x1080, for times"""
 
 
 def surface(rows, name):

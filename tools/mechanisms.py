@@ -3,8 +3,8 @@
 
 mechanisms.py GLINT [-o DOCS] [--only TEXT] [--repeat N]
 
-One row for each mechanism: a scene that calls for it, the switch that turns it off, and what is looked at. Rows that the
-program refuses are left out, and said so on stderr."""
+One row for each mechanism: a scene that calls for it, the switch that turns it off, and the figure that is compared. Rows that
+glint refuses are left out and named on stderr."""
 import argparse
 import json
 import os
@@ -20,7 +20,7 @@ os.environ["GLINT_CACHE"] = "none"  # each run measures its own time
 
 WORK = pathlib.Path("out/docs")
 SIZE, CUBE, TRUTH = "480x270", "128", "64"
-SHOT_SIZE, FRAMES, TOLD = "320x180", 16, (1, 4, 16)
+SHOT_SIZE, FRAMES, TRUTH_FRAMES = "320x180", 16, (1, 4, 16)
 FULL_SIZE, FULL_CUBE = "1920x1080", "512"
 # Rays per pixel of the shots' truth where it is measured; of pixels' areas: at each of 16 jitter positions.
 SHOT_TRUTH, PLACE_TRUTH = 32, 4
@@ -70,17 +70,17 @@ class Bench:
                 self.run("sample", scene, "-o", path, *what)
             return [path]
         frames = [WORK / f"{kind}-{scene}.{i:04}.exr" for i in range(1, FRAMES + 1)]
-        told = {n: WORK / f"{kind}-{scene}-truth.{n:04}.exr" for n in TOLD}
+        truths = {n: WORK / f"{kind}-{scene}-truth.{n:04}.exr" for n in TRUTH_FRAMES}
         view = ["--size", SHOT_SIZE, "--cube-size", CUBE]
         view += ["--travel", TRAVEL[scene]] if kind == "moving" else ["--camera", self.camera(scene)]
         view += [] if kind == "still" else ["--unjittered"]
         if not frames[-1].exists():
             self.run("sample", scene, "-o", WORK / f"{kind}-{scene}.exr", "--frames", FRAMES, "--truth", 1, *view)
-        for n, path in told.items():
+        for n, path in truths.items():
             if not path.exists():
                 truth = ["--truth", PLACE_TRUTH, "--truth-of-pixels"] if kind == "still" else ["--truth", SHOT_TRUTH]
                 self.run("sample", scene, "-o", path, "--first-frame", n, *truth, *view)
-        return [told.get(n, frames[n - 1]) for n in range(1, FRAMES + 1)]
+        return [truths.get(n, frames[n - 1]) for n in range(1, FRAMES + 1)]
 
     def camera(self, scene):
         """The position of the scene's camera, to keep it static."""
@@ -106,8 +106,8 @@ class Bench:
         return [r["against_reference"] for r in runs]
 
     def noise(self, scene, settings):
-        """For each frame of a shot, how far it is from what the same settings converge to. A camera that stands has a long
-        history of many rays; one that moves, many rays of its last frame, with which only that one is compared."""
+        """The error of each frame of a shot against the converged result of the same settings: for a static camera a long history with many
+        rays, for a moving one many rays of the last frame, which alone is compared."""
         key = ("noise", scene, *settings)
         if key not in self.known:
             captures, moving = self.scene(scene), scene.startswith("moving:")
@@ -182,10 +182,10 @@ def mechanisms(bench, only):
             left_out.append(f"{name}: {why}")
             continue
         change = 100 * (b - a) / a if a else 0 if b == a else float("inf")
-        verdict, told = f"{change:+.1f} %", reason(name, figure[0])
+        verdict, explanation = f"{change:+.1f} %", reason(name, figure[0])
         if change < 0.5:
-            verdict = ("**no change**" if abs(change) < 0.5 else verdict + " (**better without**)") + ": " + (told or "**unexplained**")
-            if not told:
+            verdict = ("**no change**" if abs(change) < 0.5 else verdict + " (**better without**)") + ": " + (explanation or "**unexplained**")
+            if not explanation:
                 print(f"unexplained: {name}, {scene}, {figure[0]}: {change:+.1f} %", file=sys.stderr)
         rows.append((step, name, scene, f"`{off}`", figure[0], number(a), number(b), verdict, traded[0] if traded else ""))
         print(*rows[-1], sep=" | ", file=sys.stderr, flush=True)
@@ -287,7 +287,7 @@ def frames(bench):
     rows = []
     for kind in ("still:room", "still:street", "moving:room", "moving:street"):
         runs = bench.replay(kind, HISTORY)
-        for n in TOLD:
+        for n in TRUTH_FRAMES:
             s = runs[n - 1]["image"]["surfaces"]
             rows.append((kind.partition(":")[2], kind.partition(":")[0], n,
                          *(number(surface(s, k)[v]) for k in ("mirror-like", "glossy", "rough") for v in ("symmetric", "rmse"))))

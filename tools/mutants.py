@@ -6,11 +6,10 @@ mutants.py run BUILD -o RECORD [--jobs N]      tries each mutant; goes on where 
 mutants.py check BUILD -o RECORD               the same, and speaks TAP (./dev test --all)
 mutants.py page RECORD... -o PAGE              the page of those records
 
-A mutant's file lies alone in a folder; programs take passes from there ($GLINT_PASSES). Each is tried by the programs that have the
-file in what they run until one fails: what noticed it in the record before first, then the likeliest by the time that they take. A control
-run of unchanged sources on the same way, which must pass, tells which those are: those that open the file. Time is the processor's, so
-that it does not matter what else the machine does. What a record says of other sources or other programs is the order of trying,
-and nothing else."""
+The changed file lies alone in a folder from which the programs take passes ($GLINT_PASSES). A mutant is tried with each program that uses the
+file until one fails. A control run of unchanged sources, which must pass, finds the files that each program opens. The program that failed in the
+previous record comes first, then those with the highest chance to fail per second of processor time. A record of other sources or
+programs changes this order alone, never a result."""
 import argparse
 import collections
 import concurrent.futures
@@ -127,8 +126,8 @@ def opened(folder):
 
 
 def control_of(program):
-    """The time of unchanged sources, and which of them are opened, by the time of access, which a file system keeps when
-    it lies before that of the last change."""
+    """The program's time on unchanged sources, and the files that it opens. A file was opened if its access time changed, which a file
+    system with relatime updates if it was older than the last modification."""
     with tempfile.TemporaryDirectory(prefix="gm") as folder:
         passes = pathlib.Path(folder) / "passes"
         shutil.copytree(ROOT / "passes", passes)
@@ -201,8 +200,7 @@ def slot_of(file):
 
 
 def likeliest(programs, file, report):
-    """Those that have the file in what they run: first those that are there for it, by their names; then by the chance, as found so
-    far, that a second of theirs notices."""
+    """The programs that open the file: first those named after its slot, then by their chance to fail per second, as measured so far."""
     def is_own(program):
         words = {"shared": "functions", "temporal": "time", "temporal_sharp": "time", "screen_trace": "geometry", "cubemap_trace": "geometry"}
         slot = "shared" if file.startswith("shared/") else file.split("/")[-2]
@@ -217,8 +215,8 @@ def likeliest(programs, file, report):
 
 
 def in_order(row, programs, report):
-    """What noticed it before, of the self-test only the case that did; then the others that may. Where a reason is known why nothing
-    does, only so many of these as take a minute."""
+    """The program that failed before, of the self-test only the case that failed; then the others. If it is explained why none fails, they
+    get a minute in all."""
     others, spent_s = likeliest(programs, row["file"], report), 0
     by, failed = row.get("before_by"), row.get("before_failed", [""])
     for program in (p for p in others if p.name == by):

@@ -1,5 +1,5 @@
-"""Mutants of passes/, made mechanically: one token sequence of one file exchanged for another. Which ones is a matter of a seed
-alone. Those that do not compile, and those that compile to the same code, are counted and replaced by the next."""
+"""Makes mutants of passes/: each replaces one token sequence of one file. The seed alone decides which. Mutants that do not compile, and those
+that compile to the same code, are counted and replaced by the next."""
 import collections
 import hashlib
 import pathlib
@@ -271,8 +271,8 @@ def name_of(row):
 
 
 def mechanism_places(tree):
-    """{mechanism: [(files, words)]}: where a mechanism of the table is: statements of the files that have one of the words (where
-    those have nothing to change, of the variables that are made from them); all of the files' where there are no words."""
+    """{mechanism: [(files, words)]}: a mechanism is implemented by the statements in these files that contain one of the words, or by all
+    statements if there are no words. Where such statements offer no mutant, the words include the variables computed from them."""
     places = collections.defaultdict(list)
     for row in mechanism_rows.ROWS:
         both, off = row[3], row[4]

@@ -1,7 +1,7 @@
 """What the scripts that write docs/ share: running glint, presets with one thing changed, tables, times of devices.
 
-A row of a page is (name, words); a word is SLOT=VARIANT, none to leave the slot out, or SLOT.PARAMETER=VALUE. Of the rows whose
-times are told a page has timed(): {scene: {key: preset}}; tools/times.py measures them on a device, and Times reads what it found."""
+A row of a page is (name, words); a word is SLOT=VARIANT, none to leave the slot out, or SLOT.PARAMETER=VALUE. A page with
+times defines timed(): {scene: {key: preset}}; tools/times.py measures these presets on a device, and Times reads the record."""
 import json
 import os
 import pathlib

@@ -5,7 +5,7 @@ plans.py record GLINT --as NAME -o RECORD.json [--size WxH] [--cube N] [--rounds
 plans.py page GLINT [-o DOCS]                                 DOCS/plans.md and its charts, from all records
 
 The first needs nothing but the program, so that a record can be made wherever a bundle runs. Planned and whole runs take turns
-(`glint plan --measure`). What passes worked on is the same on every device: --no-counts leaves it to another record."""
+(`glint plan --measure`). The pixels that passes process are the same on every device: --no-counts leaves them to another record."""
 import argparse
 import concurrent.futures
 import json
@@ -74,8 +74,8 @@ def ruled(args, capture, folder):
 
 
 def make(args, folder, names):
-    """Captures of scenes and of the series, as many at once as there are four cores for; all of them before anything is measured,
-    which would wait for the cores that they are rendered on."""
+    """Renders the captures of the scenes and of the series, one for every four cores at a time, before anything is measured: rendering would
+    take cores from the measurement."""
     def one(name):
         scene, *rest = name.split("-")
         path = pathlib.Path(folder) / f"{name}.exr"

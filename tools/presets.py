@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every preset on every sample scene that reflects or pointedly does not: presets.py GLINT [-o DOCS] [--scenes A,B]
+"""Every preset on the sample scenes, with matte as the one that reflects nothing: presets.py GLINT [-o DOCS] [--scenes A,B]
 
 Writes DOCS/presets.md and a sheet of pictures for each scene."""
 import argparse

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""What the reference's noise, time and assumptions are, and what of an error is missing information; writes docs/reference.md.
+"""The reference's noise, time and assumptions, and the share of the error that information missing from captures causes; writes docs/reference.md.
 
 reference.py record GLINT --as NAME [-o RECORD.json]   measure on this machine's device
 reference.py page [-o docs/reference.md]               from the records in tools/records/reference
 
 Recording needs nothing but the program, so that it can be done wherever a bundle runs. The page has the times of every
-record, all else from the one with the most rays."""
+record; all other figures are from the record with the most rays."""
 import argparse
 import json
 import pathlib
@@ -189,7 +189,7 @@ def main():
     one.add_argument("--size", default="960x540")
     one.add_argument("--cube", default="256")
     one.add_argument("--truth", default="64", help="rays a pixel of the truth")
-    one.add_argument("--rays", default="64,256,1024", help="at which the noise is told; independent ones up to the last but one")
+    one.add_argument("--rays", default="64,256,1024", help="rays a pixel at which the noise is measured; all but the last are independent")
     one.add_argument("--sensitivity", type=int, default=32, help="rays a pixel of each assumption tried")
     one.add_argument("--work", help="folder for temporary files")
     one.add_argument("-o", "--output", default=RECORDS / "here.json", type=pathlib.Path)

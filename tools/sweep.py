@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""How the error falls with the steps of the tracers, first step and length held, all else at the reference:
+"""How the error falls with the steps of the tracers, with a fixed first step and length and all else as in the reference:
 
 sweep.py measure GLINT -o RECORD.json [--scenes A,B] [--size WxH]    needs nothing but the program
 sweep.py page GLINT RECORD.json [-o DOCS]                            DOCS/sweep.md and its charts
 
-Several sets of rays are traced, each against a reference of the same rays: what both find alike cancels out, and the sets
-together tell the noise of the errors."""
+Several sets of rays are traced, each compared with a reference of the same rays, so that the noise of the rays cancels out. The spread of the
+sets is the noise of the errors."""
 import argparse
 import json
 import math
@@ -127,9 +127,9 @@ def falling(values):
 
 
 def knee(curve, answer):
-    """Where more steps begin to buy less, or None. Satopaa et al., Finding a "Kneedle" in a Haystack, 2011, with S = 1, over the
-    logarithm of steps, on the fit that rises nowhere in place of their smoothing spline: both axes to 0..1, the last local maximum
-    of the fall less the way that is followed by a drop of more than the mean way between points."""
+    """The number of steps from which more steps gain less, or None: Satopaa et al., Finding a "Kneedle" in a Haystack, 2011, with S = 1, over
+    the logarithm of steps, and with a non-increasing fit instead of their smoothing spline. With both axes scaled to 0..1, it is the last local
+    maximum of the distance above the diagonal that is followed by a drop larger than the mean distance between points."""
     points = sorted(curve, key=int)
     x = [math.log(int(p)) for p in points]
     y = falling([estimate(curve[p], answer)[0] for p in points])

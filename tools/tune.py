@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""What glint tune finds, beside all steps scaled by one factor: at half and a quarter of mafia3's cost, on scenes it is tuned on and one
-that it has not seen.
+"""Compares what glint tune finds at half and a quarter of mafia3's cost with scaling all steps by one factor, on the tuned scenes and on one
+held out.
 
 tune.py measure GLINT --as NAME -o RECORD.json [--cost ms]    needs nothing but the program
 tune.py page [RECORD.json …] [-o DOCS]                        DOCS/tune.md of these and of tools/records/tune

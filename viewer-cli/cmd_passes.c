@@ -3,7 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "options/nearest.h"
+#include "glint/nearest.h"
 #include "options/pass_names.h"
 #include "io/table.h"
 
@@ -87,7 +87,7 @@ static void print_outputs(const struct glint_pass *pass, bool markdown) {
     struct table *table = table_create(titles);
     for (size_t i = 0; i < pass->row_count; i++) {
         const struct glint_row *row = &pass->rows[i];
-        if (!row_is_output(row)) continue;
+        if (!glint_row_is_output(row)) continue;
         table_cell(table, "%s", row->name);
         table_cell(table, "%s", size_name(row->size));
         table_cell(table, "%s", format_name(row->format));
@@ -126,7 +126,7 @@ static void print_parameters(const struct glint_pass *pass, bool markdown) {
     struct table *table = table_create(markdown ? wide : narrow);
     const struct glint_row *last = NULL;
     for (size_t i = 0; i < pass->row_count; i++) {
-        if (!row_is_parameter(&pass->rows[i])) continue;
+        if (!glint_row_is_parameter(&pass->rows[i])) continue;
         if (!last && !markdown)
             printf("Parameters, as in --set %s.%s=%s:\n", pass->slot, pass->rows[i].name,
                    value_text(&pass->rows[i], pass->rows[i].initial));
@@ -237,8 +237,8 @@ static json_t *pass_json(const struct glint_pass *pass) {
         if (row->kind == GLINT_ROW_READ) {
             const struct glint_row *image = image_find(row->name, &slot);
             json_array_append_new(reads, image ? image_json(image, slot) : json_pack("{s:s}", "name", row->name));
-        } else if (row_is_output(row)) json_array_append_new(writes, image_json(row, pass->slot));
-        else if (row_is_parameter(row)) json_array_append_new(parameters, parameter_json(pass, row));
+        } else if (glint_row_is_output(row)) json_array_append_new(writes, image_json(row, pass->slot));
+        else if (glint_row_is_parameter(row)) json_array_append_new(parameters, parameter_json(pass, row));
         else if (row->kind == GLINT_ROW_NEEDS) json_array_append_new(needs, json_string(row->name));
     }
     return json_pack("{s:s, s:s, s:s, s:s, s:s, s:s, s:b, s:o, s:o, s:o, s:o, s:o}", "effect", pass->effect, "slot",
@@ -289,11 +289,9 @@ static bool check_selection(const char *what, struct glint_error *err) {
     const struct glint_pass *passes = glint_passes(&count);
     for (size_t i = 0; i < count; i++)
         if (!strcmp(passes[i].effect, what)) return true;
-    if (!check_slot(what, slot, err)) return false;
-    if (!what[slot]) return true;
-    char assignment[160];
-    snprintf(assignment, sizeof assignment, "%.*s=%.80s", (int)slot, what, what + slot + 1);
-    return check_use(assignment, err) && strcmp(what + slot + 1, "none") != 0;
+    char name[64];
+    snprintf(name, sizeof name, "%.*s", (int)slot, what);
+    return what[slot] ? glint_variant_check(name, what + slot + 1, err) : glint_slot_check(name, err);
 }
 
 static const char introduction[] =

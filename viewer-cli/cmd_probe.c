@@ -85,11 +85,11 @@ static struct glint_pipeline *reference_of(const struct glint_pipeline *pipeline
 }
 
 static bool run_reference(const struct arguments *a, struct probe *probe, struct glint_replay *replay,
-                          const struct glint_pipeline *pipeline, const struct glint_replay_options *wanted,
+                          const struct glint_pipeline *pipeline, const struct glint_replay_options *options,
                           struct glint_error *err) {
     if (a->alone) return true;
     struct glint_pipeline *reference = reference_of(pipeline, err);
-    const bool ok = reference && probe_run(probe, &probe->reference, replay, reference, wanted, err);
+    const bool ok = reference && probe_run(probe, &probe->reference, replay, reference, options, err);
     glint_pipeline_destroy(&reference);
     probe->has_reference = ok;
     return ok;
@@ -108,13 +108,13 @@ static enum status print_probe(const struct arguments *a, struct opened *opened,
                           .preset = glint_pipeline_name(pipeline),
                           .device = glint_device_get_info(opened->device)->name,
                           .pixel = {(uint32_t)a->pixel[0], (uint32_t)a->pixel[1]}};
-    const struct glint_replay_options wanted = pipeline_args_options(&a->pipeline);
+    const struct glint_replay_options options = pipeline_args_options(&a->pipeline);
     struct glint_replay *replay = opened->replay;
     const struct glint_part_info *picture = glint_capture_find(opened->capture, "gbuffer");
     if (picture) probe.full[0] = picture->width, probe.full[1] = picture->height;
     const bool ok = glint_replay_load(replay, opened->capture, err) &&
-                    probe_run(&probe, &probe.own, replay, pipeline, &wanted, err) &&
-                    run_reference(a, &probe, replay, pipeline, &wanted, err);
+                    probe_run(&probe, &probe.own, replay, pipeline, &options, err) &&
+                    run_reference(a, &probe, replay, pipeline, &options, err);
     const enum status status = ok ? report(a, &probe, err) : command_fail(&cmd_probe, err);
     probe_side_finish(&probe.own);
     probe_side_finish(&probe.reference);

@@ -6,7 +6,7 @@
 
 #include "options/args.h"
 #include "glint/samples.h"
-#include "options/nearest.h"
+#include "glint/nearest.h"
 #include "io/pipe.h"
 #include "io/progress.h"
 #include "io/table.h"
@@ -311,15 +311,15 @@ static enum status list_scenes(bool json) {
 static bool check_scene(const char *scene, struct glint_error *err) {
     size_t count = 0;
     const struct glint_sample *scenes = glint_samples(&count);
-    struct nearest near = nearest_to(scene);
+    struct glint_nearest near = glint_nearest_to(scene);
     for (size_t i = 0; i < count; i++) {
         if (!strcmp(scenes[i].name, scene)) return true;
-        nearest_offer(&near, scenes[i].name);
+        glint_nearest_offer(&near, scenes[i].name);
     }
     if (access(scene, R_OK) == 0) return true;
     if (strpbrk(scene, "./")) return glint_fail(err, GLINT_ERROR_IO, "%s: %s", scene, strerror(errno));
     return glint_fail(err, GLINT_ERROR_USAGE, "there is no scene %s%s; glint sample --list shows them", scene,
-                      nearest_text(&near));
+                      glint_nearest_text(&near));
 }
 
 static enum status cmd_sample_run(int argc, char **argv) {

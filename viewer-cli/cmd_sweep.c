@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "options/pass_names.h"
 #include "options/pipeline_args.h"
 #include "sweep/sweep.h"
 #include "io/text_file.h"
@@ -121,33 +120,6 @@ static error_t cmd_sweep_parse(int key, char *arg, struct argp_state *state) {
     return parse_answer(key, arg, state, a);
 }
 
-/* Reports unknown names, with the nearest known one. */
-static bool check_names(const char *axis, struct glint_error *err) {
-    const char *equals = strchr(axis, '=');
-    char assignment[300];
-    for (const char *name = axis; equals && name < equals; name += strcspn(name, "+=") + 1) {
-        const int length = (int)strcspn(name, "+=");
-        if (length > 0 && memchr(name, '.', (size_t)length)) {
-            snprintf(assignment, sizeof assignment, "%.*s=0", length, name);
-            if (!check_set(assignment, err)) return false;
-        } else if (length > 0 && !check_slot(name, (size_t)length, err)) return false;
-    }
-    return true;
-}
-
-static bool check_variants(const char *axis, struct glint_error *err) {
-    const char *equals = strchr(axis, '=');
-    char assignment[300];
-    if (!equals || memchr(axis, '.', (size_t)(equals - axis)) || memchr(axis, '+', (size_t)(equals - axis)))
-        return true;
-    for (const char *value = equals + 1; *value; value += strcspn(value, ","), value += *value == ',') {
-        snprintf(assignment, sizeof assignment, "%.*s=%.*s", (int)(equals - axis), axis, (int)strcspn(value, ","),
-                 value);
-        if (*value != ',' && !check_use(assignment, err)) return false;
-    }
-    return true;
-}
-
 /* The order in which the slots run. */
 static bool sort_points(struct sweep *sweep, struct glint_error *err) {
     struct glint_capture *capture = glint_capture_open(sweep->captures.items[0], NULL, err);
@@ -168,8 +140,6 @@ static bool sort_points(struct sweep *sweep, struct glint_error *err) {
 
 static bool begin_sweep(struct arguments *a, struct glint_error *err) {
     struct sweep *sweep = &a->sweep;
-    for (size_t i = 0; i < a->axes.count; i++)
-        if (!check_names(a->axes.items[i], err) || !check_variants(a->axes.items[i], err)) return false;
     sweep->all = a->pipeline.replay.all;
     if (!answer_args_metric(a->metric, &sweep->metric, err)) return false;
     sweep->metrics = GLINT_METRICS_CHEAP | 1u << sweep->metric;

@@ -222,7 +222,7 @@ static bool begin_tune(struct arguments *a, struct glint_error *err) {
     struct tune *tune = &a->tune;
     tune->all = a->pipeline.replay.all;
     for (size_t i = 0; i < tune->slots.count; i++)
-        if (!check_slot(tune->slots.items[i], strlen(tune->slots.items[i]), err)) return false;
+        if (!glint_slot_check(tune->slots.items[i], err)) return false;
     if (!choose_metric(a, err) || !(tune->base = pipeline_args_create(&a->pipeline, err)) ||
         !(tune->device = pipeline_args_device(&a->pipeline, err)) || !glint_make_folder(tune->folder, err) ||
         !tune_load(tune, err) || !tune_make_axes(tune, err))

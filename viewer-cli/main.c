@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "options/nearest.h"
+#include "glint/nearest.h"
 
 static void print_help(FILE *out) {
     fputs(
@@ -23,9 +23,9 @@ static void print_help(FILE *out) {
 }
 
 static enum status unknown_command(const char *name) {
-    struct nearest near = nearest_to(name);
-    for (size_t i = 0; i < command_count; i++) nearest_offer(&near, commands[i]->name);
-    fprintf(stderr, "glint: there is no command %s%s; glint --help lists them\n", name, nearest_text(&near));
+    struct glint_nearest near = glint_nearest_to(name);
+    for (size_t i = 0; i < command_count; i++) glint_nearest_offer(&near, commands[i]->name);
+    fprintf(stderr, "glint: there is no command %s%s; glint --help lists them\n", name, glint_nearest_text(&near));
     return STATUS_USAGE;
 }
 

@@ -6,7 +6,7 @@
 struct Surface {
     float depth_m;
     vec3 position; // in view space
-    vec4 normal;   // world axes; w: roughness
+    vec4 normal;   // world space; w: roughness
     bool shown;    // visible; invisible reflections are not shared
 };
 

@@ -150,7 +150,7 @@ bool run_keys(struct run *run, struct glint_error *err) {
     const struct graph *graph = run->graph;
     for (size_t i = 0; i < graph->image_count; i++) {
         const struct graph_image *image = &graph->images[i];
-        run->needed[i] = image->wanted || image->kept;
+        run->needed[i] = image->requested || image->kept;
         if (image->source == SOURCE_MADE && image->pass->host)
             run->keys[i] = table_key(tables_find(run->plan->tables, image->name));
         else if (image->source == SOURCE_HISTORY) run->keys[i] = run->images[i]->key;

@@ -132,10 +132,10 @@ void gpu_finish(struct gpu *gpu) {
     *gpu = (struct gpu){0};
 }
 
-bool device_allocate(struct gpu *gpu, const VkMemoryRequirements *need, VkMemoryPropertyFlags wanted,
+bool device_allocate(struct gpu *gpu, const VkMemoryRequirements *need, VkMemoryPropertyFlags required,
                      VkMemoryPropertyFlags preferred, const char *name, VkDeviceMemory *memory,
                      struct glint_error *err) {
-    const VkMemoryPropertyFlags tries[] = {wanted | preferred, wanted};
+    const VkMemoryPropertyFlags tries[] = {required | preferred, required};
     for (size_t t = 0; t < 2; t++)
         for (uint32_t i = 0; i < gpu->memory.memoryTypeCount; i++) {
             if (!(need->memoryTypeBits & (1u << i)) ||

@@ -65,7 +65,7 @@ void gpu_finish(struct gpu *gpu);
 /* Waits until the device is idle. */
 void gpu_wait(struct gpu *gpu);
 
-bool device_allocate(struct gpu *gpu, const VkMemoryRequirements *need, VkMemoryPropertyFlags wanted,
+bool device_allocate(struct gpu *gpu, const VkMemoryRequirements *need, VkMemoryPropertyFlags required,
                      VkMemoryPropertyFlags preferred, const char *name, VkDeviceMemory *memory,
                      struct glint_error *err);
 

@@ -123,15 +123,15 @@ static bool check_usable(VkPhysicalDevice physical, uint32_t api_version, char *
     const struct {
         VkBool32 has;
         const char *name;
-    } wanted[] = {
+    } required[] = {
         {f13.synchronization2, "synchronization2"},
         {f13.maintenance4, "maintenance4"},
         {f.features.shaderStorageImageWriteWithoutFormat, "shaderStorageImageWriteWithoutFormat"},
         {f.features.imageCubeArray, "imageCubeArray"},
     };
-    for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++)
-        if (!wanted[i].has) {
-            snprintf(reason, size, "does not support the feature %s", wanted[i].name);
+    for (size_t i = 0; i < sizeof required / sizeof required[0]; i++)
+        if (!required[i].has) {
+            snprintf(reason, size, "does not support the feature %s", required[i].name);
             return false;
         }
     if (device_family(physical, NULL) == UINT32_MAX) {

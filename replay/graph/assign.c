@@ -1,9 +1,11 @@
 /* Parses and checks assignments to a pipeline, as --set, --use and --shader pass them. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "faults.h"
+#include "glint/nearest.h"
 #include "pipeline.h"
 #include "row.h"
 
@@ -42,21 +44,39 @@ static bool parse_value(const char *slot, const struct glint_row *row, const cha
                       flag ? "true, false or a number" : "a number", row->lowest, row->highest, row->unit, text);
 }
 
-static bool set_in_slot(struct glint_pipeline *pipeline, const char *slot, const char *parameter, const char *text,
-                        struct glint_error *err) {
-    const struct glint_pass *pass = glint_pipeline_find(pipeline, slot);
-    char known[512] = "";
+static bool set_text(struct glint_pipeline *pipeline, const struct glint_pass *pass, const struct glint_row *row,
+                     const char *text, struct glint_error *err) {
     double value = 0;
-    if (!pass && !pipeline_slot_exists(slot)) return pipeline_unknown_slot(slot, err);
-    if (!pass)
-        return glint_fail(err, GLINT_ERROR_USAGE, "slot %s is not part of the pipeline %s", slot, pipeline->name);
-    const struct glint_row *row = glint_pass_parameter(pass, parameter);
-    if (row)
-        return parse_value(slot, row, text, &value, err) && glint_pipeline_set_value(pipeline, pass, row, value, err);
-    for (size_t r = 0; r < pass->row_count; r++)
-        if (glint_row_is_parameter(&pass->rows[r])) text_list(known, sizeof known, pass->rows[r].name);
-    return glint_fail(err, GLINT_ERROR_USAGE, "%s/%s has no parameter '%s'; known: %s", slot, pass->variant, parameter,
-                      known[0] ? known : "no parameters");
+    return parse_value(pass->slot, row, text, &value, err) && glint_pipeline_set_value(pipeline, pass, row, value, err);
+}
+
+static bool not_in_pipeline(const struct glint_pipeline *pipeline, const char *slot, struct glint_error *err) {
+    return glint_slot_check(slot, err) &&
+           glint_fail(err, GLINT_ERROR_USAGE, "slot %s is not part of the pipeline %s", slot, pipeline->name);
+}
+
+const struct glint_row *glint_pipeline_parameter(const struct glint_pipeline *pipeline, const char *name,
+                                                 const struct glint_pass **pass, struct glint_error *err) {
+    const char *dot = strchr(name, '.'), *parameter = dot ? dot + 1 : "";
+    char slot[64];
+    snprintf(slot, sizeof slot, "%.*s", dot ? (int)(dot - name) : 0, name);
+    *pass = glint_pipeline_find(pipeline, slot);
+    if (!slot[0] || !parameter[0]) {
+        glint_fail(err, GLINT_ERROR_USAGE, "expected SLOT.PARAMETER, found '%s'", name);
+        return NULL;
+    }
+    if (!*pass) {
+        not_in_pipeline(pipeline, slot, err);
+        return NULL;
+    }
+    const struct glint_row *row = glint_pass_parameter(*pass, parameter);
+    struct glint_nearest near = glint_nearest_to(parameter);
+    for (size_t r = 0; !row && r < (*pass)->row_count; r++)
+        if (glint_row_is_parameter(&(*pass)->rows[r])) glint_nearest_offer(&near, (*pass)->rows[r].name);
+    if (!row)
+        glint_fail(err, GLINT_ERROR_USAGE, "%s/%s has no parameter %s%s", slot, (*pass)->variant, parameter,
+                   glint_nearest_or_known(&near));
+    return row;
 }
 
 static bool set_rays(struct glint_pipeline *pipeline, const char *parameter, const char *text,
@@ -85,56 +105,55 @@ static bool set_everywhere(struct glint_pipeline *pipeline, const char *paramete
         return glint_fail(err, GLINT_ERROR_USAGE,
                           "pipeline has no parameter '%s'; known: rays, first_ray, and those that any pass has",
                           parameter);
-    for (size_t i = 0; i < pipeline->count; i++)
-        if (glint_pass_parameter(pipeline->passes[i].pass, parameter) &&
-            !set_in_slot(pipeline, pipeline->passes[i].pass->slot, parameter, text, err))
-            return false;
+    for (size_t i = 0; i < pipeline->count; i++) {
+        const struct glint_pass *pass = pipeline->passes[i].pass;
+        const struct glint_row *row = glint_pass_parameter(pass, parameter);
+        if (row && !set_text(pipeline, pass, row, text, err)) return false;
+    }
     return true;
 }
 
-/* Splits "left=right" (and, for `dotted`, "slot.parameter=right") into a copy that the caller frees. */
-static char *split_assignment(const char *assignment, bool dotted, const char *form, char **parameter, char **right,
-                              struct glint_error *err) {
-    char *copy = strdup(assignment);
-    if (!copy) {
-        glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-        return NULL;
-    }
-    char *equals = strchr(copy, '='), *dot = dotted ? strchr(copy, '.') : NULL;
-    if (!equals || equals == copy || !equals[1] ||
-        (dotted && (!dot || dot > equals || dot == copy || dot + 1 == equals))) {
+/* Splits "left=right" into a copy of the left side, which the caller frees, and the right side. */
+static char *split_assignment(const char *assignment, const char *form, const char **right, struct glint_error *err) {
+    const char *equals = strchr(assignment, '=');
+    char *left = NULL;
+    if (!equals || equals == assignment || !equals[1])
         glint_fail(err, GLINT_ERROR_USAGE, "expected %s, found '%s'", form, assignment);
-        free(copy);
-        return NULL;
-    }
-    *equals = 0;
-    *right = equals + 1;
-    if (dotted) *dot = 0, *parameter = dot + 1;
-    return copy;
+    else if (!(left = strndup(assignment, (size_t)(equals - assignment))))
+        glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    else *right = equals + 1;
+    return left;
 }
 
 bool glint_pipeline_use(struct glint_pipeline *pipeline, const char *assignment, struct glint_error *err) {
-    char *variant, *slot = split_assignment(assignment, false, "slot=variant", NULL, &variant, err);
+    const char *variant;
+    char *slot = split_assignment(assignment, "SLOT=VARIANT", &variant, err);
     bool ok = slot && pipeline_use(pipeline, slot, variant, err);
     free(slot);
     return ok;
 }
 
 bool glint_pipeline_set(struct glint_pipeline *pipeline, const char *assignment, struct glint_error *err) {
-    char *parameter, *value,
-        *slot = split_assignment(assignment, true, "slot.parameter=value", &parameter, &value, err);
-    bool ok = slot && (strcmp(slot, "pipeline") == 0 ? set_everywhere(pipeline, parameter, value, err)
-                                                     : set_in_slot(pipeline, slot, parameter, value, err));
-    free(slot);
+    static const char everywhere[] = "pipeline.";
+    const char *value;
+    const struct glint_pass *pass = NULL;
+    char *name = split_assignment(assignment, "SLOT.PARAMETER=VALUE", &value, err);
+    const bool all = name && strncmp(name, everywhere, sizeof everywhere - 1) == 0;
+    const struct glint_row *row = name && !all ? glint_pipeline_parameter(pipeline, name, &pass, err) : NULL;
+    bool ok = all   ? set_everywhere(pipeline, name + sizeof everywhere - 1, value, err)
+              : row ? set_text(pipeline, pass, row, value, err)
+                    : false;
+    free(name);
     return ok;
 }
 
 bool glint_pipeline_shader(struct glint_pipeline *pipeline, const char *assignment, struct glint_error *err) {
-    char *path, *slot = split_assignment(assignment, false, "slot=file.comp", NULL, &path, err), *copy = NULL;
+    const char *path;
+    char *slot = split_assignment(assignment, "SLOT=FILE", &path, err), *copy = NULL;
     struct pipeline_pass *entry = slot ? (struct pipeline_pass *)pipeline_find(pipeline, slot) : NULL;
     bool ok = false;
     if (!slot) return false;
-    if (!entry) glint_fail(err, GLINT_ERROR_USAGE, "slot '%s' is not part of the pipeline %s", slot, pipeline->name);
+    if (!entry) not_in_pipeline(pipeline, slot, err);
     else if (entry->pass->host)
         glint_fail(err, GLINT_ERROR_USAGE, "%s/%s runs on the host and has no shader to replace", slot,
                    entry->pass->variant);

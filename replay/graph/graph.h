@@ -21,10 +21,10 @@ struct graph_image {
     const struct glint_row *row;   /* the WRITE, DIAGNOSTIC or CAPTURE row that defines it */
     const struct glint_pass *pass; /* whose row it is; NULL for a capture image */
     enum source source;
-    bool wanted;  /* the caller may read it, under the name of `alias` if there is one; memory is not shared */
-    bool history; /* contents of the previous frame */
-    bool blank;   /* FALLBACK that is allocated in full size */
-    bool kept;    /* becomes history of the next frame; memory is not shared */
+    bool requested; /* the caller may read it, under the name of `alias` if there is one; memory is not shared */
+    bool history;   /* contents of the previous frame */
+    bool blank;     /* FALLBACK that is allocated in full size */
+    bool kept;      /* becomes history of the next frame; memory is not shared */
     const struct glint_row *alias; /* the image of a dropped pass that this image also replaces, or NULL */
     const struct glint_pass *alias_pass;
     const char *kept_as;        /* the image of a dropped pass as whose history it is kept (row BYPASS), or NULL */

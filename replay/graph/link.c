@@ -147,7 +147,7 @@ static void link_alias(struct graph *graph, size_t dropped, const struct graph_i
     if (!image) return;
     image->alias = glint_pass_output(pass->pass, pass->alias->image);
     image->alias_pass = pass->pass;
-    image->wanted = !inputs->options->outputs || list_has(inputs->options->outputs, pass->alias->image);
+    image->requested = !inputs->options->outputs || list_has(inputs->options->outputs, pass->alias->image);
 }
 
 /* Whether a row FACT names the image, and the fact does not hold. */
@@ -183,7 +183,7 @@ static void link_images(struct graph *graph, const struct graph_inputs *inputs, 
                 .row = row,
                 .pass = pass->pass,
                 .source = made ? SOURCE_MADE : SOURCE_FALLBACK,
-                .wanted = made && (diagnostic || !options->outputs || list_has(options->outputs, row->name)),
+                .requested = made && (diagnostic || !options->outputs || list_has(options->outputs, row->name)),
                 .maker = i,
                 .first_use = i,
                 .last_use = i};

@@ -2,11 +2,9 @@
 #include "pipeline.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "faults.h"
 #include "row.h"
 #include "shared/work_list.h"
 
@@ -26,60 +24,32 @@ static void pass_finish(struct pipeline_pass *pass) {
     *pass = (struct pipeline_pass){0};
 }
 
-static bool no_memory(struct glint_error *err) {
+static bool out_of_memory(struct glint_error *err) {
     return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
 }
 
 static bool pass_init(struct pipeline_pass *entry, const struct glint_pass *pass, struct glint_error *err) {
     double *values = calloc(pass->row_count, sizeof *values);
-    if (!values) return no_memory(err);
+    if (!values) return out_of_memory(err);
     for (size_t i = 0; i < pass->row_count; i++)
         values[i] = glint_row_is_parameter(&pass->rows[i]) ? pass->rows[i].initial : 0;
     *entry = (struct pipeline_pass){.pass = pass, .values = values};
     return true;
 }
 
-bool pipeline_slot_exists(const char *slot) {
-    size_t count, i = 0;
-    const struct glint_pass *all = glint_passes(&count);
-    while (i < count && strcmp(all[i].slot, slot) != 0) i++;
-    return i < count;
-}
-
-bool pipeline_unknown_slot(const char *slot, struct glint_error *err) {
-    size_t count;
-    const struct glint_pass *all = glint_passes(&count);
-    char known[512] = "";
-    for (size_t i = 0; i < count; i++)
-        if (i == 0 || strcmp(all[i].slot, all[i - 1].slot) != 0) text_list(known, sizeof known, all[i].slot);
-    return glint_fail(err, GLINT_ERROR_USAGE, "unknown slot '%s'; known: %s", slot, known);
-}
-
-static bool unknown_variant(const char *slot, const char *variant, struct glint_error *err) {
-    size_t count;
-    const struct glint_pass *all = glint_passes(&count);
-    char known[512] = "";
-    for (size_t i = 0; i < count; i++)
-        if (strcmp(all[i].slot, slot) == 0) text_list(known, sizeof known, all[i].variant);
-    if (!known[0]) return pipeline_unknown_slot(slot, err);
-    return glint_fail(err, GLINT_ERROR_USAGE, "slot %s has no variant '%s'; known: %s, none", slot, variant, known);
-}
-
 /* Parameters that the new variant shares with the old one keep their values, unless these were the old defaults. */
 bool pipeline_use(struct glint_pipeline *pipeline, const char *slot, const char *variant, struct glint_error *err) {
     struct pipeline_pass *old = find_entry(pipeline, slot);
     if (strcmp(variant, GLINT_NO_VARIANT) == 0 && !glint_pass_find(slot, variant)) {
-        if (!pipeline_slot_exists(slot)) return pipeline_unknown_slot(slot, err);
-        if (!old) return true;
+        if (!old) return glint_slot_check(slot, err);
         pass_finish(old);
         size_t place = (size_t)(old - pipeline->passes);
         memmove(old, old + 1, (--pipeline->count - place) * sizeof *old);
         return true;
     }
     const struct glint_pass *pass = glint_pass_find(slot, variant);
-    if (!pass) return unknown_variant(slot, variant, err);
     struct pipeline_pass fresh = {0};
-    if (!pass_init(&fresh, pass, err)) return false;
+    if (!glint_variant_check(slot, variant, err) || !pass_init(&fresh, pass, err)) return false;
     if (old) {
         for (size_t i = 0; i < pass->row_count; i++)
             for (size_t j = 0; glint_row_is_parameter(&pass->rows[i]) && j < old->pass->row_count; j++)
@@ -95,7 +65,7 @@ bool pipeline_use(struct glint_pipeline *pipeline, const char *slot, const char 
     struct pipeline_pass *larger = realloc(pipeline->passes, (pipeline->count + 1) * sizeof *larger);
     if (!larger) {
         pass_finish(&fresh);
-        return no_memory(err);
+        return out_of_memory(err);
     }
     pipeline->passes = larger;
     size_t place = 0;
@@ -132,7 +102,7 @@ struct glint_pipeline *glint_pipeline_copy(const struct glint_pipeline *pipeline
         ok = !from->shader || (to->shader = strdup(from->shader));
     }
     if (ok) return copy;
-    no_memory(err);
+    out_of_memory(err);
     if (copy) glint_pipeline_destroy(&copy);
     return NULL;
 }

@@ -25,9 +25,6 @@ const double *pipeline_value(const struct pipeline_pass *entry, const char *para
 
 /* Puts a variant into a slot; "none" removes the slot. */
 bool pipeline_use(struct glint_pipeline *pipeline, const char *slot, const char *variant, struct glint_error *err);
-bool pipeline_slot_exists(const char *slot); /* in any pipeline */
-/* Fails with a message that lists all slots. */
-bool pipeline_unknown_slot(const char *slot, struct glint_error *err);
 
 /* Whether a pass of the pipeline makes the reflection of every surface visible, also without specular and metalness. */
 bool pipeline_shows_all(const struct glint_pipeline *pipeline);

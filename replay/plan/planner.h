@@ -25,7 +25,7 @@ bool planner_survey(struct planner *planner, const struct glint_pipeline *pipeli
    the texels of the images of these roles, one image after the other; the caller frees them. */
 uint32_t *survey_run(struct planner *planner, const struct pipeline_pass *before, struct tables *tables,
                      const enum glint_pass_role *figures, size_t figure_count, double value,
-                     const struct glint_replay_options *wanted, struct glint_time *time, struct glint_error *err);
+                     const struct glint_replay_options *caller, struct glint_time *time, struct glint_error *err);
 
 /* survey_cubemaps.c: surveys the active cube maps if a running pass depends on their contents; the graph must then be decided again. `before` is
    active_surveyed of the last plan. */

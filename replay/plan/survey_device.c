@@ -89,7 +89,7 @@ static uint32_t *run_and_read(struct planner *planner, const struct frame_plan *
 enum { FIGURES_MAX = 2, VALUES_MAX = 64 };
 uint32_t *survey_run(struct planner *planner, const struct pipeline_pass *before, struct tables *tables,
                      const enum glint_pass_role *figures, size_t figure_count, double value,
-                     const struct glint_replay_options *wanted, struct glint_time *time, struct glint_error *err) {
+                     const struct glint_replay_options *caller, struct glint_time *time, struct glint_error *err) {
     double values[VALUES_MAX];
     const char *outputs[FIGURES_MAX + 1] = {NULL}, *force[3] = {NULL};
     struct pipeline_pass passes[2] = {{0}};
@@ -103,8 +103,8 @@ uint32_t *survey_run(struct planner *planner, const struct pipeline_pass *before
         .name = (char *)passes[count - 1].pass->slot, .passes = passes, .count = count};
     const struct glint_replay_options options = {.outputs = outputs,
                                                  .force = force,
-                                                 .repeat = wanted->repeat,
-                                                 .warmup = wanted->warmup,
+                                                 .repeat = caller->repeat,
+                                                 .warmup = caller->warmup,
                                                  .no_cache = true,
                                                  .lineage = UINT32_MAX};
     const struct graph_inputs inputs = {.options = &options, .capture = planner->source->capture};

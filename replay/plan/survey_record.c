@@ -44,7 +44,7 @@ static json_t *stencil_record(const struct glint_survey *survey, const struct gl
 }
 
 const char *glint_survey_motion(const struct glint_survey *survey) {
-    return survey->moving ? "objects" : survey->moved ? "camera" : "none";
+    return survey->moving ? "objects" : survey->moved ? "camera" : NULL;
 }
 
 json_t *time_record(const struct glint_time *time) {
@@ -94,7 +94,7 @@ json_t *survey_record(const struct survey_state *state, const struct glint_frame
     if (json && survey->on_device) json_object_set_new(json, "time_ns", time_record(&state->time));
     if (json && survey->active_surveyed) json_object_set_new(json, "active_cubemaps", cubemaps_record(state));
     if (!json || !survey->on_device || survey->partial) return json;
-    json_object_update_new(json, json_pack("{so so sI sI ss sI sI so so}", "metalness",
+    json_object_update_new(json, json_pack("{so so sI sI ss? sI sI so so}", "metalness",
                                            numbers_record(survey->metalness, GLINT_SURVEY_BINS), "weight",
                                            numbers_record(survey->weight, GLINT_SURVEY_WEIGHTS), "water",
                                            (json_int_t)survey->water, "transparent", (json_int_t)survey->transparent,

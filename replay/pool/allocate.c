@@ -7,7 +7,7 @@
 
 /* Whether an image may share its memory. Images that depend on cube maps alone serve the next frame, and lists are read back for statistics. */
 static bool is_transient(const struct frame_plan *plan, const struct graph_image *image) {
-    return plan->options->outputs && image->source == SOURCE_MADE && !image->wanted && !image->kept &&
+    return plan->options->outputs && image->source == SOURCE_MADE && !image->requested && !image->kept &&
            !size_is_buffer(image->row->size) && !image->pass->host && !plan->graph.passes[image->maker].cached_work;
 }
 
@@ -72,12 +72,12 @@ bool pool_allocate(struct pool *pool, const struct frame_plan *plan, struct pool
         if (image->lineage == plan->options->lineage) image->kept = false;
     }
     for (size_t i = 0; ok && i < plan->graph.image_count; i++) {
-        const struct graph_image *wanted = &plan->graph.images[i];
+        const struct graph_image *planned = &plan->graph.images[i];
         struct image_desc desc;
-        if (!(ok = plan_describe(plan, wanted, &desc, err))) break;
-        const bool transient = is_transient(plan, wanted);
-        struct pooled *image = transient ? NULL : pool_take(pool, plan, wanted, &desc);
-        if (!image) image = pooled_create(pool, wanted->name, &desc, err);
+        if (!(ok = plan_describe(plan, planned, &desc, err))) break;
+        const bool transient = is_transient(plan, planned);
+        struct pooled *image = transient ? NULL : pool_take(pool, plan, planned, &desc);
+        if (!image) image = pooled_create(pool, planned->name, &desc, err);
         if (!(ok = image != NULL)) break;
         image->next = NULL;
         *end = image;

@@ -107,12 +107,12 @@ static void unlink_image(struct pool *pool, const struct pooled *image) {
     *at = image->next;
 }
 
-struct pooled *pool_take(struct pool *pool, const struct frame_plan *plan, const struct graph_image *wanted,
+struct pooled *pool_take(struct pool *pool, const struct frame_plan *plan, const struct graph_image *planned,
                          const struct image_desc *desc) {
     struct pooled *found = NULL;
     for (struct pooled *image = pool->images; image; image = image->next) {
-        if (!is_reusable(image, plan, wanted->name, desc)) continue;
-        if (wanted->history && image->lineage != plan->options->lineage) continue;
+        if (!is_reusable(image, plan, planned->name, desc)) continue;
+        if (planned->history && image->lineage != plan->options->lineage) continue;
         if (!found || image->used_at > found->used_at) found = image;
     }
     if (found) unlink_image(pool, found);
@@ -149,21 +149,22 @@ void pool_trim(struct pool *pool, uint64_t keep_bytes) {
 }
 
 void pool_adopt(struct pool *pool, const struct frame_plan *plan, size_t i, struct pooled *image) {
-    const struct graph_image *wanted = &plan->graph.images[i];
+    const struct graph_image *planned = &plan->graph.images[i];
     image->used = true;
     image->used_at = pool->runs;
-    image->kept = wanted->kept;
-    image->kept_as = wanted->kept_as;
+    image->kept = planned->kept;
+    image->kept_as = planned->kept_as;
     image->lineage = plan->options->lineage;
-    image->listed = (wanted->source == SOURCE_RUN && !wanted->history) || wanted->source == SOURCE_ENGINE ||
-                    (wanted->wanted && !wanted->alias) || (wanted->source == SOURCE_CAPTURE && plan->options->captured);
+    image->listed = (planned->source == SOURCE_RUN && !planned->history) || planned->source == SOURCE_ENGINE ||
+                    (planned->requested && !planned->alias) ||
+                    (planned->source == SOURCE_CAPTURE && plan->options->captured);
     for (uint32_t l = 0; l < image->image.desc.levels; l++) {
-        image->levels[l].info.row = wanted->row;
-        image->levels[l].info.pass = wanted->pass;
+        image->levels[l].info.row = planned->row;
+        image->levels[l].info.pass = planned->pass;
     }
     image->alias = image->levels[0].info;
-    image->alias.row = wanted->wanted ? wanted->alias : NULL;
-    image->alias.pass = wanted->alias_pass;
+    image->alias.row = planned->requested ? planned->alias : NULL;
+    image->alias.pass = planned->alias_pass;
     image->alias.name = image->alias.row ? image->alias.row->name : NULL;
 }
 

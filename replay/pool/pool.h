@@ -56,7 +56,7 @@ uint64_t pooled_bytes(const struct pooled *pooled); /* its memory in bytes, 0 if
 const struct glint_image *pool_shown(const struct pool *pool, size_t i);
 const struct glint_image *pool_find(const struct pool *pool, const char *name);
 /* Removes an image of an earlier run that can be reused from the pool and returns it, or NULL. */
-struct pooled *pool_take(struct pool *pool, const struct frame_plan *plan, const struct graph_image *wanted,
+struct pooled *pool_take(struct pool *pool, const struct frame_plan *plan, const struct graph_image *planned,
                          const struct image_desc *desc);
 /* Releases the least recently used images until the unused ones occupy at most keep_bytes. */
 void pool_trim(struct pool *pool, uint64_t keep_bytes);

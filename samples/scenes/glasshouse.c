@@ -37,7 +37,7 @@ static void box(struct scene *scene, const struct material *material, vec3 low, 
     scene_box(scene, low, high);
 }
 
-static void frames(struct scene *scene) {
+static void add_frames(struct scene *scene) {
     scene_mesh(scene, &iron, MESH_PLAIN);
     for (int i = 0; i <= 6; i++)
         for (int side = 0; side < 2; side++)
@@ -67,7 +67,7 @@ void build_glasshouse(struct scene *scene) {
     box(scene, &brick, v3(-6.1f, 0, -8.1f), v3(6.1f, 0.5f, -7.9f));
     box(scene, &plaster, v3(-9, 0, -13), v3(10, 6, -12));
     box(scene, &plaster, v3(-8.2f, 0, -6), v3(-7.4f, 4.2f, 4));
-    frames(scene);
+    add_frames(scene);
     for (int i = 0; i < 5; i++) {
         float x = -4.8f + 2.3f * (float)i;
         box(scene, &brick, v3(x, 0, -6.6f), v3(x + 1.4f, 0.55f, -4.6f));

@@ -10,7 +10,7 @@ static struct material paint(float r, float g, float b) {
     return (struct material){.albedo = {r, g, b}, .roughness = 0.9f, .stencil = STENCIL_WORLD};
 }
 
-static void block(struct scene *scene, vec3 low, vec3 high, struct material material) {
+static void add_block(struct scene *scene, vec3 low, vec3 high, struct material material) {
     scene_mesh(scene, &material, MESH_PLAIN);
     scene_box(scene, low, high);
 }
@@ -24,14 +24,14 @@ void build_matte(struct scene *scene) {
     scene_mesh(scene, &(struct material){.albedo = {0.42f, 0.34f, 0.26f}, .roughness = 1, .stencil = STENCIL_WORLD},
                MESH_PLAIN);
     scene_quad(scene, v3(-14, 0, -16), v3(0, 0, 24), v3(28, 0, 0));
-    block(scene, v3(-6, 0, -9), v3(-1.5f, 3.2f, -7.5f), paint(0.75f, 0.30f, 0.20f));
-    block(scene, v3(-6, 0, -7.5f), v3(-5.2f, 2.2f, -2), paint(0.80f, 0.62f, 0.30f));
-    block(scene, v3(1, 0, -8), v3(2.6f, 4.4f, -6.4f), paint(0.25f, 0.42f, 0.50f));
-    block(scene, v3(4, 0, -7), v3(8, 1.2f, -3.5f), paint(0.70f, 0.68f, 0.60f));
-    block(scene, v3(4.8f, 1.2f, -6.6f), v3(7, 2.4f, -4.4f), paint(0.35f, 0.48f, 0.28f));
+    add_block(scene, v3(-6, 0, -9), v3(-1.5f, 3.2f, -7.5f), paint(0.75f, 0.30f, 0.20f));
+    add_block(scene, v3(-6, 0, -7.5f), v3(-5.2f, 2.2f, -2), paint(0.80f, 0.62f, 0.30f));
+    add_block(scene, v3(1, 0, -8), v3(2.6f, 4.4f, -6.4f), paint(0.25f, 0.42f, 0.50f));
+    add_block(scene, v3(4, 0, -7), v3(8, 1.2f, -3.5f), paint(0.70f, 0.68f, 0.60f));
+    add_block(scene, v3(4.8f, 1.2f, -6.6f), v3(7, 2.4f, -4.4f), paint(0.35f, 0.48f, 0.28f));
     for (int i = 0; i < 5; i++)
-        block(scene, v3(-1.2f, 0, -5.5f + 0.45f * (float)i),
-              v3(0.8f, 1.25f - 0.25f * (float)i, -5.05f + 0.45f * (float)i), paint(0.72f, 0.70f, 0.66f));
+        add_block(scene, v3(-1.2f, 0, -5.5f + 0.45f * (float)i),
+                  v3(0.8f, 1.25f - 0.25f * (float)i, -5.05f + 0.45f * (float)i), paint(0.72f, 0.70f, 0.66f));
     struct material round = paint(0.72f, 0.36f, 0.30f);
     scene_mesh(scene, &round, MESH_PLAIN);
     scene_sphere(scene, v3(2.6f, 0.9f, -2.9f), 0.9f, 40);

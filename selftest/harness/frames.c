@@ -112,7 +112,7 @@ static bool write_parts(struct glint_writer *writer, const struct frame *f, stru
         {"engine.resolve.reflection_half", FRAME_WIDTH, FRAME_HEIGHT, {"R", "G", "B", "A"}, {f->color[0], f->color[1], f->color[2], f->color[3]}, GLINT_F32, NULL},
         {"engine.upscale.reflection", FRAME_WIDTH, FRAME_HEIGHT, {"R", "G", "B", "A"}, {f->color[0], f->color[1], f->color[2], f->color[3]}, GLINT_F32, NULL},
         {"engine.cubemap_trace.travelled", FRAME_WIDTH, FRAME_HEIGHT, {"Z"}, {f->travelled}, GLINT_F32, NULL},
-        {"engine.cubemap_trace.cubemap_index", FRAME_WIDTH, FRAME_HEIGHT, {"place"}, {nowhere}, GLINT_U32, NULL},
+        {"engine.cubemap_trace.cubemap_index", FRAME_WIDTH, FRAME_HEIGHT, {"index"}, {nowhere}, GLINT_U32, NULL},
         {"engine.screen_trace.screen_finished", FRAME_WIDTH, FRAME_HEIGHT, {"finished"}, {not_finished}, GLINT_U32, NULL},
     };
     /* clang-format on */

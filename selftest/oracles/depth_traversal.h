@@ -8,7 +8,7 @@
 
 #include "glint/capture.h"
 
-/* A depth buffer at full resolution: depth_m per texel, normal X Y Z and roughness, world axes. */
+/* A depth buffer at full resolution: depth_m per texel, normal X Y Z and roughness, in world space. */
 struct depth_grid {
     uint32_t width, height;
     const float *depth_m, *normal;

@@ -15,7 +15,7 @@ struct open_box {
     double shift[2];                   /* of the picture's middle, in its halves: an off-centre projection */
     double jitter_px[2];               /* +x right, +y down */
     double near_m, far_m;              /* 0: 0.1, 1000; far may be infinite */
-    bool depth_grows, x_left, y_down;  /* view axes: z away from the viewer; x, y turned round */
+    bool depth_grows, x_left, y_down;  /* view space: z away from the viewer; x, y negated */
     enum glint_clip_y clip_y;
     enum glint_clip_z clip_z;
     struct glint_encodings encodings;

@@ -31,7 +31,7 @@ void open_box_encode_normal(const struct open_box *c, const double normal[3], do
 double open_box_encode_roughness(const struct open_box *c, double roughness);
 void open_box_encode_color(const struct open_box *c, double rgb[3]);
 void open_box_encode_motion(const struct open_box *c, const double uv[2], double depth_m, double out[3]);
-/* From the box's axes to the engine's, and on to view axes. */
+/* From the box's axes to the engine's, and on to view space. */
 void open_box_to_engine(const struct open_box *c, const double v[3], double out[3]);
 void open_box_view_rows(const struct open_box *c, double rows[3][3]);
 

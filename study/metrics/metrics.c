@@ -63,7 +63,10 @@ const char *glint_surface_name(enum glint_surface surface) {
 }
 
 struct glint_classes glint_surface_classes(const uint8_t *labels) {
-    return (struct glint_classes){"surface", surface_names + 1, GLINT_SURFACE_COUNT - 1, (uint8_t *)(uintptr_t)labels};
+    struct glint_classes classes = {
+        .title = "surface", .count = GLINT_SURFACE_COUNT - 1, .labels = (uint8_t *)(uintptr_t)labels};
+    memcpy(classes.names, surface_names + 1, classes.count * sizeof *classes.names);
+    return classes;
 }
 
 enum glint_surface glint_surface_of(double roughness) {

@@ -100,7 +100,7 @@ char *glint_reference_json(const struct glint_reference *reference) {
 
 /* ---- Comparing settings ---- */
 
-static void value_text(const json_t *value, char text[80]) {
+static void json_text(const json_t *value, char text[80]) {
     char *dumped =
         value ? json_dumps(value, JSON_ENCODE_ANY | JSON_COMPACT | JSON_REAL_PRECISION(REFERENCE_DIGITS)) : NULL;
     snprintf(text, 80, "%.70s", dumped ? dumped : "nothing");
@@ -119,7 +119,7 @@ bool reference_same_settings(const char *where, const json_t *there, const json_
     }
     if (json_is_object(there) && json_is_object(here)) return true; /* both have the same keys */
     char texts[2][80];
-    value_text(there, texts[0]);
-    value_text(here, texts[1]);
+    json_text(there, texts[0]);
+    json_text(here, texts[1]);
     return glint_fail(err, GLINT_ERROR_USAGE, "%s is %s there and %s here", where, texts[0], texts[1]);
 }

@@ -13,13 +13,8 @@ static bool is_pipeline_parameter(const char *name) {
 
 /* The row of slot.parameter in the pipeline, or NULL. */
 static const struct glint_row *find_row(const struct glint_pipeline *pipeline, const char *name) {
-    const char *dot = strchr(name, '.');
-    for (size_t i = 0; dot && i < glint_pipeline_pass_count(pipeline); i++) {
-        const struct glint_pass *pass = glint_pipeline_pass(pipeline, i);
-        if (strlen(pass->slot) == (size_t)(dot - name) && strncmp(pass->slot, name, (size_t)(dot - name)) == 0)
-            return glint_pass_parameter(pass, dot + 1);
-    }
-    return NULL;
+    const struct glint_pass *pass;
+    return glint_pipeline_parameter(pipeline, name, &pass, NULL);
 }
 
 bool axis_applies(const struct axis *axis, const struct glint_pipeline *pipeline) {
@@ -167,16 +162,11 @@ static bool read_kind(struct axis *axis, const struct glint_pipeline *const *pip
         const struct glint_row *row = NULL;
         for (size_t p = 0; p < count && !row; p++) row = find_row(pipelines[p], axis->names[n]);
         axis->whole |= is_pipeline_parameter(axis->names[n]) || (row && row->type != GLINT_VALUE_FLOAT);
-        if (!row && !is_pipeline_parameter(
-                        axis->names[n])) { /* for the message of glint_pipeline_set, which lists the known names */
-            struct glint_pipeline *copy = glint_pipeline_copy(pipelines[0], err);
+        if (!row && !is_pipeline_parameter(axis->names[n])) {
+            const struct glint_pass *pass;
             struct glint_error own = {0};
-            char assignment[384];
-            snprintf(assignment, sizeof assignment, "%s=0", axis->names[n]);
-            if (copy && !glint_pipeline_set(copy, assignment, &own))
-                glint_fail(err, own.code, "--vary %s: %s", axis->text, own.message);
-            if (copy) glint_pipeline_destroy(&copy);
-            return false;
+            glint_pipeline_parameter(pipelines[0], axis->names[n], &pass, &own);
+            return glint_fail(err, own.code, "--vary %s: %s", axis->text, own.message);
         }
         if (row && row->choices && range)
             return glint_fail(err, GLINT_ERROR_USAGE,

@@ -43,7 +43,7 @@ uint8_t *glint_study_coverage(struct glint_replay *replay, const struct glint_pi
 
 /* The diagnostic images of a tracer. */
 struct tracer {
-    char name[32];
+    const char *label;
     const struct glint_pass *pass;
     const struct glint_image *end;
     uint32_t *reasons;
@@ -65,20 +65,18 @@ static bool find_tracers(struct glint_replay *replay, struct tracer *tracers, si
     size_t passes = 0;
     const struct glint_pass_result *results = glint_replay_results(replay, &passes);
     *count = 0;
-    for (size_t p = 0; p < passes; p++)
-        for (size_t r = 0; results[p].ran && r < results[p].pass->row_count; r++) {
-            const struct glint_row *row = &results[p].pass->rows[r];
-            if (row->kind != GLINT_ROW_DIAGNOSTIC || strcmp(row->unit, "end reason") || *count == TRACERS) continue;
-            struct tracer *t = &tracers[*count];
-            const struct glint_image *first = *count ? tracers[0].end : NULL;
-            t->end = glint_replay_find_image(replay, row->name);
-            if (!t->end || (first && (t->end->width != first->width || t->end->height != first->height))) continue;
-            t->pass = results[p].pass;
-            const char *cut = strrchr(row->name, '_');
-            snprintf(t->name, sizeof t->name, "%.*s", cut ? (int)(cut - row->name) : 31, row->name);
-            if (!(t->reasons = study_values(replay, t->end, GLINT_U32, err))) return false;
-            ++*count;
-        }
+    for (size_t p = 0; p < passes; p++) {
+        const struct glint_row *row = glint_pass_row(results[p].pass, GLINT_ROW_TRACER, NULL);
+        if (!results[p].ran || !row || *count == TRACERS) continue;
+        struct tracer *t = &tracers[*count];
+        const struct glint_image *first = *count ? tracers[0].end : NULL;
+        t->end = glint_replay_find_image(replay, row->image);
+        if (!t->end || (first && (t->end->width != first->width || t->end->height != first->height))) continue;
+        t->pass = results[p].pass;
+        t->label = row->name;
+        if (!(t->reasons = study_values(replay, t->end, GLINT_U32, err))) return false;
+        ++*count;
+    }
     return true;
 }
 
@@ -146,13 +144,13 @@ static void fill_end_rows(const struct tracer *tracers, size_t count, const stru
         if (groups[g].rays == 0) continue;
         struct glint_end_row *row = &ends->rows[ends->count++];
         const struct glint_probe_label reason = end_label(g);
-        *row = (struct glint_end_row){.reason = reason.name,
+        *row = (struct glint_end_row){.tracer = tracers[g / REASONS].label,
+                                      .reason = reason.name,
                                       .text = reason.text,
                                       .rays = groups[g].rays,
                                       .pixels = groups[g].pixels,
                                       .share = (double)groups[g].rays / (double)ends->rays,
                                       .error = groups[g].pixels ? groups[g].error / (double)groups[g].pixels : NAN};
-        memcpy(row->tracer, tracers[g / REASONS].name, sizeof row->tracer);
     }
 }
 
@@ -189,7 +187,6 @@ bool glint_study_ends(struct glint_replay *replay, const uint8_t *surfaces, cons
 }
 
 enum { SOURCE_SCREEN = 1, SOURCE_CUBE_MAP, SOURCE_FALLBACK, SOURCE_SKY, SOURCE_MISS, SOURCES = SOURCE_MISS };
-static const char *const source_names[SOURCES] = {"screen", "cube map", "fallback", "sky", "nothing found"};
 
 static uint8_t ray_source(const struct tracer *tracers, size_t group) {
     if (group == 0) return 0;
@@ -204,7 +201,13 @@ bool glint_study_source(struct glint_replay *replay, uint32_t width, uint32_t he
                         struct glint_error *err) {
     struct tracer tracers[TRACERS] = {0};
     size_t count = 0, pixels = (size_t)width * height;
-    *source = (struct glint_classes){"source", source_names, SOURCES, NULL};
+    *source =
+        (struct glint_classes){"source",
+                               {study_tracer_label(GLINT_ROLE_SCREEN_END), study_tracer_label(GLINT_ROLE_CUBEMAP_END),
+                                glint_probe_label("end reason", GLINT_END_FALLBACK).name,
+                                glint_probe_label("end reason", GLINT_END_SKY).name, "nothing found"},
+                               SOURCES,
+                               NULL};
     bool ok = find_tracers(replay, tracers, &count, err);
     if (ok && count && !(source->labels = malloc(pixels)))
         ok = glint_fail(err, GLINT_ERROR_MEMORY, "sources of reflections: out of memory");

@@ -78,7 +78,7 @@ bool glint_study_run_reflection(struct glint_run *run, struct glint_pixels *pixe
 }
 
 /* The value of a parameter as text for glint_pipeline_set; false if the pipeline has no such parameter. */
-static bool value_text(const struct glint_pipeline *pipeline, const char *slot, const char *name, char text[64]) {
+static bool parameter_text(const struct glint_pipeline *pipeline, const char *slot, const char *name, char text[64]) {
     const struct glint_pass *pass = glint_pipeline_find(pipeline, slot);
     const struct glint_row *row = pass ? glint_pass_parameter(pass, name) : NULL;
     if (!row) return false;
@@ -106,7 +106,7 @@ static void find_lobe(const struct glint_pipeline *pipeline, char lobe[64]) {
     const char *name;
     const struct glint_pass *any = glint_pass_with_role(GLINT_ROLE_LOBE, &name);
     const struct glint_row *row = glint_pass_parameter(any, name);
-    if (!value_text(pipeline, any->slot, name, lobe)) snprintf(lobe, 64, "%s", row->choices[(size_t)row->initial]);
+    if (!parameter_text(pipeline, any->slot, name, lobe)) snprintf(lobe, 64, "%s", row->choices[(size_t)row->initial]);
 }
 
 /* The relative standard error of each pixel: 0 if the part declares none, +inf where no sample arrived. */
@@ -143,7 +143,7 @@ void study_question(const struct glint_pipeline *pipeline, char question[QUESTIO
     const struct glint_row *row;
     for (size_t i = 0; (row = question_row(pipeline, i, &pass)); i++) {
         const size_t end = strlen(question);
-        if (value_text(pipeline, pass->slot, row->image, value))
+        if (parameter_text(pipeline, pass->slot, row->image, value))
             snprintf(question + end, QUESTION_SIZE - end, "%s%s.%s=%s", end ? " " : "", pass->slot, row->image, value);
     }
 }
@@ -154,8 +154,8 @@ struct glint_pipeline *glint_study_reference(const struct glint_pipeline *pipeli
     const struct glint_row *row;
     for (size_t i = 0; reference && (row = question_row(pipeline, i, &pass)); i++) {
         char value[64], unused[64], assignment[256];
-        if (!value_text(pipeline, pass->slot, row->image, value) ||
-            !value_text(reference, pass->slot, row->image, unused))
+        if (!parameter_text(pipeline, pass->slot, row->image, value) ||
+            !parameter_text(reference, pass->slot, row->image, unused))
             continue;
         snprintf(assignment, sizeof assignment, "%s.%s=%s", pass->slot, row->image, value);
         if (!glint_pipeline_set(reference, assignment, err)) glint_pipeline_destroy(&reference);

@@ -1,4 +1,5 @@
 /* Partitions of a capture's pixels: by roughness, viewing angle, distance and hit distance. */
+#include "glint/probe.h"
 #include "glint/study.h"
 
 #include <math.h>
@@ -10,13 +11,10 @@
 enum { LIMITS = 3 };
 static const double angle_limits[LIMITS] = {0.1, 0.25, 0.5}, distance_limits[LIMITS] = {3, 10, 30},
                     hit_limits[LIMITS] = {1, 4, 16};
-static const char *const angle_names[] = {"N·V up to 0.1", "N·V up to 0.25", "N·V up to 0.5", "N·V up to 1"},
-                         *const distance_names[] = {"up to 3 m", "up to 10 m", "up to 30 m", "farther"},
-                         *const hit_names[] = {"up to 1 m", "up to 4 m", "up to 16 m", "farther", "sky"};
-static const struct glint_classes empty[GLINT_CAPTURE_CLASSES] = {{NULL, NULL, 0, NULL}, /* surfaces */
-                                                                  {"angle", angle_names, 4, NULL},
-                                                                  {"distance", distance_names, 4, NULL},
-                                                                  {"hit", hit_names, 5, NULL}};
+static const struct glint_classes empty[GLINT_CAPTURE_CLASSES] = {
+    [GLINT_CLASSES_ANGLE] = {"angle", {"N·V up to 0.1", "N·V up to 0.25", "N·V up to 0.5", "N·V up to 1"}, 4, NULL},
+    [GLINT_CLASSES_DISTANCE] = {"distance", {"up to 3 m", "up to 10 m", "up to 30 m", "farther"}, 4, NULL},
+    [GLINT_CLASSES_HIT] = {"hit distance", {"up to 1 m", "up to 4 m", "up to 16 m", "farther"}, LIMITS + 2, NULL}};
 
 enum { DEPTH, NORMAL, CHANNELS = NORMAL + 3 };
 static const char *const channels[CHANNELS] = {"depth.Z", "normal.X", "normal.Y", "normal.Z"};
@@ -85,6 +83,7 @@ bool glint_study_classes(struct glint_capture *capture, struct glint_classes set
                          struct glint_error *err) {
     *count = glint_capture_find(capture, "truth.mirror") ? GLINT_CAPTURE_CLASSES : GLINT_CLASSES_HIT;
     for (size_t k = 0; k < GLINT_CAPTURE_CLASSES; k++) sets[k] = empty[k];
+    sets[GLINT_CLASSES_HIT].names[LIMITS + 1] = glint_probe_label("end reason", GLINT_END_SKY).name;
     sets[GLINT_CLASSES_SURFACE] = glint_surface_classes(glint_study_surfaces(capture, err));
     if (sets[0].labels && label_all(capture, sets, *count, err)) return true;
     for (size_t k = 0; k < GLINT_CAPTURE_CLASSES; k++) glint_classes_finish(&sets[k]);

@@ -10,7 +10,7 @@
 #include "values.h"
 
 enum { REASONS = GLINT_END_REASONS, TRACERS = 2, GROUPS = TRACERS * REASONS };
-static const char *const tracers[TRACERS] = {"screen", "cube map"};
+static const enum glint_pass_role tracers[TRACERS] = {GLINT_ROLE_SCREEN_END, GLINT_ROLE_CUBEMAP_END};
 
 /* The images of the run that are compared, by role. */
 enum { NORMAL, PICK, TRAVELLED, FINISHED, SCREEN_REASON, CUBE_REASON, SCREEN_FETCHED, CUBE_FETCHED, RADIANCE, IMAGES };
@@ -69,7 +69,8 @@ static void fill_table(struct sample *samples, size_t count, struct glint_trace_
     qsort(samples, count, sizeof *samples, by_error);
     for (uint32_t group = 0; group < GROUPS; ++group) {
         const struct glint_probe_label reason = glint_probe_label("end reason", (float)(group % REASONS));
-        struct glint_trace_row row = {.tracer = tracers[group / REASONS], .reason = reason.name, .text = reason.text};
+        struct glint_trace_row row = {
+            .tracer = study_tracer_label(tracers[group / REASONS]), .reason = reason.name, .text = reason.text};
         fill_trace_row(samples, count, group, group, &row);
         if (row.rays > 0) table->rows[table->count++] = row;
     }

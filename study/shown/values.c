@@ -18,6 +18,11 @@ const struct glint_image *study_image(const struct glint_replay *replay, enum gl
     return last;
 }
 
+const char *study_tracer_label(enum glint_pass_role end) {
+    const char *image;
+    return glint_pass_row(glint_pass_with_role(end, &image), GLINT_ROW_TRACER, NULL)->name;
+}
+
 void *study_values(struct glint_replay *replay, const struct glint_image *image, enum glint_type type,
                    struct glint_error *err) {
     void *values = malloc((size_t)image->width * image->height * image->components * sizeof(float));

@@ -6,6 +6,8 @@
 
 /* The image of the last run that has a role; if several passes have it, that of the last one. NULL if there is none. */
 const struct glint_image *study_image(const struct glint_replay *replay, enum glint_pass_role role);
+/* What tables call the tracer whose image of end reasons has this role. */
+const char *study_tracer_label(enum glint_pass_role end);
 /* The values of an image as GLINT_F32 or GLINT_U32, and channels of a part as interleaved floats. The caller frees them; NULL on failure. */
 void *study_values(struct glint_replay *replay, const struct glint_image *image, enum glint_type type,
                    struct glint_error *err);

@@ -44,7 +44,7 @@ static void check_depth(const struct glint_probe_record *record, const struct im
     const struct glint_probe_label of = glint_probe_label("image", glint_probe_value(record, "image"));
     assert_non_null(of.name);
     const struct kept *image = level_of(images, of.name, record_number(record, "level"));
-    const uint32_t faces = 6 * record_number(record, "place") + record_number(record, "face");
+    const uint32_t faces = 6 * record_number(record, "cubemap_index") + record_number(record, "face");
     assert_kept_value(record, "texel_m", image, x, y + faces * image->width, 0);
 }
 
@@ -68,7 +68,8 @@ static void check_end(const struct glint_probe_record *end, const struct last *l
     const bool screen = glint_probe_is(end, "screen_end");
     const struct kept *far = find_kept(images, screen ? "screen_travelled" : "travelled");
     assert_kept_value(end, "travelled_m", far, x, y, 0);
-    if (!screen) assert_int_equal(record_number(end, "place"), bits_at(find_kept(images, "cubemap_index"), x, y, 0));
+    if (!screen)
+        assert_int_equal(record_number(end, "cubemap_index"), bits_at(find_kept(images, "cubemap_index"), x, y, 0));
     assert_int_equal(record_number(end, "end"),
                      bits_at(find_kept(images, screen ? "screen_end" : "cubemap_end"), x, y, 0));
     assert_int_equal(record_number(end, "steps"),

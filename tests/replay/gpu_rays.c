@@ -183,7 +183,7 @@ static void the_number_of_rays_has_its_range(void **state) {
         fixture_says(&err, "pipeline.rays: expected a whole number from 1 to 1024");
     }
     struct glint_error err = {0};
-    assert_false(glint_pipeline_set(&made.pipeline, "pipeline.ways=2", &err));
+    assert_false(glint_pipeline_set(&made.pipeline, "pipeline.bounces=2", &err));
     fixture_says(&err, "known: rays");
 }
 

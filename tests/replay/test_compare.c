@@ -24,13 +24,13 @@ static struct glint_metric_table compared(const struct glint_pixels *found, cons
     return table;
 }
 
-static void every_set_of_classes_parts_the_pixels_anew(void **state) {
+static void each_set_of_classes_divides_all_pixels(void **state) {
     (void)state;
-    static const char *const sides[] = {"left", "right"}, *const heights[] = {"top", "middle", "bottom"};
     float found[] = {1, 2, 3, 4}, truth[] = {0, 0, 0, 0};
     uint8_t side[] = {1, 2, 1, 2}, height[] = {1, 1, 0, 3};
     const struct glint_pixels f = {2, 2, 1, found}, t = {2, 2, 1, truth};
-    const struct glint_classes sets[] = {{"side", sides, 2, side}, {"height", heights, 3, height}};
+    const struct glint_classes sets[] = {{"side", {"left", "right"}, 2, side},
+                                         {"height", {"top", "middle", "bottom"}, 3, height}};
     struct glint_metric_table table =
         compared(&f, &t, &(struct glint_metric_options){.classes = sets, .class_sets = 2});
     const struct {
@@ -252,8 +252,7 @@ static void what_is_left_out_leaks_into_no_neighbour(void **state) {
     }
     const struct glint_pixels f = {SIZE, SIZE, 3, found}, t = {SIZE, SIZE, 3, truth};
     const struct glint_pixels bf = {SIZE, SIZE, 3, black_found}, bt = {SIZE, SIZE, 3, black_truth};
-    static const char *const names[] = {"kept"};
-    const struct glint_classes kept = {"kept", names, 1, mask};
+    const struct glint_classes kept = {"kept", {"kept"}, 1, mask};
     const struct glint_metric_options o = {.metrics = GLINT_METRICS_ALL, .mask = mask, .ppd = 30};
     struct glint_metric_options all = {.metrics = GLINT_METRICS_ALL, .ppd = 30, .classes = &kept, .class_sets = 1};
     struct glint_metric_table a = compared(&f, &t, &o);
@@ -285,7 +284,7 @@ static void metrics_have_names(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_set_of_classes_parts_the_pixels_anew),
+        cmocka_unit_test(each_set_of_classes_divides_all_pixels),
         cmocka_unit_test(channels_meet_by_their_names),
         cmocka_unit_test(invalid_pixels_are_counted_in_both_and_named),
         cmocka_unit_test(flat_images_have_closed_forms),

@@ -144,10 +144,10 @@ static void what_a_dropped_pass_would_have_passed_on_is_the_captures(void **stat
     assert_string_equal(graph.passes[0].reason, "0 of 10, l is lit");
     assert_ptr_equal(graph_find(&graph, "l"), graph_find(&graph, "lit"));
     assert_int_equal(graph_find(&graph, "l")->source, SOURCE_CAPTURE);
-    assert_true(graph_find(&graph, "l")->wanted);
+    assert_true(graph_find(&graph, "l")->requested);
     graph_finish(&graph);
     assert_true(build(state, &graph, &made, (struct glint_replay_options){.outputs = outputs}, &err));
-    assert_false(graph_find(&graph, "l")->wanted);
+    assert_false(graph_find(&graph, "l")->requested);
     graph_finish(&graph);
     assert_true(build(state, &graph, &made, (struct glint_replay_options){.outputs = others}, &err));
     assert_null(graph_find(&graph, "l"));
@@ -171,8 +171,8 @@ static void only_what_wanted_images_need_runs(void **state) {
     assert_true(build(state, &graph, &made, (struct glint_replay_options){.outputs = outputs, .all = true}, &err));
     const bool runs[] = {true, true, false, false};
     for (size_t i = 0; i < 4; i++) assert_int_equal(graph.passes[i].runs, runs[i]);
-    assert_true(graph_find(&graph, "a")->wanted);
-    assert_false(graph_find(&graph, "z")->wanted);
+    assert_true(graph_find(&graph, "a")->requested);
+    assert_false(graph_find(&graph, "z")->requested);
     assert_int_equal(graph_find(&graph, "z")->last_use, 1);
     graph_finish(&graph);
 }
@@ -184,11 +184,11 @@ static void diagnostic_images_exist_only_on_request(void **state) {
     MAKE(&made, &alpha, &zeta);
     assert_true(build(state, &graph, &made, (struct glint_replay_options){0}, &err));
     assert_int_equal(graph_find(&graph, "why")->source, SOURCE_FALLBACK);
-    assert_false(graph_find(&graph, "why")->wanted);
+    assert_false(graph_find(&graph, "why")->requested);
     graph_finish(&graph);
     assert_true(build(state, &graph, &made, (struct glint_replay_options){.diagnostics = true}, &err));
     assert_int_equal(graph_find(&graph, "why")->source, SOURCE_MADE);
-    assert_true(graph_find(&graph, "why")->wanted);
+    assert_true(graph_find(&graph, "why")->requested);
     graph_finish(&graph);
     const char *const outputs[] = {"why", NULL};
     assert_false(build(state, &graph, &made, (struct glint_replay_options){.outputs = outputs}, &err));
@@ -197,7 +197,7 @@ static void diagnostic_images_exist_only_on_request(void **state) {
     const char *const others[] = {"a", NULL}, *const before[] = {"z", NULL};
     assert_true(
         build(state, &graph, &made, (struct glint_replay_options){.outputs = others, .diagnostics = true}, &err));
-    assert_true(graph_find(&graph, "why")->wanted && graph_find(&graph, "a")->wanted);
+    assert_true(graph_find(&graph, "why")->requested && graph_find(&graph, "a")->requested);
     graph_finish(&graph);
     assert_true(
         build(state, &graph, &made, (struct glint_replay_options){.outputs = before, .diagnostics = true}, &err));

@@ -187,9 +187,10 @@ static void what_is_wrong_is_named(void **state) {
     assert_refused(AXES("screen_trace.thickness=0..1:1e-9"), "at most 10000 values");
     assert_refused(AXES("screen_trace.thickness=0..1:log"), "begins above 0, found 0");
     assert_refused(AXES("screen_trace.steps=4,,8"), "values with commas");
-    assert_refused(AXES("screen_trace.stepps=4,8"), "no parameter 'stepps'");
-    assert_refused(AXES("screen_trac.steps=4,8"), "unknown slot 'screen_trac'");
-    assert_refused(AXES("screen_trace=linear,hizz"), "no variant 'hizz'");
+    assert_refused(AXES("screen_trace.stepps=4,8"),
+                   "screen_trace.stepps: screen_trace/linear has no parameter stepps (did you mean steps?)");
+    assert_refused(AXES("screen_trac.steps=4,8"), "there is no slot screen_trac (did you mean screen_trace?)");
+    assert_refused(AXES("screen_trace=linear,hizz"), "no variant hizz (did you mean hiz?)");
     assert_refused(AXES("cubemap_trace.fallback=0..1"), "a list of choices such as black,lookup");
     assert_refused(AXES("cubemap_trace.fallback=black,white"), "expected one of black, lookup, cocoon, found 'white'");
     assert_refused(AXES("screen_trace.steps=4,8", "screen_trace.steps=16"), "varied twice");

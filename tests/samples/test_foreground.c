@@ -58,10 +58,10 @@ static void test_the_world_stays_as_it_was(void **state) {
     assert_true(hidden > 5); /* the ends of mirror rays behind the gun */
     assert_memory_equal(map[0], map[1], 16 * 96 * 4 * sizeof(float));
     for (int k = 0; k < 2; k++) {
-        bool told = false;
+        bool declared = false;
         const struct glint_frame *frame = glint_capture_frame(files[k]);
-        for (size_t i = 0; i < frame->class_count; i++) told |= !strcmp(frame->classes[i].name, "foreground");
-        assert_true(told == (k == 0));
+        for (size_t i = 0; i < frame->class_count; i++) declared |= !strcmp(frame->classes[i].name, "foreground");
+        assert_true(declared == (k == 0));
         free(front[k]), free(gbuffer[k]), free(truth[k]), free(map[k]);
         glint_capture_close(&files[k]);
     }

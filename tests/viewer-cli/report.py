@@ -50,7 +50,7 @@ class Tests:
         """Its lines below the headings."""
         return self.browser.evaluate(f"{TABLE}({json.dumps(title)})[{which}].slice(1)")
 
-    def test_a_run_is_told_whole(self):
+    def test_all_of_a_run_is_reported(self):
         run = self.run_json("b")
         self.show("b")
         facts = self.browser.evaluate("Object.fromEntries([...document.querySelectorAll('header dt')].map(e => [e.textContent, e.nextSibling.textContent]))")
@@ -127,7 +127,7 @@ class Tests:
     def test_classes_of_pixels_have_names_of_their_own(self):
         self.show("a")
         names = [row[0] for row in self.table("Error", 2)]
-        assert len(set(names)) == len(names) and "hit: farther" in names and "distance: farther" in names, names
+        assert len(set(names)) == len(names) and "hit distance: farther" in names and "distance: farther" in names, names
         intervals = self.browser.evaluate("document.querySelectorAll('td.interval').length")
         assert intervals > len(names), intervals
 

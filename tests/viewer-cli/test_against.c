@@ -24,7 +24,7 @@ static int make_capture(void **state) {
 
 /* Each set of classes contains every pixel once, and its means combine to the mean of all. */
 static void check_sets(const json_t *classes, double pixels, double mean) {
-    static const char *const sets[] = {"angle", "distance", "hit", "source"};
+    static const char *const sets[] = {"angle", "distance", "hit distance", "source"};
     for (size_t s = 0; s < sizeof sets / sizeof sets[0]; s++) {
         double here = 0, sum = 0;
         for (size_t i = 0; i < json_array_size(classes); i++) {

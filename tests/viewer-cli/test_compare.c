@@ -148,7 +148,7 @@ static void settings_reach_their_preset_alone(void **state) {
     glint_fails(2, "preset kf2 is listed twice", "compare", in_folder("box.exr"), "--presets=kf2,kf2");
     glint_fails(2, "preset mafia3 is not among --presets", "compare", in_folder("box.exr"), "--presets=kf2",
                 "--set=mafia3:resolve.fog=true");
-    glint_fails(2, "preset kf2: slot resolve has no parameter blurr (did you mean blur?)", "compare",
+    glint_fails(2, "preset kf2: resolve/blurred has no parameter blurr (did you mean blur?)", "compare",
                 in_folder("box.exr"), "--presets=kf2", "--set=kf2:resolve.blurr=1");
     glint_fails(2, "expected PRESET:SLOT.PARAM=VALUE", "compare", in_folder("box.exr"), "--set=resolve.blur=1");
     glint_fails(1, "nowhere.exr", "compare", in_folder("nowhere.exr"));

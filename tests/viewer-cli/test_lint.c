@@ -119,12 +119,40 @@ static const char *base(int scene, enum damage_base b) {
     return path;
 }
 
+/* A finding has the text, and at least the remedy, that docs/lint.md prints for it, unless it names what the capture shows. */
+static void check_text(const json_t *finding) {
+    static json_t *list;
+    const char *id = json_string_value(json_object_get(finding, "id"));
+    size_t i;
+    const json_t *known = NULL;
+    if (!list) {
+        char *text = glint_ok("lint", "--list", "--json");
+        list = parse_json(text);
+        free(text);
+    }
+    for (i = 0; i < json_array_size(list); i++) {
+        known = json_array_get(list, i);
+        if (!strcmp(json_string_value(json_object_get(known, "id")), id)) break;
+    }
+    if (i == json_array_size(list)) fail_msg("%s is not listed", id);
+    if (!strcmp(id, "camera.up") || !strcmp(id, "depth.coarse") || !strcmp(id, "cubemap.center")) return;
+    assert_string_equal(json_string_value(json_object_get(finding, "what")),
+                        json_string_value(json_object_get(known, "what")));
+    const char *fix = json_string_value(json_object_get(known, "fix"));
+    if (!strstr(fix, " = the other value") && !strstr(fix, ": its "))
+        assert_memory_equal(json_string_value(json_object_get(finding, "fix")), fix, strlen(fix));
+    if (json_is_true(json_object_get(finding, "fixable"))) assert_true(json_is_true(json_object_get(known, "fixable")));
+}
+
 static json_t *lint(const char *path) {
     struct outcome run = glint("lint", path, "--json", NULL);
     if (run.status > 1 || *run.err) fail_msg("%s", run.err);
     json_t *json = parse_json(run.out);
     assert_int_equal(run.status, json_array_size(json_object_get(json, "findings")) ? 1 : 0);
     outcome_free(&run);
+    size_t i;
+    json_t *finding;
+    json_array_foreach(json_object_get(json, "findings"), i, finding) check_text(finding);
     return json;
 }
 
@@ -333,7 +361,7 @@ static void what_can_be_found_is_listed(void **state) {
     free(text);
 }
 
-static void storage_of_depth_is_told(void **state) {
+static void the_storage_of_depth_is_printed(void **state) {
     (void)state;
     char *text = glint_ok("lint", base(1, BASE_DEVICE));
     /* near 0.1 m: 10² / 0.1 / (2²⁴ − 1) */
@@ -359,7 +387,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(fix_writes_what_stands_under_sky),
         cmocka_unit_test(fix_leaves_what_it_would_make_worse),
         cmocka_unit_test(what_can_be_found_is_listed),
-        cmocka_unit_test(storage_of_depth_is_told),
+        cmocka_unit_test(the_storage_of_depth_is_printed),
         cmocka_unit_test(wrong_use_is_refused),
     };
     seeds = argc > 1 ? atoi(argv[1]) : 0;

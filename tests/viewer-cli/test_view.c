@@ -231,7 +231,7 @@ static void indices_and_reasons_have_colours_of_their_own(void **state) {
     (void)state;
     uint32_t v[11];
     for (uint32_t i = 0; i < 11; i++) v[i] = i;
-    static const char *const kinds[][2] = {{"place", "place"}, {"end reason", "reason"}};
+    static const char *const kinds[][2] = {{"index", "index"}, {"end reason", "reason"}};
     for (size_t k = 0; k < 2; k++) {
         write_exr(in_folder("i.exr"), "image", 11, 1, kinds[k][1], v, GLINT_STORED_UINT, kinds[k][0]);
         free(glint_ok("view", in_folder("i.exr"), "--no-legend", "-o", in_folder("i.png")));

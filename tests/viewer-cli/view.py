@@ -147,8 +147,8 @@ class Tests:
         assert all(chain(64 + x, y) == level(x, y) for x in range(32) for y in range(18))
 
     def test_a_run_s_picture_equals_oiiotool_s(self):
-        """The same file, configuration and view through another program: each rounds for itself. A configuration of the test's own
-        besides, whose view is one conversion between two spaces."""
+        """The same file, configuration and view through another program, which may round differently; and a configuration made for this test,
+        whose view is a single conversion between two spaces."""
         capture, run, config = self.path("colour.exr"), self.path("colour"), self.path("own.ocio")
         call(GLINT, "sample", "room", "-o", capture, "--size", "96x54", "--cube-size", "16")
         call(GLINT, "replay", capture, "-o", run, "--outputs", "composed")

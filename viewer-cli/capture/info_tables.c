@@ -257,7 +257,8 @@ void info_print_whole_survey(const struct glint_survey *survey, const struct gli
            (unsigned long long)survey->water, (unsigned long long)survey->transparent, survey->has_planar ? "a" : "no",
            survey->cubemaps, survey->volumes);
     print_cubemaps(survey);
-    printf("motion: %s (%llu pixels moved on screen, %llu belong to moving objects)\n", glint_survey_motion(survey),
+    const char *motion = glint_survey_motion(survey);
+    printf("motion: %s (%llu pixels moved on screen, %llu belong to moving objects)\n", motion ? motion : "none",
            (unsigned long long)survey->moved, (unsigned long long)survey->moving);
     printf("luminance %.3g to %.3g; depth %.3g to %.3g m\n", (double)survey->light[0], (double)survey->light[1],
            (double)survey->depth_m[0], (double)survey->depth_m[1]);

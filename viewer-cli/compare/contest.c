@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "glint/sort.h"
-#include "options/pass_names.h"
 #include "options/pipeline_args.h"
 #include "draw/view/pixels.h"
 
@@ -36,7 +35,7 @@ static bool set_contestant(const struct contest *contest, const char *setting, s
         return glint_fail(err, GLINT_ERROR_USAGE, "--set %s: preset %.*s is not among --presets", setting,
                           (int)(cut - setting), setting);
     struct glint_error own = {0};
-    return (check_set(cut + 1, &own) && glint_pipeline_set(contestant->pipeline, cut + 1, &own)) ||
+    return glint_pipeline_set(contestant->pipeline, cut + 1, &own) ||
            glint_fail(err, own.code, "preset %s: %s", contestant->label, own.message);
 }
 

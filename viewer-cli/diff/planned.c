@@ -37,14 +37,14 @@ static const struct diff_image *image_of(const struct diff_side *side, const cha
 bool diff_is_planned_out(const struct diff *diff, const struct diff_pair *pair) {
     if (diff->planned < 0 || (pair->a && pair->b)) return false;
     const struct diff_image *image = diff_pair_image(pair);
-    const struct diff_side *lacks = &diff->sides[pair->a ? 1 : 0];
+    const struct diff_side *without = &diff->sides[pair->a ? 1 : 0];
     const struct glint_row *row = row_of(image);
-    const json_t *pass = report_pass(lacks->json, image->slot);
+    const json_t *pass = report_pass(without->json, image->slot);
     const char *reason = json_string_value(json_object_get(pass, "reason"));
     if (!reason || !strcmp(reason, GLINT_REASON_NOT_ASKED) || !strcmp(reason, GLINT_REASON_SKIPPED)) return false;
-    if (lacks != &diff->sides[diff->planned]) return row && row->size == GLINT_SIZE_LIST;
+    if (without != &diff->sides[diff->planned]) return row && row->size == GLINT_SIZE_LIST;
     bool others = !json_is_true(json_object_get(pass, "ran"));
-    for (size_t i = 0; i < lacks->count; i++) others |= !strcmp(lacks->images[i].slot, image->slot);
+    for (size_t i = 0; i < without->count; i++) others |= !strcmp(without->images[i].slot, image->slot);
     return others;
 }
 

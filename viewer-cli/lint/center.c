@@ -178,6 +178,4 @@ void lint_describe_centers(const struct lint_data *data, const struct lint_readi
         snprintf(f->what, sizeof f->what, "the centres of %zu cube maps are wrong by about (%.3g, %.3g, %.3g) units",
                  count, mean[0], mean[1], mean[2]);
     else snprintf(f->what, sizeof f->what, "cube-map centres are wrong: %s", names);
-    snprintf(f->remedy, sizeof f->remedy,
-             "add this offset to glint.center, which should be the position that the cube map was rendered from");
 }

@@ -38,12 +38,12 @@ static struct sky sky_of(const struct lint_data *data) {
     return s;
 }
 
-static const char *set_sky_remedy(struct lint_finding *f, const struct sky *s, enum lint_pixels pixels,
-                                  const char *what) {
-    if (!s->elsewhere) f->pixels = pixels;
-    snprintf(f->remedy, sizeof f->remedy, "%s%s", what,
+/* Whether --fix does what the remedy asks for. */
+static void say_whether_fixed(struct lint_finding *f, const struct sky *s) {
+    const size_t length = strlen(f->remedy);
+    if (s->elsewhere) f->pixels = LINT_NO_PIXELS;
+    snprintf(f->remedy + length, sizeof f->remedy - length, "%s",
              s->elsewhere ? "; the pixels are in a sibling file, which --fix does not change" : "; --fix does this");
-    return f->remedy;
 }
 
 /* Filtering leaves single wrong texels; a mistake of the engine affects more than one in a hundred. */
@@ -58,26 +58,25 @@ static void check_sky_texels(const struct lint_data *data, struct lint_findings 
         f = lint_add(findings, "cubemap.sky_inverted", "certain");
         snprintf(f->evidence, sizeof f->evidence, "alpha contradicts the other channels about sky at %zu of %zu texels",
                  s.against, s.texels);
-        snprintf(f->remedy, sizeof f->remedy, "no attribute can declare this: write 1 - alpha");
         return;
     }
     if (is_common(s.solid_infinite, s.infinite)) {
         f = lint_add(findings, "cubemap.sky_alpha", "certain");
         snprintf(f->evidence, sizeof f->evidence, "%zu of %zu texels at infinite distance have alpha 1%s",
                  s.solid_infinite, s.infinite, s.solid == s.texels ? ", as have all texels" : "");
-        set_sky_remedy(f, &s, LINT_CLEAR_INFINITE, "write alpha 0 and black where the distance is infinite");
+        say_whether_fixed(f, &s);
     }
     if (is_common(s.clear_near, s.clear)) {
         f = lint_add(findings, "cubemap.sky_distance", "certain");
         snprintf(f->evidence, sizeof f->evidence,
                  "%zu of %zu texels with alpha 0 have a finite distance, which is 0 for %zu of them", s.clear_near,
                  s.clear, s.clear_at_0);
-        set_sky_remedy(f, &s, LINT_FAR_SKY, "write a distance of +inf where alpha is 0");
+        say_whether_fixed(f, &s);
     }
     if (is_common(s.colored, s.clear)) {
         f = lint_add(findings, "cubemap.sky_color", "certain");
         snprintf(f->evidence, sizeof f->evidence, "%zu of %zu texels with alpha 0 are not black", s.colored, s.clear);
-        set_sky_remedy(f, &s, LINT_BLACK_SKY, "write black where alpha is 0: the sky has its own cube map");
+        say_whether_fixed(f, &s);
     }
 }
 
@@ -135,9 +134,6 @@ static void check_inner_volumes(const struct lint_data *data, struct lint_findin
     if (!maps) return;
     struct lint_finding *f = lint_add(findings, "cubemap.inner_volume", worst > 0.05 ? "certain" : "likely");
     snprintf(f->evidence, sizeof f->evidence, "share of texels inside the cube map's own inner volume: %s", names);
-    snprintf(f->remedy, sizeof f->remedy,
-             "glint.inner is not the bounding box of the room: make it so small that it contains no surface, or set "
-             "\"none\"");
 }
 
 void lint_find_cubes(const struct lint_data *data, struct lint_findings *findings) {

@@ -105,8 +105,6 @@ void lint_find_faces(const struct lint_data *data, struct lint_reading *reading,
     snprintf(f->evidence, sizeof f->evidence, "%s: %.0f %% of %zu comparisons of %s match then, %.0f %% as stored",
              text, 100 * now.share[LINT_CUBEMAPS], now.count[LINT_CUBEMAPS], lint_measure_names[LINT_CUBEMAPS],
              100 * agreement->share[LINT_CUBEMAPS]);
-    snprintf(f->remedy, sizeof f->remedy,
-             "no attribute can declare this: write the faces in the order +X -X +Y -Y +Z -Z, oriented as in Vulkan");
     *reading = other;
     *agreement = now;
 }

@@ -193,10 +193,16 @@ struct lint_findings {
     char undecided[16][200];
     size_t undecided_count;
 };
-/* Adds a finding with the text that its id has in the tables. */
+/* Adds a finding with the text, remedy, attribute and pixels that its id has in the tables. */
 struct lint_finding *lint_add(struct lint_findings *findings, const char *id, const char *likelihood);
-/* The id and text of the i-th possible finding; NULL past the last. */
-const char *lint_id(size_t i, const char **what);
+/* A finding that is possible. --fix can correct it if it has an attribute or pixels. */
+struct lint_known {
+    const char *id, *what, *attribute; /* attribute: "" for none */
+    enum lint_pixels pixels;
+    char measured[240], remedy[240];
+};
+/* The i-th one; false past the last. */
+bool lint_known(size_t i, struct lint_known *known);
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))
 #endif

@@ -47,30 +47,6 @@ static const struct row {
 };
 enum { ROWS = sizeof rows / sizeof *rows };
 
-const char *lint_id(size_t i, const char **what) {
-    static const struct {
-        const char *id, *what;
-    } others[] = {
-#define FINDING(id, what) {id, what},
-#include "findings_rows.h"
-#undef FINDING
-    };
-    if (i >= ROWS + sizeof others / sizeof *others) return NULL;
-    *what = i < ROWS ? rows[i].what : others[i - ROWS].what;
-    return i < ROWS ? rows[i].id : others[i - ROWS].id;
-}
-
-struct lint_finding *lint_add(struct lint_findings *findings, const char *id, const char *likelihood) {
-    static struct lint_finding lost;
-    struct lint_finding *f = findings->count < LINT_FINDINGS ? &findings->items[findings->count++] : &lost;
-    const char *known, *what = "";
-    *f = (struct lint_finding){.likelihood = likelihood};
-    snprintf(f->id, sizeof f->id, "%s", id);
-    for (size_t i = 0; (known = lint_id(i, &what)) != NULL && strcmp(known, id) != 0;) i++;
-    snprintf(f->what, sizeof f->what, "%s", what);
-    return f;
-}
-
 static void apply_reading(const struct lint_data *data, struct lint_reading *r, size_t row) {
     size_t at = 0;
 #define READING(id, statement, what, attribute, value)                                                                 \
@@ -79,6 +55,8 @@ static void apply_reading(const struct lint_data *data, struct lint_reading *r, 
 #undef READING
     (void)data;
 }
+
+static const unsigned ALL_MEASURES = (1u << LINT_MEASURES) - 1;
 
 /* The measures that a convention can influence, as bits. */
 static unsigned measures_of(const char *id) {
@@ -91,7 +69,7 @@ static unsigned measures_of(const char *id) {
                  {"lit.", 1u << LINT_COLORS | 1u << LINT_BEFORE}};
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
         if (!strncmp(id, kinds[i].of, strlen(kinds[i].of))) return kinds[i].measures;
-    return (1u << LINT_MEASURES) - 1;
+    return ALL_MEASURES;
 }
 
 double lint_worth(const struct lint_agreement *a, const struct lint_agreement *other, int m) {
@@ -128,24 +106,77 @@ static void corrected_matrix(bool inverse, const double *m, double out[16]) {
     }
 }
 
+static bool is_matrix(const struct row *row) {
+    return !strcmp(row->value, INVERSE) || !strcmp(row->value, MIRRORED);
+}
+
+static void describe_remedy(const struct row *row, const char *value, bool previous, char text[240]) {
+    if (!*row->attribute) snprintf(text, 240, "no attribute can declare this: change the dump");
+    else if (is_matrix(row))
+        snprintf(text, 240, "%s%s: %s", row->attribute, previous ? " and glint.previousWorldToView" : "",
+                 !strcmp(row->value, INVERSE) ? "its inverse" : "its first row negated");
+    else if (*value == '?') snprintf(text, 240, "%s = the other value", row->attribute);
+    else snprintf(text, 240, "%s = \"%s\"", row->attribute, value);
+}
+
 static void declare(struct lint_finding *f, const struct row *row, const struct lint_data *data,
                     const struct lint_reading *reading) {
-    f->attribute = *row->attribute ? row->attribute : NULL;
     f->value = row->value;
     if (!strcmp(row->value, CLIP_Y)) f->value = reading->clip_y == GLINT_CLIP_Y_UP ? "up" : "down";
     if (!strcmp(row->value, CLIP_Z))
         f->value = reading->clip_z == GLINT_CLIP_Z_ZERO_TO_ONE ? "zero_to_one" : "minus_one_to_one";
     const bool inverse = !strcmp(row->value, INVERSE);
-    f->has_matrix = inverse || !strcmp(row->value, MIRRORED);
+    f->has_matrix = is_matrix(row);
     f->has_previous = f->has_matrix && data->frame.has_previous && !reading->inverse_current;
     if (f->has_matrix) corrected_matrix(inverse, data->frame.camera.world_to_view, f->matrix);
     if (f->has_previous) corrected_matrix(inverse, data->frame.previous.world_to_view, f->previous);
-    if (!f->attribute) snprintf(f->remedy, sizeof f->remedy, "no attribute can declare this: change the dump");
-    else if (f->has_matrix)
-        snprintf(f->remedy, sizeof f->remedy, "%s%s: %s", f->attribute,
-                 f->has_previous ? " and glint.previousWorldToView" : "",
-                 !strcmp(row->value, INVERSE) ? "its inverse" : "its first row negated");
-    else snprintf(f->remedy, sizeof f->remedy, "%s = \"%s\"", f->attribute, f->value);
+    describe_remedy(row, f->value, f->has_previous, f->remedy);
+}
+
+/* ---- What can be found ---- */
+
+static void describe_measures(unsigned measures, char *text, size_t size) {
+    size_t length = (size_t)snprintf(text, size, measures == ALL_MEASURES ? "all comparisons" : "comparison of ");
+    for (int m = 0; m < LINT_MEASURES && measures != ALL_MEASURES; m++)
+        if (measures & 1u << m)
+            length += (size_t)snprintf(text + length, size - length, "%s%s", measures & ((1u << m) - 1) ? "; of " : "",
+                                       lint_measure_names[m]);
+}
+
+bool lint_known(size_t i, struct lint_known *known) {
+    static const struct {
+        const char *id, *what, *measured, *remedy, *attribute;
+        enum lint_pixels pixels;
+    } others[] = {
+#define FINDING(id, what, measured, remedy, attribute, pixels) {id, what, measured, remedy, attribute, pixels},
+#include "findings_rows.h"
+#undef FINDING
+    };
+    if (i >= ROWS + sizeof others / sizeof *others) return false;
+    if (i < ROWS) {
+        *known = (struct lint_known){.id = rows[i].id, .what = rows[i].what, .attribute = rows[i].attribute};
+        describe_measures(measures_of(rows[i].id), known->measured, sizeof known->measured);
+        describe_remedy(&rows[i], rows[i].value, false, known->remedy);
+        return true;
+    }
+    i -= ROWS;
+    *known = (struct lint_known){others[i].id, others[i].what, others[i].attribute, others[i].pixels, "", ""};
+    snprintf(known->measured, sizeof known->measured, "%s", others[i].measured);
+    snprintf(known->remedy, sizeof known->remedy, "%s", others[i].remedy);
+    return true;
+}
+
+struct lint_finding *lint_add(struct lint_findings *findings, const char *id, const char *likelihood) {
+    static struct lint_finding lost;
+    struct lint_finding *f = findings->count < LINT_FINDINGS ? &findings->items[findings->count++] : &lost;
+    struct lint_known known;
+    for (size_t i = 0; lint_known(i, &known) && strcmp(known.id, id) != 0;) i++;
+    *f = (struct lint_finding){.likelihood = likelihood, .attribute = *known.attribute ? known.attribute : NULL};
+    snprintf(f->id, sizeof f->id, "%s", id);
+    snprintf(f->what, sizeof f->what, "%s", known.what);
+    snprintf(f->remedy, sizeof f->remedy, "%s", known.remedy);
+    f->pixels = known.pixels;
+    return f;
 }
 
 /* ---- The best other convention ---- */
@@ -175,9 +206,7 @@ static void consider(struct contest *contest, const struct lint_agreement *from,
 }
 
 static const char *what_of(const struct candidate *c) {
-    const char *what = "cube-map centres are wrong";
-    if (c->row < ROWS) lint_id(c->row, &what);
-    return what;
+    return c->row < ROWS ? rows[c->row].what : "cube-map centres are wrong";
 }
 
 /* Images stored bottom first match when NDC y is flipped, but then the top of the image points down in the world. */
@@ -203,9 +232,7 @@ static void add_finding(struct lint_findings *findings, const struct contest *co
              c->agreement.count[m]);
     if (!alone) snprintf(f->either, sizeof f->either, "%s", what_of(&contest->second));
     if (row == CENTERS) lint_describe_centers(data, &c->reading, f);
-    else if (turned)
-        snprintf(f->remedy, sizeof f->remedy, "no attribute can declare this: write every image with row 0 at the top");
-    else declare(f, &rows[row], data, &c->reading);
+    else if (!turned) declare(f, &rows[row], data, &c->reading);
 }
 
 static void try_rows(const struct lint_data *data, const struct lint_reading *reading,

@@ -101,5 +101,4 @@ void lint_find_coarse_depth(const struct lint_data *data, const struct lint_read
         "rounding alone may rotate %zu of %zu surfaces by more than 3 degrees, and %zu of these do not match their "
         "normals; %s",
         unsure, all, hidden, depth_text);
-    snprintf(f->remedy, sizeof f->remedy, "dump the depth buffer without conversion: D24, or better reversed D32F");
 }

@@ -39,8 +39,6 @@ static void check_normal_lengths(const struct lint_data *data, const struct lint
     snprintf(f->evidence, sizeof f->evidence,
              "the length of %zu of %zu normals differs from 1 by more than 0.05; the median length is %.4g", off, count,
              median(lengths, count));
-    snprintf(f->remedy, sizeof f->remedy,
-             "normalize the normals before dumping them: the reader does it too, but precision is lost");
 }
 
 /* ---- Sky ---- */
@@ -65,7 +63,6 @@ static void check_sky_depth(const struct lint_data *data, struct lint_findings *
     snprintf(f->evidence, sizeof f->evidence,
              "%zu pixels have exactly the depth %.9g, the next largest depth is %.9g, and no pixel is infinite",
              at_largest, largest, next);
-    snprintf(f->remedy, sizeof f->remedy, "no attribute can declare this: write +inf for sky pixels");
 }
 
 /* ---- Light ---- */
@@ -95,8 +92,6 @@ static void check_specular(const struct lint_data *data, const struct lint_readi
     struct lint_finding *f = lint_add(findings, "lit.specular", "likely");
     snprintf(f->evidence, sizeof f->evidence,
              "%zu of %zu metal samples are lit, although metal has no diffuse reflection", lit, metals);
-    snprintf(f->remedy, sizeof f->remedy,
-             "no attribute can declare this: dump lit without specular light (and the final image as scene)");
 }
 
 /* ---- Motion and the previous camera ---- */
@@ -150,9 +145,6 @@ static void check_previous_depth(const struct lint_data *data, const struct lint
     snprintf(f->evidence, sizeof f->evidence, "%.0f %% of %zu comparisons of %s agree%s", 100 * share,
              agreement->count[LINT_BEFORE], lint_measure_names[LINT_BEFORE],
              same ? "; both cameras are equal, but the two depth buffers differ" : "");
-    snprintf(f->remedy, sizeof f->remedy,
-             same ? "no attribute can declare this: dump the camera of the previous frame"
-                  : "dump camera and depth of the same previous frame");
 }
 
 static void check_motion(const struct lint_data *data, const struct lint_reading *reading,
@@ -160,19 +152,15 @@ static void check_motion(const struct lint_data *data, const struct lint_reading
     const size_t known = findings->count;
     if (data->frame.cut) return;
     const struct movement m = data->has_motion ? movement_of(data, reading) : (struct movement){0, 0, 0, 0};
-    const char *id = NULL, *remedy = "no attribute can declare this: dump the camera of the previous frame";
+    const char *id = NULL;
     if (!data->has_motion) lint_undecided(findings, "motion: the capture contains no motion vectors");
     if (m.compared >= LINT_ENOUGH && m.stored > m.compared / 2 && !data->frame.has_previous) id = "previous.missing";
     else if (m.compared >= LINT_ENOUGH && m.stored > m.compared / 2 && m.expected < m.compared / 20)
         id = "previous.same";
-    else if (m.compared >= LINT_ENOUGH && m.expected > m.compared / 2 && m.zero > m.compared * 19 / 20) {
+    else if (m.compared >= LINT_ENOUGH && m.expected > m.compared / 2 && m.zero > m.compared * 19 / 20)
         id = "motion.zero";
-        remedy = "no attribute can declare this: dump motion that includes the motion of the camera";
-    } else if (m.compared >= LINT_ENOUGH && m.expected > m.compared / 2 &&
-               agreement->share[LINT_MOTION] < LINT_MIN_SHARE) {
+    else if (m.compared >= LINT_ENOUGH && m.expected > m.compared / 2 && agreement->share[LINT_MOTION] < LINT_MIN_SHARE)
         id = "motion.unexplained";
-        remedy = "compare the motion of a static object with its reprojection by both cameras";
-    }
     if (m.compared >= LINT_ENOUGH && m.expected < m.compared / 20 && !id)
         lint_undecided(findings, "the sign and unit of motion: the camera did not move");
     if (id) {
@@ -181,7 +169,6 @@ static void check_motion(const struct lint_data *data, const struct lint_reading
                  "of %zu samples, %zu move by more than %.2f pixels as stored and %zu by reprojection; the stored "
                  "motion of %zu is 0",
                  m.compared, m.stored, LINT_MOVES_PX, m.expected, m.zero);
-        snprintf(f->remedy, sizeof f->remedy, "%s", remedy);
     }
     if (findings->count == known) check_previous_depth(data, agreement, findings);
 }
@@ -221,7 +208,6 @@ static void check_up_axis(const struct lint_data *data, const struct lint_readin
         "the surfaces face it",
         upward[best], values[best], upward[declared], values[declared], values[best],
         100 * (double)floors[best] / (double)surfaces);
-    f->attribute = "glint.up";
     f->value = values[best];
     snprintf(f->remedy, sizeof f->remedy, "glint.up = \"%s\"", values[best]);
 }
@@ -240,7 +226,6 @@ static void check_unexplained(const struct lint_agreement *a, struct lint_findin
         struct lint_finding *f = lint_add(findings, rows[i].id, "possible");
         snprintf(f->evidence, sizeof f->evidence, "%.0f %% of %zu comparisons of %s agree", 100 * a->share[m],
                  a->count[m], lint_measure_names[m]);
-        snprintf(f->remedy, sizeof f->remedy, "compare both images with glint view");
     }
     for (int m = 0; m < LINT_MEASURES; m++)
         if (a->count[m] < LINT_ENOUGH && m != LINT_MOTION && m != LINT_BEFORE)

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "options/nearest.h"
+#include "glint/nearest.h"
 
 void list_add(struct list *list, const char *item, struct argp_state *state) {
     const char **items = realloc(list->items, (list->count + 2) * sizeof *items);
@@ -79,13 +79,14 @@ char *join_names(const char *before, const char *const *names) {
 }
 
 int arg_choice(const char *option, const char *text, const char *const *names, struct argp_state *state) {
-    struct nearest near = nearest_to(text);
+    struct glint_nearest near = glint_nearest_to(text);
     for (int i = 0; names[i]; i++) {
         if (!strcmp(names[i], text)) return i;
-        nearest_offer(&near, names[i]);
+        glint_nearest_offer(&near, names[i]);
     }
     char *all = join_names("", names);
-    argp_error(state, "--%s=%s: expected one of %s%s", option, text, all ? all : "its values", nearest_text(&near));
+    argp_error(state, "--%s=%s: expected one of %s%s", option, text, all ? all : "its values",
+               glint_nearest_text(&near));
     free(all);
     return -1;
 }

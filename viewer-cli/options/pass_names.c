@@ -1,19 +1,11 @@
-/* Formats the declarations of passes, and checks names that users type. */
+/* Formats the declarations of passes, and looks images up by name. */
 #include "options/pass_names.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "options/nearest.h"
-
-bool row_is_parameter(const struct glint_row *row) {
-    return row->kind == GLINT_ROW_SPEC || row->kind == GLINT_ROW_CHOICE || row->kind == GLINT_ROW_PUSH;
-}
-
-bool row_is_output(const struct glint_row *row) {
-    return row->kind == GLINT_ROW_WRITE || row->kind == GLINT_ROW_DIAGNOSTIC;
-}
+#include "glint/nearest.h"
 
 const char *row_type(const struct glint_row *row) {
     if (row->kind == GLINT_ROW_CHOICE) return "choice";
@@ -63,7 +55,7 @@ const char *value_text(const struct glint_row *row, double value) {
     static char buffers[8][32];
     static unsigned turn;
     if (row->kind == GLINT_ROW_CHOICE) return row->choices[(int)value];
-    if (row->type == GLINT_VALUE_BOOL && row_is_parameter(row)) return value != 0 ? "on" : "off";
+    if (row->type == GLINT_VALUE_BOOL && glint_row_is_parameter(row)) return value != 0 ? "on" : "off";
     char *text = buffers[turn++ % 8];
     if (isinf(value)) snprintf(text, 32, value > 0 ? "∞" : "−∞");
     else if (value == trunc(value) && fabs(value) < 1e15)
@@ -77,7 +69,7 @@ const struct glint_row *image_find(const char *name, const char **slot) {
     const struct glint_pass *passes = glint_passes(&count);
     for (size_t i = 0; i < count; i++)
         for (size_t r = 0; r < passes[i].row_count; r++)
-            if (row_is_output(&passes[i].rows[r]) && !strcmp(passes[i].rows[r].name, name)) {
+            if (glint_row_is_output(&passes[i].rows[r]) && !strcmp(passes[i].rows[r].name, name)) {
                 *slot = passes[i].slot;
                 return &passes[i].rows[r];
             }
@@ -90,91 +82,15 @@ const struct glint_row *image_find(const char *name, const char **slot) {
     return NULL;
 }
 
-static bool name_is(const char *name, const char *text, size_t length) {
-    return strlen(name) == length && !memcmp(name, text, length);
-}
-
-bool check_slot(const char *slot, size_t length, struct glint_error *err) {
-    size_t count = 0;
-    const struct glint_pass *passes = glint_passes(&count);
-    char wanted[64];
-    snprintf(wanted, sizeof wanted, "%.*s", (int)length, slot);
-    struct nearest near = nearest_to(wanted);
-    for (size_t i = 0; i < count; i++) {
-        if (name_is(passes[i].slot, slot, length)) return true;
-        nearest_offer(&near, passes[i].slot);
-    }
-    return glint_fail(err, GLINT_ERROR_USAGE, "there is no slot %s%s; glint passes lists them", wanted,
-                      nearest_text(&near));
-}
-
-static bool split_assignment(const char *assignment, char at, const char *example, size_t *length,
-                             struct glint_error *err) {
-    const char *cut = strchr(assignment, at);
-    if (!cut || cut == assignment || !cut[1])
-        return glint_fail(err, GLINT_ERROR_USAGE, "%s: expected %s", assignment, example);
-    *length = (size_t)(cut - assignment);
-    return true;
-}
-
-bool check_use(const char *assignment, struct glint_error *err) {
-    size_t length = 0, count = 0;
-    if (!split_assignment(assignment, '=', "SLOT=VARIANT, such as screen_trace=linear", &length, err)) return false;
-    if (!check_slot(assignment, length, err)) return false;
-    const char *variant = assignment + length + 1;
-    const struct glint_pass *passes = glint_passes(&count);
-    struct nearest near = nearest_to(variant);
-    if (!strcmp(variant, "none")) return true;
-    for (size_t i = 0; i < count; i++) {
-        if (!name_is(passes[i].slot, assignment, length)) continue;
-        if (!strcmp(passes[i].variant, variant)) return true;
-        nearest_offer(&near, passes[i].variant);
-    }
-    return glint_fail(err, GLINT_ERROR_USAGE, "slot %.*s has no variant %s%s; glint passes %.*s lists them",
-                      (int)length, assignment, variant, nearest_text(&near), (int)length, assignment);
-}
-
-bool check_set(const char *assignment, struct glint_error *err) {
-    size_t slot = 0, all = 0, count = 0;
-    static const char example[] = "SLOT.PARAMETER=VALUE, such as screen_trace.cells=64";
-    if (!split_assignment(assignment, '=', example, &all, err) ||
-        !split_assignment(assignment, '.', example, &slot, err))
-        return false;
-    if (slot >= all) return glint_fail(err, GLINT_ERROR_USAGE, "%s: expected %s", assignment, example);
-    /* "pipeline" is not a pass; the library checks its parameters. */
-    if (name_is("pipeline", assignment, slot)) return true;
-    if (!check_slot(assignment, slot, err)) return false;
-    const struct glint_pass *passes = glint_passes(&count);
-    char wanted[64];
-    snprintf(wanted, sizeof wanted, "%.*s", (int)(all - slot - 1), assignment + slot + 1);
-    struct nearest near = nearest_to(wanted);
-    for (size_t i = 0; i < count; i++) {
-        if (!name_is(passes[i].slot, assignment, slot)) continue;
-        for (size_t r = 0; r < passes[i].row_count; r++) {
-            if (!row_is_parameter(&passes[i].rows[r])) continue;
-            if (!strcmp(passes[i].rows[r].name, wanted)) return true;
-            nearest_offer(&near, passes[i].rows[r].name);
-        }
-    }
-    return glint_fail(err, GLINT_ERROR_USAGE, "slot %.*s has no parameter %s%s; glint passes %.*s lists them",
-                      (int)slot, assignment, wanted, nearest_text(&near), (int)slot, assignment);
-}
-
-bool check_shader(const char *assignment, struct glint_error *err) {
-    size_t length = 0;
-    return split_assignment(assignment, '=', "SLOT=FILE, such as resolve=my.comp", &length, err) &&
-           check_slot(assignment, length, err);
-}
-
 bool check_image(const char *name, struct glint_error *err) {
     const char *slot = NULL;
     if (image_find(name, &slot)) return true;
     size_t count = 0;
     const struct glint_pass *passes = glint_passes(&count);
-    struct nearest near = nearest_to(name);
+    struct glint_nearest near = glint_nearest_to(name);
     for (size_t i = 0; i < count; i++)
         for (size_t r = 0; r < passes[i].row_count; r++)
-            if (row_is_output(&passes[i].rows[r])) nearest_offer(&near, passes[i].rows[r].name);
+            if (glint_row_is_output(&passes[i].rows[r])) glint_nearest_offer(&near, passes[i].rows[r].name);
     return glint_fail(err, GLINT_ERROR_USAGE, "there is no image %s%s; glint passes lists them", name,
-                      nearest_text(&near));
+                      glint_nearest_text(&near));
 }

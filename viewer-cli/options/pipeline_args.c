@@ -1,8 +1,6 @@
 /* The options of commands that run pipelines. */
 #include "options/pipeline_args.h"
 
-#include <string.h>
-
 #include "options/pass_names.h"
 
 error_t pipeline_args_parse(int key, char *arg, struct argp_state *state, struct pipeline_args *args) {
@@ -59,23 +57,22 @@ void pipeline_args_finish(struct pipeline_args *args) {
 
 static bool check_slots(const struct list *slots, struct glint_error *err) {
     for (size_t i = 0; i < slots->count; i++)
-        if (!check_slot(slots->items[i], strlen(slots->items[i]), err)) return false;
+        if (!glint_slot_check(slots->items[i], err)) return false;
     return true;
 }
 
 typedef bool (*assign)(struct glint_pipeline *pipeline, const char *assignment, struct glint_error *err);
 
-static bool assign_all(struct glint_pipeline *pipeline, const struct list *list,
-                       bool (*check)(const char *, struct glint_error *), assign set, struct glint_error *err) {
+static bool assign_all(struct glint_pipeline *pipeline, const struct list *list, assign set, struct glint_error *err) {
     for (size_t i = 0; i < list->count; i++)
-        if (!check(list->items[i], err) || !set(pipeline, list->items[i], err)) return false;
+        if (!set(pipeline, list->items[i], err)) return false;
     return true;
 }
 
 bool pipeline_args_apply(const struct pipeline_args *args, struct glint_pipeline *pipeline, struct glint_error *err) {
-    return assign_all(pipeline, &args->use, check_use, glint_pipeline_use, err) &&
-           assign_all(pipeline, &args->set, check_set, glint_pipeline_set, err) &&
-           assign_all(pipeline, &args->shader, check_shader, glint_pipeline_shader, err);
+    return assign_all(pipeline, &args->use, glint_pipeline_use, err) &&
+           assign_all(pipeline, &args->set, glint_pipeline_set, err) &&
+           assign_all(pipeline, &args->shader, glint_pipeline_shader, err);
 }
 
 struct glint_pipeline *pipeline_args_create(const struct pipeline_args *args, struct glint_error *err) {

@@ -29,7 +29,7 @@ static json_t *record_json(const struct probe_side *side, const struct glint_pro
         const double value = (double)record->values[i];
         const struct glint_probe_label word = glint_probe_label(row->unit, record->values[i]);
         json_object_set_new(object, row->name, word.name ? json_string(word.name) : json_number(value));
-        if (strcmp(row->unit, "place") == 0)
+        if (strcmp(row->unit, "index") == 0)
             json_object_set_new(object, "cubemap", json_string(probe_cubemap(side, value)));
     }
     const bool step = glint_probe_is(record, "screen_texel") || glint_probe_is(record, "screen_cell") ||

@@ -91,9 +91,9 @@ static bool read_side(struct probe *probe, struct probe_side *side, struct glint
 }
 
 bool probe_run(struct probe *probe, struct probe_side *side, struct glint_replay *replay,
-               const struct glint_pipeline *pipeline, const struct glint_replay_options *wanted,
+               const struct glint_pipeline *pipeline, const struct glint_replay_options *caller,
                struct glint_error *err) {
-    struct glint_replay_options options = *wanted;
+    struct glint_replay_options options = *caller;
     const uint32_t pixels[1][2] = {{probe->pixel[0], probe->pixel[1]}};
     options.captured = options.diagnostics = true;
     options.probes = pixels;
@@ -161,7 +161,8 @@ static void name_group(struct probe_group *group, const struct glint_probe_row *
     const char *m = strstr(row->name, "_m");
     const int length = group->count > 1 ? (int)base : m && !m[2] ? (int)(m - row->name) : (int)strlen(row->name);
     const char *bare = row->name[0] == 'r' ? "rgb" : strcmp(row->unit, "px") == 0 ? "pixel" : "position";
-    if (length == 0) snprintf(group->name, sizeof group->name, "%s", bare);
+    if (strcmp(row->unit, "index") == 0) snprintf(group->name, sizeof group->name, "cube map");
+    else if (length == 0) snprintf(group->name, sizeof group->name, "%s", bare);
     else snprintf(group->name, sizeof group->name, "%.*s", length, row->name);
     for (char *c = group->name; *c; c++) *c = *c == '_' ? ' ' : *c;
 }
@@ -183,7 +184,7 @@ void probe_group_text(const struct probe_side *side, const struct glint_probe_re
     const double value = (double)record->values[group->first];
     const struct glint_probe_label word = glint_probe_label(group->unit, record->values[group->first]);
     if (word.text) snprintf(text, size, "%s", word.text);
-    else if (strcmp(group->unit, "place") == 0) snprintf(text, size, "%s", probe_cubemap(side, value));
+    else if (strcmp(group->unit, "index") == 0) snprintf(text, size, "%s", probe_cubemap(side, value));
     else {
         size_t used = 0;
         const float *values = &record->values[group->first];

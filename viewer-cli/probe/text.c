@@ -80,7 +80,7 @@ static bool ended_on_screen(const struct probe_side *side, const struct glint_pr
 static bool is_void(const struct glint_probe_record *record, const struct probe_group *group, const char *text) {
     if (!glint_probe_is(record, "color")) return false;
     return strcmp(group->unit, "px") == 0 ? strcmp(text, "0.0,0.0") == 0
-                                          : strcmp(group->unit, "place") == 0 && strcmp(text, "none") == 0;
+                                          : strcmp(group->unit, "index") == 0 && strcmp(text, "none") == 0;
 }
 
 static void print_once(const struct probe_side *side, const struct glint_probe_record *record) {
@@ -164,7 +164,7 @@ static const char *ending_text(const struct probe_side *side, const char *slot, 
     const struct glint_probe_record *end = probe_last(side, slot, kind);
     if (!end || ended_on_screen(side, end)) return "–";
     const struct glint_probe_label why = glint_probe_label("end reason", glint_probe_value(end, "end"));
-    const double place = (double)glint_probe_value(end, "place");
+    const double place = (double)glint_probe_value(end, "cubemap_index");
     const bool mapped = place >= 0 && place < side->cubemap_count;
     snprintf(text, size, "%s m, %s%s%s", number_text((double)glint_probe_value(end, "travelled_m")),
              why.text ? why.text : "?", mapped ? ", " : "", mapped ? probe_cubemap(side, place) : "");

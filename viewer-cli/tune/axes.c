@@ -21,22 +21,6 @@ bool tune_slot_counts(const struct tune *tune, const char *slot) {
     return counts;
 }
 
-static const struct glint_pass *find_pass(const struct glint_pipeline *pipeline, const char *name) {
-    const size_t length = strcspn(name, ".");
-    for (size_t i = 0; i < glint_pipeline_pass_count(pipeline); i++) {
-        const struct glint_pass *pass = glint_pipeline_pass(pipeline, i);
-        if (strlen(pass->slot) == length && !strncmp(pass->slot, name, length)) return pass;
-    }
-    return NULL;
-}
-
-static const struct glint_row *find_row(const struct glint_pass *pass, const char *name) {
-    const char *dot = strchr(name, '.');
-    for (size_t r = 0; pass && dot && r < pass->row_count; r++)
-        if (row_is_parameter(&pass->rows[r]) && !strcmp(pass->rows[r].name, dot + 1)) return &pass->rows[r];
-    return NULL;
-}
-
 static bool is_rays(const char *name) {
     return !strcmp(name, "pipeline.rays");
 }
@@ -51,9 +35,10 @@ struct glint_pipeline *tune_pipeline(const struct tune *tune, const double *valu
     for (int variants = 1; variants >= 0; variants--)
         for (size_t a = 0; ok && a < tune->axis_count; a++) {
             const struct tune_axis *axis = &tune->axes[a];
+            const struct glint_pass *pass;
             char text[TUNE_TEXT], assignment[200];
             if (is_variant(axis->name) != (variants == 1)) continue;
-            if (axis->row && !find_row(find_pass(pipeline, axis->name), axis->name)) continue;
+            if (axis->row && !glint_pipeline_parameter(pipeline, axis->name, &pass, NULL)) continue;
             tune_value_text(axis, values[a], text);
             snprintf(assignment, sizeof assignment, "%s=%s", axis->name, text);
             ok = variants ? glint_pipeline_use(pipeline, assignment, err)
@@ -93,7 +78,7 @@ static bool same_values(const struct glint_pipeline *a, const struct glint_pipel
     for (size_t i = 0; i < glint_pipeline_pass_count(a); i++) {
         const struct glint_pass *pass = glint_pipeline_pass(a, i);
         for (size_t r = 0; r < pass->row_count; r++)
-            if (row_is_parameter(&pass->rows[r]) &&
+            if (glint_row_is_parameter(&pass->rows[r]) &&
                 glint_pipeline_value(a, pass, &pass->rows[r]) != glint_pipeline_value(b, pass, &pass->rows[r]))
                 return false;
     }
@@ -209,7 +194,7 @@ static bool add_all(struct tune *tune, struct glint_error *err) {
             if (!ask_capture(tune, &tune->subjects[s], pass, &part, err)) return false;
         for (size_t r = 0; r < pass->row_count; r++) {
             const struct glint_row *row = &pass->rows[r];
-            if (!row_is_parameter(row)) continue;
+            if (!glint_row_is_parameter(row)) continue;
             struct tune_axis *axis = &tune->axes[tune->axis_count];
             const double start = glint_pipeline_value(tune->base, pass, row);
             bool otherwise = false;
@@ -243,9 +228,8 @@ static bool read_list(const struct tune *tune, struct tune_axis *axis, const cha
         if (!length || length >= TUNE_TEXT) return fail_vary(axis, "values separated by commas", list, err);
         struct glint_pipeline *copy = glint_pipeline_copy(tune->base, err);
         struct glint_error own = {0};
-        const bool ok =
-            copy && (is_variant(axis->name) ? check_use(assignment, &own) && glint_pipeline_use(copy, assignment, &own)
-                                            : glint_pipeline_set(copy, assignment, &own));
+        const bool ok = copy && (is_variant(axis->name) ? glint_pipeline_use(copy, assignment, &own)
+                                                        : glint_pipeline_set(copy, assignment, &own));
         if (copy) glint_pipeline_destroy(&copy);
         if (!ok) return glint_fail(err, own.code, "--vary %s: %s", axis->name, own.message);
         if (!add_text(axis, at, length, err)) return false;
@@ -278,15 +262,17 @@ static bool read_range(struct tune_axis *axis, const char *range, double lowest,
     return true;
 }
 
-/* The pass of a variant that an axis can choose. */
+/* The parameter in a variant that an axis can choose. */
 static const struct glint_row *find_other_row(const struct tune *tune, const char *name) {
     const struct glint_row *row = NULL;
     for (size_t a = 0; a < tune->axis_count; a++) {
         const struct tune_axis *axis = &tune->axes[a];
         const size_t length = strlen(axis->name);
         if (!is_variant(axis->name) || strncmp(axis->name, name, length) != 0 || name[length] != '.') continue;
-        for (uint32_t c = 0; c < axis->axis.choices && !row; c++)
-            row = find_row(glint_pass_find(axis->name, axis->texts[c]), name);
+        for (uint32_t c = 0; c < axis->axis.choices && !row; c++) {
+            const struct glint_pass *pass = glint_pass_find(axis->name, axis->texts[c]);
+            row = pass ? glint_pass_parameter(pass, name + length + 1) : NULL;
+        }
     }
     return row;
 }
@@ -294,7 +280,7 @@ static const struct glint_row *find_other_row(const struct tune *tune, const cha
 /* SLOT.PARAMETER[=A..B|A,B], pipeline.rays=A..B, SLOT=VARIANT,VARIANT */
 static bool read_vary(const struct tune *tune, const char *text, struct tune_axis *axis, struct glint_error *err) {
     const char *equals = strchr(text, '='), *values = equals ? equals + 1 : NULL;
-    char start[TUNE_TEXT], assignment[200];
+    char start[TUNE_TEXT];
     const int length = (int)(equals ? equals - text : (long)strlen(text));
     snprintf(axis->name, sizeof axis->name, "%.*s", length, text);
     if (!length || length >= (int)sizeof axis->name || (values && !*values))
@@ -302,14 +288,11 @@ static bool read_vary(const struct tune *tune, const char *text, struct tune_axi
             err, GLINT_ERROR_USAGE,
             "--vary: expected SLOT.PARAMETER, SLOT.PARAMETER=A..B, a list A,B or SLOT=VARIANT,VARIANT, found '%s'",
             text);
-    snprintf(assignment, sizeof assignment, "%.150s=0", axis->name);
-    if (is_variant(axis->name) ? !check_slot(axis->name, strlen(axis->name), err)
-                               : !is_rays(axis->name) && !check_set(assignment, err))
-        return false;
-    const struct glint_pass *pass = find_pass(tune->base, axis->name);
     if (is_variant(axis->name)) {
+        const struct glint_pass *pass = glint_pipeline_find(tune->base, axis->name);
+        if (!glint_slot_check(axis->name, err)) return false;
         if (!values) return fail_vary(axis, "variants, such as SLOT=A,B", text, err);
-        return read_list(tune, axis, values, pass ? pass->variant : "none", err);
+        return read_list(tune, axis, values, pass ? pass->variant : GLINT_NO_VARIANT, err);
     }
     if (is_rays(axis->name)) {
         const double rays = glint_pipeline_rays(tune->base);
@@ -317,13 +300,13 @@ static bool read_vary(const struct tune *tune, const char *text, struct tune_axi
         if (!values || !strstr(values, "..")) return fail_vary(axis, "A..B", values ? values : "nothing", err);
         return read_range(axis, values, 1, 1024, rays, true, err);
     }
-    const struct glint_row *row = find_row(pass, axis->name);
+    struct glint_error own_error = {0};
+    const struct glint_pass *pass;
+    const struct glint_row *row = glint_pipeline_parameter(tune->base, axis->name, &pass, &own_error);
     const bool own = row != NULL;
     if (!own) row = find_other_row(tune, axis->name);
     axis->other = !own;
-    if (!row)
-        return glint_fail(err, GLINT_ERROR_USAGE, "--vary %s: %s/%s in the pipeline has no such parameter", axis->name,
-                          pass ? pass->slot : "slot is empty:", pass ? pass->variant : "");
+    if (!row) return glint_fail(err, own_error.code, "--vary %s: %s", axis->name, own_error.message);
     const double value = own ? glint_pipeline_value(tune->base, pass, row) : row->initial;
     bool otherwise = false;
     if (own && !asks_otherwise(tune, axis->name, row, value, &otherwise, err)) return false;

@@ -22,7 +22,7 @@ static json_t *preset_json(const struct glint_pipeline *pipeline, const char *na
         for (size_t r = 0; r < pass->row_count; r++) {
             char key[160];
             const struct glint_row *row = &pass->rows[r];
-            if (!row_is_parameter(row)) continue;
+            if (!glint_row_is_parameter(row)) continue;
             const double value = glint_pipeline_value(pipeline, pass, row);
             snprintf(key, sizeof key, "%s.%s", pass->slot, row->name);
             if (value != row->initial) json_object_set_new(set, key, value_json(row, value));

@@ -125,6 +125,8 @@ struct glint_pass {
 
 /* All passes, ordered by slot and variant name. */
 const struct glint_pass *glint_passes(size_t *count);
+/* The variant of a slot that the pipeline leaves out, where no pass of the slot has this name. */
+#define GLINT_NO_VARIANT "none"
 const struct glint_pass *glint_pass_find(const char *slot, const char *variant);
 /* Whether a parameter of the pass is ASSUMED: it replaces information that captures do not contain, such as a thickness. */
 bool glint_pass_assumes(const struct glint_pass *pass, const struct glint_row *parameter);

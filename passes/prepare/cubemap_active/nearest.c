@@ -130,8 +130,8 @@ bool glint_host_cubemap_active_nearest(struct glint_host_context *context, struc
     if (context->cubemap_count == 0)
         return glint_fail(err, GLINT_ERROR_USAGE,
                           "cubemap_active/nearest: no cube map in the capture, expected at least one");
-    size_t wanted = (size_t)context->value(context, "count"), active[MOST_ACTIVE] = {0};
-    size_t count = nearest(context, wanted < MOST_ACTIVE ? wanted : MOST_ACTIVE, active);
+    size_t limit = (size_t)context->value(context, "count"), active[MOST_ACTIVE] = {0};
+    size_t count = nearest(context, limit < MOST_ACTIVE ? limit : MOST_ACTIVE, active);
     if (context->value(context, "force_outdoor") != 0) force_outdoor(context, active, count);
     size_t chain = (size_t)context->value(context, "chain");
     if (chain > count) chain = count;

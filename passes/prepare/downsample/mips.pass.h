@@ -8,7 +8,7 @@ PASS("Three levels with edges", "Mafia DE article, Downscaled Depth and Normals"
 READ(texture2D, vertex_normal_full)
 WRITE(image2D, depth_levels, R32F, "m", HALF_MIPS3, "Z", INFINITY, "depth_half, and in coarser levels the depth of the pixel picked from each block; +inf where sky")
 WRITE(image2D, normal_levels, RGBA16F, "1", HALF_MIPS3, "X Y Z roughness", 0, "normal_half, and in coarser levels the normal and roughness of those pixels")
-WRITE(image2D, vertex_normal_levels, RGBA16F, "1", HALF_MIPS3, "X Y Z place", 0, "geometric normal of those pixels; w: position of the pixel within its texel, x + 8y")
+WRITE(image2D, vertex_normal_levels, RGBA16F, "1", HALF_MIPS3, "X Y Z pick", 0, "geometric normal of those pixels; w: position of the pixel within its texel, x + 8y")
 WRITE(uimage2D, edge_levels, R8UI, "edges", HALF_MIPS3, "sides", 0, "how continuous the surface is with the left, right, upper and lower neighbour: two bits each, 0: an edge, 3: one surface")
 READ_OWN(texture2D, depths, depth_levels)
 READ_OWN(texture2D, normals, normal_levels)

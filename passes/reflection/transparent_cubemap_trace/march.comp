@@ -32,7 +32,7 @@ void main() {
         result = trace(texel, depth_m, normal, start_m);
     probe_cubemap_end(result.travelled_m, result.place, result.end, result.steps, result.fetches);
     imageStore(transparent_travelled, texel, vec4(result.travelled_m));
-    imageStore(transparent_place, texel, uvec4(result.place));
+    imageStore(transparent_cubemap_index, texel, uvec4(result.place));
     if (!diagnostics) return;
     imageStore(transparent_cubemap_end, texel, uvec4(result.end));
     imageStore(transparent_cubemap_steps, texel, uvec4(result.steps));

@@ -8,7 +8,7 @@ vec4 resolved(ivec2 texel, float depth_m, vec3 normal) {
     vec3 position = mat3(frame.world_from_view) * view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
     float travelled_m = texelFetch(transparent_travelled, texel, 0).x, cone = texelFetch(transparent_cone, texel, 0).x;
     return color_of(ended_ray(position, normal, travelled_m, cone), texelFetch(transparent_screen_finished, texel, 0).x != 0u,
-                    texelFetch(transparent_place, texel, 0).x, texel);
+                    texelFetch(transparent_cubemap_index, texel, 0).x, texel);
 }
 
 void main() {

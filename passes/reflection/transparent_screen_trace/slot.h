@@ -15,3 +15,4 @@ DISPATCH_LIST(transparent_tiles, shown)
 NEEDS(transparent)
 PER_RAY
 REFERENCE_NONE("it is composed over the picture and is not part of the reflection that the reference computes")
+TRACER("screen (transparent surfaces)", transparent_screen_end)

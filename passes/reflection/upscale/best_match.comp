@@ -15,7 +15,7 @@
 // workgroup and one more on each side, unless the pass runs over a list of tiles. At full resolution it processes one pixel and its
 // texel.
 struct Around {
-    vec4 surface; // normal, in world axes; w: roughness
+    vec4 surface; // normal, in world space; w: roughness
     vec3 place;   // in full-resolution pixels; z: depth in m, 0 without a ray
 };
 const ivec2 GROUP = ivec2(8), AROUND = GROUP + 2;
@@ -43,7 +43,7 @@ struct Pixel {
     bool reflects;
     float depth_m, height_m; // height: of the pixel's plane over the camera
     vec3 plane;              // a sample at `place` and depth z has the height z (plane.xy · place + plane.z)
-    vec4 surface;            // world axes; w: roughness
+    vec4 surface;            // world space; w: roughness
 };
 
 Pixel pixel_at(ivec2 pixel, float depth_m, vec4 surface, bool shown) {

@@ -4,7 +4,7 @@ PASS("Best match of depth and normal", "Mafia III talk, Upscale")
 DISPATCH(depth_half)
 DISPATCH_LIST(tile_list, shown)
 #line 202
-WRITE(uimage2D, sharp_source, R8UI, "1", FULL, "place", 255, "0: a rough pixel; else a smooth one, and the value is the chosen texel among the 3 x 3 around its own, 1 + x + 3y, 5 in the middle")
+WRITE(uimage2D, sharp_source, R8UI, "1", FULL, "choice", 255, "0: a rough pixel; else a smooth one, and the value is the chosen texel among the 3 x 3 around its own, 1 + x + 3y, 5 in the middle")
 SPEC(bool,  around,           true,  0,   1,    "1", "chosen by measuring", "consider all eight texels around the pixel's own; off: the four nearest")
 PUSH(float, depth_weight,     100.0, 0.0, 1e6,  "1", "Mafia III talk, Upscale; chosen by measuring", "cost of a sample's distance from the pixel's plane, relative to the depth; 0: ignore depth")
 PUSH(float, normal_weight,    25.0,  0.0, 1e6,  "1", "Mafia III talk, Upscale; chosen by measuring", "cost of the squared difference of the normals; 0: ignore normals")

@@ -2,6 +2,7 @@
 #ifndef GLINT_DECLARATIONS_H
 #define GLINT_DECLARATIONS_H
 
+#include "glint/common.h"
 #include "glint/passes.h"
 
 #ifdef __cplusplus
@@ -26,6 +27,9 @@ const struct glint_pass *glint_pass_with_role(enum glint_pass_role role, const c
 size_t glint_row_reads(const struct glint_row *row, const char *names[2]);
 /* Whether pass `later` reads an image that pass `earlier` writes. */
 bool glint_pass_depends(const struct glint_pass *later, const struct glint_pass *earlier);
+/* True if any pass declares it. Otherwise each fails with a message that suggests the nearest known name, or lists all of them. */
+bool glint_slot_check(const char *slot, struct glint_error *err);
+bool glint_variant_check(const char *slot, const char *variant, struct glint_error *err);
 bool glint_format_is_uint(enum glint_format format);
 
 #ifdef __cplusplus

@@ -54,7 +54,7 @@ struct glint_device_options {
     /* An index, or a part of the name in any case; NULL: $GLINT_DEVICE, else the best usable device. */
     const char *select;
     /* A folder laid out like passes/, such as the one of a source tree that is being edited. Shaders that lie there are compiled
-       anew at each run and replace the built-in ones; declarations stay the built-in ones. NULL: $GLINT_PASSES, else none. */
+       again at each run and replace the built-in ones; declarations stay the built-in ones. NULL: $GLINT_PASSES, else none. */
     const char *passes;
     /* Enables the Khronos validation layer with synchronisation validation, as does $GLINT_VALIDATION=1. */
     bool validation;
@@ -68,7 +68,6 @@ uint32_t glint_device_messages(const struct glint_device *device, const char **l
 /* ---- Pipelines: which variant of each slot, with which parameter values ---- */
 
 struct glint_pipeline;
-#define GLINT_NO_VARIANT "none"
 /* `preset` is a path if it contains '/' or ends in ".json". Otherwise it is a name, looked up as $GLINT_PRESETS/NAME.json and
    then among the built-in presets. The error lists everything that is wrong in the file. */
 struct glint_pipeline *glint_pipeline_create(const char *preset, struct glint_error *err);
@@ -92,6 +91,10 @@ const struct glint_pass *glint_pipeline_pass(const struct glint_pipeline *pipeli
 uint32_t glint_pipeline_rays(const struct glint_pipeline *pipeline); /* rays a pixel, at least 1 */
 /* The pass in a slot, or NULL if the pipeline does not have the slot. */
 const struct glint_pass *glint_pipeline_find(const struct glint_pipeline *pipeline, const char *slot);
+/* The parameter that glint_pipeline_set calls "slot.parameter", and its pass. Otherwise NULL, with a message that suggests the nearest
+   known name or lists all of them. */
+const struct glint_row *glint_pipeline_parameter(const struct glint_pipeline *pipeline, const char *name,
+                                                 const struct glint_pass **pass, struct glint_error *err);
 double glint_pipeline_value(const struct glint_pipeline *pipeline, const struct glint_pass *pass,
                             const struct glint_row *parameter);
 /* Checks the range as glint_pipeline_set does. The value of a choice is the index of its name. */
@@ -243,7 +246,7 @@ bool glint_replay_survey(struct glint_replay *replay, const struct glint_survey 
 char *glint_replay_survey_json(struct glint_replay *replay, struct glint_error *err);
 /* The number of pixels of a stencil class. False if the class is not a single bit of the id, since only bits are counted. */
 bool glint_survey_class(const struct glint_survey *survey, const struct glint_stencil_class *class_, uint64_t *count);
-/* What moved since the previous frame: "none", "camera" or "objects". */
+/* What moved since the previous frame: "camera" or "objects"; NULL: nothing. */
 const char *glint_survey_motion(const struct glint_survey *survey);
 /* Device time of the survey that the last plan or run is based on: the part that every frame needs, and the part that is needed
    when a cube map changes. */

@@ -260,7 +260,7 @@ static bool check_cocoon(struct frames *frames, const struct image_case *which, 
         parts[3] = (struct planes){
             "engine.screen_trace.screen_travelled", FRAME_WIDTH, FRAME_HEIGHT, {"Z"}, {far}, GLINT_F32, NULL};
         parts[4] = (struct planes){
-            "engine.cubemap_select.cubemap_best", FRAME_WIDTH, FRAME_HEIGHT, {"place"}, {best}, GLINT_U32, NULL};
+            "engine.cubemap_select.cubemap_best", FRAME_WIDTH, FRAME_HEIGHT, {"index"}, {best}, GLINT_U32, NULL};
         c->frame.more = parts, c->frame.more_count = 5;
     }
     ok = ok && frames_pipeline(frames, passes, settings, err) && frames_shader(frames, "cubemap_trace", shader, err) &&

@@ -52,7 +52,7 @@ static bool check_planes(struct frames *frames, const struct image_case *which, 
     struct planes parts[CUBES + 2];
     for (int k = 0; ok && k <= CUBES; k++) parts[k] = c->parts[k];
     parts[CUBES + 1] = (struct planes){
-        "engine.cubemap_select.cubemap_best", FRAME_WIDTH, FRAME_HEIGHT, {"place"}, {best}, GLINT_U32, NULL};
+        "engine.cubemap_select.cubemap_best", FRAME_WIDTH, FRAME_HEIGHT, {"index"}, {best}, GLINT_U32, NULL};
     if (ok) c->frame.more = parts, c->frame.more_count = CUBES + 2;
     ok = ok && frames_pipeline(frames, passes, settings, err) && frames_shader(frames, "cubemap_trace", shader, err) &&
          frames_run(frames, &c->frame, err) && (found = image_read(frames, "travelled", GLINT_F32, FRAME_PIXELS, err));

@@ -14,7 +14,7 @@ struct surfaces {
     uint32_t pick[TEXELS];
 };
 
-static double draw_value(size_t i, uint32_t what) {
+static double random_value(size_t i, uint32_t what) {
     return noise(what, (uint32_t)i);
 }
 
@@ -25,14 +25,15 @@ static void make_surfaces(struct surfaces *s) {
     frame_ordinary(&s->frame, 1);
     frame_cameras(&s->frame, place, place, 0.3, 0.3);
     for (size_t i = 0; i < TEXELS; i++) {
-        const double x = (double)(i % WIDTH), y = (double)(i / WIDTH), bump = draw_value(i, 1) < 0.1 ? 1 : 0.12;
-        double n[3] = {0.3 + bump * (draw_value(i, 2) - 0.5), 0.2 + bump * (draw_value(i, 3) - 0.5), 1};
+        const double x = (double)(i % WIDTH), y = (double)(i / WIDTH), bump = random_value(i, 1) < 0.1 ? 1 : 0.12;
+        double n[3] = {0.3 + bump * (random_value(i, 2) - 0.5), 0.2 + bump * (random_value(i, 3) - 0.5), 1};
         const double l = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-        s->depth[i] = (float)(4 + 0.06 * x + 0.02 * y + 0.02 * draw_value(i, 4) + (draw_value(i, 5) < 0.2 ? 0.3 : 0));
-        if (draw_value(i, 6) < 0.04) s->depth[i] = INFINITY;
-        for (int k = 0; k < 3; k++) s->normal[k][i] = (float)(draw_value(i, 7) < 0.03 ? 0.3 * n[k] : n[k] / l);
-        s->normal[3][i] = rough[(size_t)(7 * draw_value(i / 3, 8))];
-        s->pick[i] = (uint32_t)(5 * draw_value(i, 9));
+        s->depth[i] =
+            (float)(4 + 0.06 * x + 0.02 * y + 0.02 * random_value(i, 4) + (random_value(i, 5) < 0.2 ? 0.3 : 0));
+        if (random_value(i, 6) < 0.04) s->depth[i] = INFINITY;
+        for (int k = 0; k < 3; k++) s->normal[k][i] = (float)(random_value(i, 7) < 0.03 ? 0.3 * n[k] : n[k] / l);
+        s->normal[3][i] = rough[(size_t)(7 * random_value(i / 3, 8))];
+        s->pick[i] = (uint32_t)(5 * random_value(i, 9));
     }
 }
 

@@ -85,7 +85,7 @@ static void anything_unturned(uint32_t i, struct open_box *box) {
 static const struct convention_case mirrors[] = {
     {"axes turned", "each of the 24 permutations and signs of the axes, which permute the faces of the cube maps", {0}, 2e-5, .reason = ROUNDED, .variants = 24, .vary = turned},
     {"axes mirrored", "each of the 24 in a left-handed world", {0}, 2e-5, .reason = ROUNDED, .variants = 24, .vary = mirrored},
-    {"view axes", "x to the left, y down, z away from the viewer, clip y down", {0}, 2e-5, .reason = ROUNDED, .variants = 16, .vary = set_handedness},
+    {"view space", "x to the left, y down, z away from the viewer, clip y down", {0}, 2e-5, .reason = ROUNDED, .variants = 16, .vary = set_handedness},
     {"clip depth", "clip z from -1 to 1 and from 0 to 1, near or far at 1", {0}, 6.5e-5, .reason = STORED, .variants = 16, .vary = set_clip_depth},
     {"cube maps in another order", "the last one is the first", {.cubes_reversed = true}, 0, .reason = "the same arithmetic"},
     {"inches", "0.0254 metres a unit", {.metres_per_unit = 0.0254}, 2e-5, .reason = ROUNDED},
@@ -94,7 +94,7 @@ static const struct convention_case mirrors[] = {
 static const struct convention_case lobes[] = {
     {"normals in unorm", "0 to 1 for -1 to 1", {.encodings.normal = GLINT_NORMAL_UNORM}, 0, .reason = "the floor's normal is exact"},
     {"octahedral normals", "two numbers for three", {.encodings.normal = GLINT_NORMAL_OCTAHEDRAL}, 0, .reason = "the floor's normal is exact"},
-    {"normals in view axes", "turned with the camera", {.encodings.normal_space = GLINT_SPACE_VIEW}, 2e-5, .reason = ROUNDED},
+    {"normals in view space", "rotated with the camera", {.encodings.normal_space = GLINT_SPACE_VIEW}, 2e-5, .reason = ROUNDED},
     {"normals of view x and y", "view z follows", {.encodings.normal = GLINT_NORMAL_VIEW_XY}, 2e-5, .reason = ROUNDED},
     {"alpha", "the square of roughness", {.encodings.roughness = GLINT_ROUGHNESS_ALPHA}, 2e-5, .reason = ROUNDED},
     {"gloss of a rough floor", "one less roughness", {.encodings.roughness = GLINT_ROUGHNESS_GLOSS}, 2e-5, .reason = ROUNDED},

@@ -53,7 +53,7 @@ static void check_stipples(struct case_run *run, const struct replay_case *c, st
 static const struct replay_case items[] = {
     THREE("mirror rays",            "from boards at all angles: where and why each ends",              check_rays, RAYS_MIRROR),
     THREE("rays of every direction", "between boards at all angles: where and why each ends",          check_rays, RAYS_ANY),
-    THREE("rays along axes",        "of the view, both ways",                                          check_rays, RAYS_AXES),
+    THREE("rays along axes",        "of the view, in both directions",                                 check_rays, RAYS_AXES),
     THREE("rays parallel to the screen", "depth does not change along them",                           check_rays, RAYS_PARALLEL),
     THREE("rays to the camera",     "they return towards the camera, to the near plane",        check_rays, RAYS_BACK),
     TWO("rays along the view",      "the normal is at right angles to it: they stay in their pixel",   check_rays, RAYS_ON),

@@ -61,7 +61,7 @@ static bool pixel_of(const struct drawn *d, uint32_t i, struct pixel *p) {
     return true;
 }
 
-static bool draw_surface(struct case_run *run, const struct replay_case *c, double roughness, struct drawn *d) {
+static bool run_surface(struct case_run *run, const struct replay_case *c, double roughness, struct drawn *d) {
     const struct plane_scene scene = {.rays = (enum plane_scene_rays)c->number, .seed = 1000, .roughness = roughness};
     const struct plain plain = plane_scene_capture(&scene, WIDE, HIGH);
     case_run_pipeline(run, c->use);
@@ -74,7 +74,7 @@ static bool draw_surface(struct case_run *run, const struct replay_case *c, doub
 static void check_smooth(struct case_run *run, const struct replay_case *c, struct glint_selftest_finding *finding) {
     const float roughness = strstr(c->name, "1e-6") ? 1e-6f : 0;
     struct drawn d = {0};
-    if (draw_surface(run, c, (double)roughness, &d))
+    if (run_surface(run, c, (double)roughness, &d))
         for (uint32_t i = 0; i < d.width * d.height; i++) {
             struct pixel p;
             if (!pixel_of(&d, i, &p)) continue;
@@ -95,7 +95,7 @@ static void check_horizon(struct case_run *run, const struct replay_case *c, str
     size_t others = 0, all = 0;
     for (int step = 1; step <= 4; step++) {
         struct drawn d = {0};
-        if (draw_surface(run, c, 0.25 * step, &d))
+        if (run_surface(run, c, 0.25 * step, &d))
             for (uint32_t i = 0; i < d.width * d.height; i++) {
                 struct pixel p;
                 if (!pixel_of(&d, i, &p)) continue;
@@ -129,7 +129,7 @@ static void check_roughest(struct case_run *run, const struct replay_case *c, st
     struct drawn d = {0};
     double *values = malloc(2 * (size_t)WIDE * HIGH * sizeof *values);
     size_t n = 0;
-    if (values && draw_surface(run, c, 1, &d)) {
+    if (values && run_surface(run, c, 1, &d)) {
         for (uint32_t i = 0; i < d.width * d.height; i++) {
             struct pixel p;
             if (!pixel_of(&d, i, &p)) continue;

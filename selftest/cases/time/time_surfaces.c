@@ -69,20 +69,20 @@ static void nothing_to_remember(const struct frame *frame, int n, size_t pixel, 
     if (n == 2 && pixel % 3 == 0) past->count = 0;
 }
 /* Sky, unusable normals, depths of 0 and surfaces alternate. */
-static int kind(int n, size_t pixel) {
+static int surface_kind(int n, size_t pixel) {
     return (int)((pixel / 2 + (size_t)n) % 8);
 }
 static void sky_and_bad_surfaces(struct frame *frame, int n) {
     EACH(i) {
-        if (kind(n, i) == 1) frame->depth[i] = INFINITY;
-        if (kind(n, i) == 3) frame->normal[2][i] = 0;
-        if (kind(n, i) == 5) frame->depth[i] = 0;
+        if (surface_kind(n, i) == 1) frame->depth[i] = INFINITY;
+        if (surface_kind(n, i) == 3) frame->normal[2][i] = 0;
+        if (surface_kind(n, i) == 5) frame->depth[i] = 0;
     }
 }
 static void surfaces_alone(const struct frame *frame, int n, size_t pixel, struct history_texels *past) {
     (void)frame;
-    if (kind(n, pixel) % 2 == 1 && kind(n, pixel) < 6) past->count = 0;
-    if (kind(n - 1, pixel) % 2 == 1 && kind(n - 1, pixel) < 6) past->count = 0;
+    if (surface_kind(n, pixel) % 2 == 1 && surface_kind(n, pixel) < 6) past->count = 0;
+    if (surface_kind(n - 1, pixel) % 2 == 1 && surface_kind(n - 1, pixel) < 6) past->count = 0;
 }
 
 /* ---- Objects ---- */

@@ -55,14 +55,14 @@ bool glint_metrics_parse(const char *names, uint32_t *metrics, struct glint_erro
 
 /* ---- Classes of pixels ---- */
 
+enum { GLINT_CLASSES = 64 };
 /* A partition of an image's pixels, such as by surface, by angle or by source: a label for each pixel, and the labels' names. */
 struct glint_classes {
-    const char *title;        /* "surface"; neither it nor the names are copied */
-    const char *const *names; /* names[k - 1] belongs to label k */
-    uint32_t count;           /* number of names, at most GLINT_CLASSES */
-    uint8_t *labels;          /* one a pixel, rows from the top; 0: the pixel is in no class; malloc'd */
+    const char *title;                /* "surface"; neither it nor the names are copied */
+    const char *names[GLINT_CLASSES]; /* names[k - 1] belongs to label k */
+    uint32_t count;                   /* number of names */
+    uint8_t *labels;                  /* one a pixel, rows from the top; 0: the pixel is in no class; malloc'd */
 };
-#define GLINT_CLASSES 64
 void glint_classes_finish(struct glint_classes *classes);
 
 /* The contingency table of two partitions: table[i·(b->count + 1) + j] receives the number of pixels with label i in `a` and j in `b`.

@@ -66,7 +66,7 @@ bool glint_study_overlay_error(const struct glint_pixels *picture, struct glint_
 
 /* Rays that ended for one reason in one tracer, according to the tracer's diagnostics. */
 struct glint_end_row {
-    char tracer[32];     /* "screen" for screen_end */
+    const char *tracer;  /* the label of its row TRACER */
     const char *reason;  /* a name of passes/shared/end_reasons.h */
     const char *text;    /* its meaning */
     uint64_t rays;       /* number of rays that no later tracer continued */
@@ -90,7 +90,7 @@ enum { GLINT_TRUTH_ON_SCREEN, GLINT_TRUTH_ELSEWHERE, GLINT_TRUTH_SKY, GLINT_TRUT
 /* Rays that ended for one reason in one tracer. Their distance is compared with truth.mirror at the pixel they start from. The error is 0 if
    both distances are +inf (sky) and infinite if only one is. */
 struct glint_trace_row {
-    const char *tracer; /* "screen", "cube map", "all" */
+    const char *tracer; /* the label of its row TRACER, "all" */
     const char *reason; /* a name of passes/shared/end_reasons.h, "all" */
     const char *text;   /* its meaning */
     size_t rays;

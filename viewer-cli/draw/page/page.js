@@ -176,7 +176,7 @@
         const read = glintChart.read(chart), places = glintChart.places(chart);
         /* every point, with what the page says of it */
         const points = read.series.flatMap((s, series) => s.points.map((p, i) => ({series, i, p, s})));
-        const told = points.some(({p}) => list(p.values).length || list(p.pictures).length);
+        const detailed = points.some(({p}) => list(p.values).length || list(p.pictures).length);
         const plot = element('div', {class: 'plot', tabindex: 0, role: 'group',
             'aria-label': `chart: ${glintChart.text(chart.title)}; arrow keys go through its points, Enter keeps one`});
         const aside = element('aside', {class: 'point', 'aria-live': 'polite', tabindex: 0});
@@ -196,7 +196,7 @@
 
         function show(k) {
             state.at = k;
-            if (!told) return;
+            if (!detailed) return;
             if (k < 0) {
                 aside.replaceChildren(element('p', {class: 'faint'}, 'Point at a mark to see its parameters and its picture; a click keeps it, Escape lets go, arrow keys go to the next. What differs from the one kept before is marked, and its pictures follow when this one\'s are enlarged.'));
                 return;
@@ -286,7 +286,7 @@
         });
         return element('section', null,
             chart.title ? element('h3', null, chart.title) : null,
-            element('div', {class: told ? 'chart told' : 'chart'}, plot, told ? aside : null),
+            element('div', {class: detailed ? 'chart detailed' : 'chart'}, plot, detailed ? aside : null),
             read.left ? element('p', {class: 'faint'}, `${read.left} point${read.left > 1 ? 's' : ''} without a place on these axes (not known, or at or below zero of a logarithmic axis) ${read.left > 1 ? 'are' : 'is'} not drawn.`) : null,
             table ? element('details', null, element('summary', null, `Its ${points.length} points as a table`), table) : null);
     }

@@ -132,13 +132,13 @@ const glintStage = (function () {
 
         /* ---- The pixel ---- */
 
-        const told = pictures.filter(p => p.values && p.values.data);
+        const readable = pictures.filter(p => p.values && p.values.data);
 
         async function point() {
-            const v = told[0]?.values;
+            const v = readable[0]?.values;
             if (!v || state.x < 0) {
                 cross.hidden = true;
-                readout.replaceChildren(told.length ? element('p', {class: 'faint'}, 'Point at a pixel, or go there with the arrow keys, to read its values.') : '');
+                readout.replaceChildren(readable.length ? element('p', {class: 'faint'}, 'Point at a pixel, or go there with the arrow keys, to read its values.') : '');
                 return;
             }
             state.x = Math.min(v.width - 1, state.x);
@@ -147,7 +147,7 @@ const glintStage = (function () {
             cross.hidden = false;
             cross.style.left = `${100 * half * (x + 0.5) / v.width}%`;
             cross.style.top = `${100 * (y + 0.5) / v.height}%`;
-            const rows = await Promise.all(told.map(async p => {
+            const rows = await Promise.all(readable.map(async p => {
                 if (!p.bytes) p.bytes = inflate(p.values);
                 return valuesAt(p.values, await p.bytes, x, y);
             }));
@@ -156,9 +156,9 @@ const glintStage = (function () {
         }
 
         function table(v, rows, x, y) {
-            const left = told.indexOf(pairs[state.left]), right = told.indexOf(pairs[state.right]);
+            const left = readable.indexOf(pairs[state.left]), right = readable.indexOf(pairs[state.right]);
             const both = left >= 0 && right >= 0 && left !== right;
-            const lines = rows.map((row, i) => [told[i].caption, row]);
+            const lines = rows.map((row, i) => [readable[i].caption, row]);
             if (both) lines.push([`${glintChart.text(pairs[state.right].caption)} \u2212 ${glintChart.text(pairs[state.left].caption)}`, 
                 Object.fromEntries(v.channels.filter(c => c in rows[left] && c in rows[right]).map(c => [c, rows[right][c] - rows[left][c]]))]);
             const e = v.every > 1 ? ` (of ${x - x % v.every},${y - y % v.every}: one of ${v.every} \u00d7 ${v.every} is kept)` : '';
@@ -170,7 +170,7 @@ const glintStage = (function () {
         }
 
         function place(event) {
-            const v = told[0]?.values, box = frame.getBoundingClientRect();
+            const v = readable[0]?.values, box = frame.getBoundingClientRect();
             const two = state.mode === 'beside' ? 2 : 1;
             let x = (event.clientX - box.left) / box.width * two;
             if (x >= 1 && two === 2) x -= 1;
@@ -195,7 +195,7 @@ const glintStage = (function () {
         frame.addEventListener('keydown', event => {
             const step = {ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowDown: [0, 1], ArrowUp: [0, -1]}[event.key];
             if (step) {
-                const by = event.shiftKey ? 10 : 1, v = told[0]?.values;
+                const by = event.shiftKey ? 10 : 1, v = readable[0]?.values;
                 if (!v) return;
                 if (state.x < 0) { state.x = Math.floor(v.width / 2); state.y = Math.floor(v.height / 2); }
                 else { state.x = Math.max(0, state.x + by * step[0]); state.y = Math.max(0, state.y + by * step[1]); }
@@ -217,7 +217,7 @@ const glintStage = (function () {
         return result;
     }
 
-    /* ---- What a page that loads itself again keeps: where nothing can be stored, it starts anew ---- */
+    /* ---- What a page that loads itself again keeps: without storage it starts from the defaults ---- */
 
     function store(key, value) {
         try { sessionStorage.setItem(key, JSON.stringify(value)); } catch { /* nothing is kept */ }

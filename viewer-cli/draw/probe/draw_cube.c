@@ -41,7 +41,7 @@ static double stored_distance_at(const struct probe_image *faces, const struct c
 }
 
 static bool is_step(const struct glint_probe_record *record, uint32_t place) {
-    return glint_probe_is(record, "cubemap_texel") && draw_value(record, "place") == place;
+    return glint_probe_is(record, "cubemap_texel") && draw_value(record, "cubemap_index") == place;
 }
 
 /* The range of t that a panel shows: that of the steps in this cube map, or up to the hit if the tracer records no steps. */
@@ -129,12 +129,12 @@ void draw_cubes(struct drawing *d, const struct ray_records *records) {
         return;
     for (size_t i = 0; i < records->count; i++) {
         if (!glint_probe_is(&records->records[i], "cubemap_texel")) continue;
-        const uint32_t place = (uint32_t)draw_value(&records->records[i], "place");
+        const uint32_t place = (uint32_t)draw_value(&records->records[i], "cubemap_index");
         if (place >= side->cubemap_count || place >= PLACES || drawn[place]) continue;
         drawn[place] = true;
         draw_cube(d, records, place);
         count++;
     }
-    const double first = draw_value(ray_records_last(records, "cubemap_ray"), "place");
+    const double first = draw_value(ray_records_last(records, "cubemap_ray"), "cubemap_index");
     if (count == 0 && first < side->cubemap_count) draw_cube(d, records, (uint32_t)first);
 }

@@ -13,7 +13,7 @@ const char *const kind_names[] = {"auto",   "color", "distance", "depth",   "ste
                                   "normal", "index", "reason",   "invalid", "raw",   NULL};
 
 enum kind kind_of(const struct source *s) {
-    static const char *const indices[] = {"place", "index", "id", "finished", "class"};
+    static const char *const indices[] = {"index", "choice", "id", "finished", "class"};
     if (!strcmp(s->unit, "end reason")) return KIND_REASON;
     if (source_channel(s, "R") == 0 && s->components >= 3) return KIND_COLOR;
     bool normal = !strcmp(s->unit, "1") || strstr(s->title, "normal");

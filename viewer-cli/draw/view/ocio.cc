@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "draw/blobs.h"
-#include "options/nearest.h"
+#include "glint/nearest.h"
 
 namespace OCIO = OCIO_NAMESPACE;
 
@@ -25,14 +25,14 @@ OCIO::ConstConfigRcPtr open_config(const char *path) {
 
 // Returns the name as the config spells it, or throws with the known names and the nearest one.
 std::string find_name(const char *what, const char *name, const std::vector<std::string> &names) {
-    struct nearest near = nearest_to(name);
+    struct glint_nearest near = glint_nearest_to(name);
     std::string list;
     for (const std::string &known : names) {
         if (known == name) return known;
-        nearest_offer(&near, known.c_str());
+        glint_nearest_offer(&near, known.c_str());
         list += (list.empty() ? "" : ", ") + known;
     }
-    throw std::invalid_argument(std::string("there is no ") + what + " " + name + nearest_text(&near) +
+    throw std::invalid_argument(std::string("there is no ") + what + " " + name + glint_nearest_text(&near) +
                                 "; the configuration has " + list);
 }
 

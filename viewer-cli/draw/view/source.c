@@ -9,7 +9,7 @@
 #include "capture/channels.h"
 #include "glint/exr.h"
 #include "glint/replay.h"
-#include "options/nearest.h"
+#include "glint/nearest.h"
 
 void source_finish(struct source *source) {
     free(source->texels);
@@ -57,16 +57,16 @@ static void default_layer(char layer[256], const struct glint_channel_info *chan
 
 static bool no_layer(const char *path, const char *part, const struct glint_channel_info *channels, size_t count,
                      const char *layer, struct glint_error *err) {
-    struct nearest near = nearest_to(layer);
+    struct glint_nearest near = glint_nearest_to(layer);
     char layers[64][256];
     size_t known = 0;
     for (size_t i = 0; i < count && known < 64; i++) {
         snprintf(layers[known], 256, "%.*s", (int)channel_layer_length(channels[i].name), channels[i].name);
-        nearest_offer(&near, layers[known++]);
-        nearest_offer(&near, channels[i].name);
+        glint_nearest_offer(&near, layers[known++]);
+        glint_nearest_offer(&near, channels[i].name);
     }
     return glint_fail(err, GLINT_ERROR_USAGE, "%s: part %s has no layer or channel %s%s; glint info lists them", path,
-                      part, layer, nearest_text(&near));
+                      part, layer, glint_nearest_text(&near));
 }
 
 static bool allocate(struct source *source, struct glint_error *err) {
@@ -110,11 +110,11 @@ static const struct glint_part_info *find_part(const struct glint_capture *captu
                                                struct glint_error *err) {
     const struct glint_part_info *part = glint_capture_find(capture, name);
     if (part) return part;
-    struct nearest near = nearest_to(name);
+    struct glint_nearest near = glint_nearest_to(name);
     for (size_t i = 0; i < glint_capture_part_count(capture); i++)
-        nearest_offer(&near, glint_capture_part(capture, i)->name);
+        glint_nearest_offer(&near, glint_capture_part(capture, i)->name);
     glint_fail(err, GLINT_ERROR_USAGE, "%s: no part %s%s; glint info lists them", glint_capture_path(capture), name,
-               nearest_text(&near));
+               glint_nearest_text(&near));
     return NULL;
 }
 
@@ -153,7 +153,7 @@ static bool read_capture(struct source *source, struct glint_capture *capture, c
 static bool find_exr_part(const struct glint_exr *exr, const char *path, const char *name, size_t *found,
                           struct glint_error *err) {
     size_t count = glint_exr_part_count(exr);
-    struct nearest near = nearest_to(name ? name : "");
+    struct glint_nearest near = glint_nearest_to(name ? name : "");
     *found = 0;
     for (size_t i = 0; i < count; i++) {
         const struct glint_exr_part_info *part = glint_exr_part(exr, i);
@@ -163,11 +163,11 @@ static bool find_exr_part(const struct glint_exr *exr, const char *path, const c
             *found = i;
             return true;
         }
-        nearest_offer(&near, part->name);
+        glint_nearest_offer(&near, part->name);
     }
     if (!name && count) return true; /* no part has colour: the first one */
     return glint_fail(err, GLINT_ERROR_USAGE, "%s: no part %s%s; glint info lists them", path, name ? name : "at all",
-                      nearest_text(&near));
+                      glint_nearest_text(&near));
 }
 
 static bool read_exr(struct source *source, struct glint_exr *exr, const struct source_choice *choice,
@@ -219,16 +219,16 @@ static bool run_image_is_color(const struct glint_run_image *image) {
 static const struct glint_run_image *find_run_image(const struct glint_run *run, const char *path, const char *name,
                                                     struct glint_error *err) {
     const struct glint_run_image *found = NULL;
-    struct nearest near = nearest_to(name ? name : "");
+    struct glint_nearest near = glint_nearest_to(name ? name : "");
     for (size_t i = 0; i < glint_run_image_count(run); i++) {
         const struct glint_run_image *image = glint_run_image(run, i);
         if (name ? !strcmp(image->name, name) : run_image_is_color(image)) found = image;
-        nearest_offer(&near, image->name);
+        glint_nearest_offer(&near, image->name);
     }
     if (!found && !name && glint_run_image_count(run)) found = glint_run_image(run, glint_run_image_count(run) - 1);
     if (!found)
         glint_fail(err, GLINT_ERROR_USAGE, "%s: the run has no image %s%s", path, name ? name : "at all",
-                   nearest_text(&near));
+                   glint_nearest_text(&near));
     return found;
 }
 

@@ -1,9 +1,11 @@
 /* "did you mean …?" by edit distance: an insertion, removal, substitution or swap of neighbours counts one. */
-#include "options/nearest.h"
+#include "glint/nearest.h"
 
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
+
+#include "faults.h"
 
 #define LONGEST 64
 
@@ -29,12 +31,14 @@ static size_t edit_distance(const char *a, const char *b) {
     return row[na % 3][nb];
 }
 
-struct nearest nearest_to(const char *wanted) {
-    return (struct nearest){.wanted = wanted, .distance = 2 + strlen(wanted) / 4};
+struct glint_nearest glint_nearest_to(const char *wanted) {
+    return (struct glint_nearest){.wanted = wanted, .distance = 2 + strlen(wanted) / 4};
 }
 
-void nearest_offer(struct nearest *nearest, const char *candidate) {
-    if (!candidate || !*candidate) return;
+void glint_nearest_offer(struct glint_nearest *nearest, const char *candidate) {
+    if (!candidate || !*candidate || (nearest->last && !strcmp(nearest->last, candidate))) return;
+    nearest->last = candidate;
+    text_list(nearest->known, sizeof nearest->known, candidate);
     size_t distance = edit_distance(nearest->wanted, candidate);
     /* A prefix or substring is a likely abbreviation. */
     if (strlen(nearest->wanted) >= 3 && strstr(candidate, nearest->wanted)) distance = min_distance(distance, 1);
@@ -43,8 +47,14 @@ void nearest_offer(struct nearest *nearest, const char *candidate) {
     nearest->distance = distance;
 }
 
-const char *nearest_text(struct nearest *nearest) {
+const char *glint_nearest_text(struct glint_nearest *nearest) {
     if (!nearest->best) return "";
     snprintf(nearest->text, sizeof nearest->text, " (did you mean %s?)", nearest->best);
+    return nearest->text;
+}
+
+const char *glint_nearest_or_known(struct glint_nearest *nearest) {
+    if (nearest->best || !nearest->known[0]) return glint_nearest_text(nearest);
+    snprintf(nearest->text, sizeof nearest->text, "; known: %s", nearest->known);
     return nearest->text;
 }

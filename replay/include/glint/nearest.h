@@ -1,0 +1,29 @@
+/* "did you mean …?": finds the known name that is nearest to an unknown one. Beside the library's interface: not installed. */
+#ifndef GLINT_NEAREST_H
+#define GLINT_NEAREST_H
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+struct glint_nearest {
+    const char *wanted, *best, *last;
+    size_t distance;
+    char known[512], text[544];
+};
+
+struct glint_nearest glint_nearest_to(const char *wanted);
+/* The candidate must outlive `nearest`. NULL is ignored, and so is a candidate that was just offered. */
+void glint_nearest_offer(struct glint_nearest *nearest, const char *candidate);
+/* " (did you mean street?)", or "" if no name is near. */
+const char *glint_nearest_text(struct glint_nearest *nearest);
+/* The same, or "; known: street, room" with all candidates if none of them is near. */
+const char *glint_nearest_or_known(struct glint_nearest *nearest);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
