@@ -3,15 +3,13 @@
    derivative of the decoder, plus the rounding of the float that the reader returns, and of the half for 8-bit formats that the file
    stores as half. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-#include <cmocka.h>
 
 #include "fixture.h"
+#include "unit.h"
 
 enum { COUNT = FIX_W * FIX_H };
 static struct fixture fixture;
@@ -194,8 +192,7 @@ static void check_depth(enum glint_depth_encoding e, enum projection p, const st
     close_and_remove(&capture, path);
 }
 
-static void depth(void **state) {
-    (void)state;
+static void depth(UNUSED void **state) {
     const struct storage *fixed[] = {&D16, &D24, &D32F};
     for (size_t i = 0; i < 3; i++)
         for (double sign = -1; sign <= 1; sign += 2)
@@ -279,8 +276,7 @@ static void check_normals(enum glint_normal_encoding e, enum glint_normal_space 
     close_and_remove(&capture, path);
 }
 
-static void normals(void **state) {
-    (void)state;
+static void normals(UNUSED void **state) {
     static const char *const families[] = {"normal", "vertexNormal"};
     for (int space = 0; space < 2; space++)
         for (int f = 0; f < 2; f++) {
@@ -354,8 +350,7 @@ static void check_roughness(enum glint_roughness_encoding e, const struct storag
     close_and_remove(&capture, path);
 }
 
-static void roughness(void **state) {
-    (void)state;
+static void roughness(UNUSED void **state) {
     const struct storage *all[] = {&UNORM8, &UNORM16, &R16F, &R32F};
     for (size_t i = 0; i < 4; i++)
         for (int e = 0; e < 3; e++) check_roughness((enum glint_roughness_encoding)e, all[i]);
@@ -398,8 +393,7 @@ static void check_motion(enum glint_motion_encoding e, const struct storage *s, 
     close_and_remove(&capture, path);
 }
 
-static void motion(void **state) {
-    (void)state;
+static void motion(UNUSED void **state) {
     const struct storage *all[] = {&R16F, &R32F};
     for (int y = 0; y < 2; y++)
         for (size_t i = 0; i < 2; i++)
@@ -452,8 +446,7 @@ static void check_color(enum glint_color_encoding e, const struct storage *s, do
     close_and_remove(&capture, path);
 }
 
-static void color(void **state) {
-    (void)state;
+static void color(UNUSED void **state) {
     const struct storage *all[] = {&R16F, &R32F};
     for (size_t i = 0; i < 2; i++)
         for (int e = 0; e < 3; e++) check_color((enum glint_color_encoding)e, all[i], 30);
@@ -462,8 +455,7 @@ static void color(void **state) {
     check_color(GLINT_COLOR_LINEAR, &UNORM16, 1);
 }
 
-static int setup(void **state) {
-    (void)state;
+static int setup(UNUSED void **state) {
     fixture_init(&fixture);
     return 0;
 }

@@ -1,16 +1,14 @@
 /* The EXR layer alone: unknown attributes and parts are preserved, layers are read separately, and usage errors are reported. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <cmocka.h>
 
 #include "fixture.h"
 #include "rewrite.h"
+#include "unit.h"
 
 static struct fixture fixture;
 
@@ -56,8 +54,7 @@ static void check_same(const struct glint_exr_attribute *a, const struct glint_e
 }
 
 /* A capture with foreign parts and attributes, read and written twice. */
-static void what_is_not_known_is_kept_and_passed_on(void **state) {
-    (void)state;
+static void what_is_not_known_is_kept_and_passed_on(UNUSED void **state) {
     static struct rewrite r;
     char path[512];
     struct glint_error err = {0};
@@ -108,8 +105,7 @@ static void what_is_not_known_is_kept_and_passed_on(void **state) {
 }
 
 /* Attributes that an engine adds through the public writer. */
-static void the_engines_own_attributes_come_back(void **state) {
-    (void)state;
+static void the_engines_own_attributes_come_back(UNUSED void **state) {
     char path[512];
     struct glint_error err = {0};
     const struct glint_attribute mine[] = {
@@ -144,8 +140,7 @@ static void the_engines_own_attributes_come_back(void **state) {
 }
 
 /* A damaged part does not prevent reading the others: only the chunks of the requested part are read. */
-static void a_layer_is_read_without_the_others(void **state) {
-    (void)state;
+static void a_layer_is_read_without_the_others(UNUSED void **state) {
     char path[512];
     struct glint_error err = {0};
     /* Constant enough for ZIP to be used; noise would be stored uncompressed. */
@@ -177,8 +172,7 @@ static void a_layer_is_read_without_the_others(void **state) {
     unlink(path);
 }
 
-static void mistakes_of_the_caller_are_told(void **state) {
-    (void)state;
+static void mistakes_of_the_caller_are_told(UNUSED void **state) {
     char path[512];
     struct glint_error err = {0};
     assert_true(fixture_write(&fixture, fixture_path(path, "calls.exr"), FIXTURE_PARTS, NULL, &err));
@@ -223,8 +217,7 @@ static void mistakes_of_the_caller_are_told(void **state) {
     unlink(path);
 }
 
-static int setup(void **state) {
-    (void)state;
+static int setup(UNUSED void **state) {
     fixture_init(&fixture);
     return 0;
 }

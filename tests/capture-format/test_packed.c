@@ -1,14 +1,11 @@
 /* A G-buffer with packed motion and depth of 16 bits each, and vertex normals in two bytes. It is encoded by inverting the formulas of
    FORMAT.md in double; bounds are half a step of the storage. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
-#include <cmocka.h>
 
 #include "fixture.h"
+#include "unit.h"
 
 enum { COUNT = FIX_W * FIX_H };
 static struct fixture fixture;
@@ -51,8 +48,7 @@ static void decoded(struct glint_capture *capture, const char *part, const char 
         fail_msg("%s", err.message);
 }
 
-static void packed_motion_with_depth(void **state) {
-    (void)state;
+static void packed_motion_with_depth(UNUSED void **state) {
     char path[512];
     static float out[3 * COUNT];
     static const char *const names[] = {"motion.X", "motion.Y", "motion.Z"};
@@ -124,16 +120,14 @@ static void check_view_xy(double sign, const char *part) {
     unlink(path);
 }
 
-static void vertex_normals_in_two_bytes(void **state) {
-    (void)state;
+static void vertex_normals_in_two_bytes(UNUSED void **state) {
     for (double sign = -1; sign <= 1; sign += 2) {
         check_view_xy(sign, "gbuffer");
         check_view_xy(sign, "previous.gbuffer");
     }
 }
 
-static int set_up(void **state) {
-    (void)state;
+static int set_up(UNUSED void **state) {
     fixture_init(&fixture);
     return 0;
 }
