@@ -1,13 +1,8 @@
 /* The definition and results of a sweep on disk, from which an interrupted sweep resumes. */
 #include "sweep/sweep.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "io/text_file.h"
 

@@ -1,6 +1,5 @@
 /* Runs the search from the start and the baseline. */
 #include <stdlib.h>
-#include <string.h>
 
 #include "tune/tune.h"
 

@@ -1,7 +1,6 @@
 /* Loads the captures, runs the start once on each, and times pipelines on them. */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "glint/sort.h"
 #include "tune/tune.h"
