@@ -34,30 +34,13 @@ static const struct example examples[] = {
     {0},
 };
 
-extern const struct command cmd_info;
-
-static error_t cmd_info_parse(int key, char *arg, struct argp_state *state) {
-    struct arguments *a = state->input;
-    switch (key) {
-    case 'j':
-        a->json = true;
-        return 0;
-    case KEY_HEADERS:
-        a->headers = true;
-        return 0;
-    case KEY_SURVEY:
-        a->survey = true;
-        return 0;
-    case ARGP_KEY_ARG:
-        if (a->path) argp_error(state, "expected one file, found %s and %s", a->path, arg);
-        a->path = arg;
-        return 0;
-    case ARGP_KEY_NO_ARGS:
-        argp_error(state, "no file given");
-        return 0;
-    }
-    return ARGP_ERR_UNKNOWN;
-}
+static const struct arg_target targets[] = {
+    STORED(ARGP_KEY_ARG, struct arguments, path),
+    STORED('j', struct arguments, json),
+    STORED(KEY_HEADERS, struct arguments, headers),
+    STORED(KEY_SURVEY, struct arguments, survey),
+    {0},
+};
 
 static json_t *channels_json(const struct channel_table *all, const char *part) {
     json_t *list = json_array();
@@ -269,7 +252,8 @@ const struct command cmd_info = {
         "other channels of the part may contain anything, so their ranges cover surfaces only. Any other EXR file is "
         "listed with its parts.",
     .options = options,
-    .parse = cmd_info_parse,
+    .targets = targets,
+    .operand = "file",
     .examples = examples,
     .run = cmd_info_run,
 };

@@ -1,5 +1,4 @@
 /* The images of one side of a comparison: of a file, of a run, or the engine's intermediates in a capture. */
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>

@@ -45,6 +45,43 @@ uint32_t arg_uint(const char *option, const char *text, uint32_t lowest, uint32_
     return (uint32_t)value;
 }
 
+static uint32_t number_of(const struct command *command, const struct arg_target *target, const char *text,
+                          struct argp_state *state) {
+    return arg_uint(command_option(command, target->key)->name, text, target->lowest, target->highest, state);
+}
+
+bool args_store(const struct command *command, int key, char *arg, struct argp_state *state, void *arguments) {
+    const struct arg_target *target = command->targets;
+    while (target && target->kind && target->key != key) target++;
+    if (!target || !target->kind) return false;
+    void *field = (char *)arguments + target->offset;
+    switch (target->kind) {
+    case STORES_NOTHING:
+        break;
+    case STORES_FLAG:
+        *(bool *)field = true;
+        break;
+    case STORES_TEXT:
+        if (key == ARGP_KEY_ARG && *(const char **)field)
+            argp_error(state, "expected one %s, found %s and %s", command->operand, *(const char **)field, arg);
+        *(const char **)field = arg;
+        break;
+    case STORES_ITEM:
+        list_add(field, arg, state);
+        break;
+    case STORES_NAMES:
+        list_split(field, arg, state);
+        break;
+    case STORES_UINT32:
+        *(uint32_t *)field = number_of(command, target, arg, state);
+        break;
+    case STORES_UINT64:
+        *(uint64_t *)field = number_of(command, target, arg, state);
+        break;
+    }
+    return true;
+}
+
 void arg_numbers(const char *option, const char *text, double *out, size_t count, struct argp_state *state) {
     const char *p = text;
     for (size_t i = 0; i < count; i++) {

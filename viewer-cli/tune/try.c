@@ -48,7 +48,7 @@ static bool keep_tune_line(void *user, json_t *line) {
 bool tune_open(struct tune *tune, struct glint_error *err) {
     const struct glint_device_info *device = glint_device_get_info(tune->device);
     json_t *captures = captures_json(&tune->captures, err),
-           *sources = captures ? shaders_json(&tune->shaders, err) : NULL;
+           *sources = captures ? shaders_json(tune->shaders, err) : NULL;
     if (!sources) {
         json_decref(captures);
         return false;
