@@ -9,8 +9,6 @@
 #include "fixture.h"
 #include "unit.h"
 
-static struct fixture fixture;
-
 /* An engine's matrix: the rotation in floats, and the translation computed from it in double. */
 static struct glint_camera camera_in_floats(const double eye[3], bool mirrored) {
     struct glint_camera camera = fixture_camera(eye, 0.1, 500);
@@ -116,16 +114,11 @@ static void visible_effects_are_noted(UNUSED void **unused) {
     assert_non_null(strstr(notes[1], "glint.previousWorldToView"));
 }
 
-static int setup(UNUSED void **state) {
-    fixture_init(&fixture);
-    return 0;
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cameras_stand_where_the_engine_put_them),
         cmocka_unit_test(a_precise_camera_keeps_its_bits),
         cmocka_unit_test(visible_effects_are_noted),
     };
-    return cmocka_run_group_tests(tests, setup, NULL);
+    return cmocka_run_group_tests(tests, fixture_setup, NULL);
 }

@@ -8,8 +8,6 @@
 #include "fixture.h"
 #include "unit.h"
 
-static struct fixture fixture;
-
 static struct glint_capture *open_all(const char *path) {
     struct glint_error err = {0};
     if (!fixture_write(&fixture, path, FIXTURE_PARTS, NULL, &err)) fail_msg("%s", err.message);
@@ -215,11 +213,6 @@ static void folders_are_made_with_those_around_them(UNUSED void **state) {
     unlink(path);
 }
 
-static int setup(UNUSED void **state) {
-    fixture_init(&fixture);
-    return 0;
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_role_comes_back),
@@ -230,5 +223,5 @@ int main(void) {
         cmocka_unit_test(every_code_comes_back),
         cmocka_unit_test(folders_are_made_with_those_around_them),
     };
-    return cmocka_run_group_tests(tests, setup, NULL);
+    return cmocka_run_group_tests(tests, fixture_setup, NULL);
 }

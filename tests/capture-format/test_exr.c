@@ -10,8 +10,6 @@
 #include "rewrite.h"
 #include "unit.h"
 
-static struct fixture fixture;
-
 /* box2i, rational, v2f and an unknown type, as bytes in the file's order. */
 static const int32_t box[4] = {1, -2, 3, 4};
 static const int32_t ratio[2] = {24000, 1001};
@@ -217,11 +215,6 @@ static void mistakes_of_the_caller_are_told(UNUSED void **state) {
     unlink(path);
 }
 
-static int setup(UNUSED void **state) {
-    fixture_init(&fixture);
-    return 0;
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_not_known_is_kept_and_passed_on),
@@ -229,5 +222,5 @@ int main(void) {
         cmocka_unit_test(a_layer_is_read_without_the_others),
         cmocka_unit_test(mistakes_of_the_caller_are_told),
     };
-    return cmocka_run_group_tests(tests, setup, NULL);
+    return cmocka_run_group_tests(tests, fixture_setup, NULL);
 }

@@ -11,7 +11,6 @@
 #include "hostile.h"
 #include "unit.h"
 
-static struct fixture fixture;
 static uint8_t *whole;
 static size_t size;
 
@@ -206,11 +205,6 @@ static void what_is_no_file_is_refused(UNUSED void **state) {
     }
 }
 
-static int setup(UNUSED void **state) {
-    fixture_init(&fixture);
-    return 0;
-}
-
 static int teardown(UNUSED void **state) {
     free(whole);
     return 0;
@@ -223,5 +217,5 @@ int main(void) {
         cmocka_unit_test(subsampled_parts_are_refused),      cmocka_unit_test(crowded_headers_stay_within_memory),
         cmocka_unit_test(what_is_no_file_is_refused),        cmocka_unit_test(damage_is_read_or_refused),
     };
-    return cmocka_run_group_tests(tests, setup, teardown);
+    return cmocka_run_group_tests(tests, fixture_setup, teardown);
 }

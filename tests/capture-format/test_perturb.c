@@ -8,7 +8,6 @@
 #include "unit.h"
 
 enum { PIXELS = FIX_W * FIX_H };
-static struct fixture fixture;
 static char path[512];
 
 /* The smallest capture, with these values and storage in those channels of the G-buffer whose names begin with `channel`. */
@@ -189,6 +188,5 @@ int main(void) {
         cmocka_unit_test(depth_moves_as_its_buffer_does),
         cmocka_unit_test(only_what_is_named_moves),
     };
-    fixture_init(&fixture);
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, fixture_setup, NULL);
 }

@@ -7,7 +7,6 @@
 #include "fixture.h"
 #include "unit.h"
 
-static struct fixture fixture;
 static char probes[512], capture_path[512];
 
 /* A file with the cube maps alone. A missing channel only shifts bytes. */

@@ -7,8 +7,6 @@
 #include "fixture.h"
 #include "unit.h"
 
-static struct fixture fixture;
-
 /* A capture whose depth is declared like this. The fixture's projection has near at 0.1 and far at 500 units; here a unit is a metre. */
 static struct glint_capture *capture_of(enum glint_depth_encoding encoding, const char *storage, char path[512]) {
     struct glint_error err = {0};
@@ -92,6 +90,5 @@ int main(void) {
         cmocka_unit_test(steps_are_those_between_neighbours),
         cmocka_unit_test(what_is_out_of_range_has_no_step),
     };
-    fixture_init(&fixture);
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, fixture_setup, NULL);
 }

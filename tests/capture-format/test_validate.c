@@ -9,8 +9,6 @@
 #include "rewrite.h"
 #include "unit.h"
 
-static struct fixture fixture;
-
 struct found {
     size_t count;
     char rules[32][32];
@@ -421,11 +419,6 @@ static void the_example_is_a_valid_capture(UNUSED void **state) {
     unlink(path);
 }
 
-static int setup(UNUSED void **state) {
-    fixture_init(&fixture);
-    return 0;
-}
-
 int main(int argc, char **argv) {
     example = argc > 1 ? argv[1] : "";
     const struct CMUnitTest tests[] = {
@@ -434,5 +427,5 @@ int main(int argc, char **argv) {
         cmocka_unit_test(unusual_but_valid_captures_pass),      cmocka_unit_test(only_depth_is_checked_at_sky),
         cmocka_unit_test(the_example_is_a_valid_capture),
     };
-    return cmocka_run_group_tests(tests, setup, NULL);
+    return cmocka_run_group_tests(tests, fixture_setup, NULL);
 }

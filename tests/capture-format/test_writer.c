@@ -12,8 +12,6 @@
 #include "glint/exr.h"
 #include "unit.h"
 
-static struct fixture fixture;
-
 static bool exists(const char *path) {
     return access(path, F_OK) == 0;
 }
@@ -345,11 +343,6 @@ static void zero_is_the_default(UNUSED void **state) {
     unlink(path);
 }
 
-static int setup(UNUSED void **state) {
-    fixture_init(&fixture);
-    return 0;
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_compression_reads_back),
@@ -363,5 +356,5 @@ int main(void) {
         cmocka_unit_test(a_frame_that_breaks_a_rule_is_refused),
         cmocka_unit_test(zero_is_the_default),
     };
-    return cmocka_run_group_tests(tests, setup, NULL);
+    return cmocka_run_group_tests(tests, fixture_setup, NULL);
 }
