@@ -166,6 +166,12 @@ static bool read_run(struct diff_side *side, const struct diff_image *image, con
     return ok;
 }
 
+const struct diff_image *diff_side_image(const struct diff_side *side, const char *name) {
+    for (size_t i = 0; i < side->count; i++)
+        if (!strcmp(side->images[i].name, name)) return &side->images[i];
+    return NULL;
+}
+
 bool diff_side_read(struct diff_side *side, const struct diff_image *image, const char *const *channels, size_t count,
                     bool integers, void *out, struct glint_error *err) {
     if (side->run) return read_run(side, image, channels, count, integers, out, err);

@@ -127,6 +127,15 @@ int arg_choice(const char *option, const char *text, const char *const *names, s
     return -1;
 }
 
+const char *base_name(const char *path) {
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+bool fail_memory(struct glint_error *err) {
+    return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+}
+
 enum status print_json(json_t *json) {
     int failed = !json || json_dumpf(json, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(9));
     json_decref(json);
@@ -137,4 +146,10 @@ enum status print_json(json_t *json) {
 
 json_t *json_number(double value) {
     return isfinite(value) ? json_real(value) : json_null();
+}
+
+json_t *json_numbers(const double *values, size_t count) {
+    json_t *list = json_array();
+    for (size_t i = 0; i < count; i++) json_array_append_new(list, json_number(values[i]));
+    return list;
 }

@@ -50,9 +50,15 @@ int arg_choice(const char *option, const char *text, const char *const *names, s
 /* "a, b, c", malloc'd. */
 char *join_names(const char *before, const char *const *names);
 
+/* The last component of a path. */
+const char *base_name(const char *path);
+/* Sets the error and returns false. */
+bool fail_memory(struct glint_error *err);
+
 /* Prints indented JSON to stdout and releases it. */
 enum status print_json(json_t *json);
 /* A JSON number; null if it is not finite. */
 json_t *json_number(double value);
+json_t *json_numbers(const double *values, size_t count);
 
 #endif
