@@ -2,7 +2,6 @@
 #include <Imath/half.h>
 #include <errno.h>
 #include <libdeflate.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>

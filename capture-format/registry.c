@@ -1,7 +1,6 @@
 /* The registry as C tables, generated from rows/. */
 #include "registry.h"
 
-#include <stdio.h>
 #include <string.h>
 
 #define CAT_(a, b) a##b

@@ -1,7 +1,6 @@
 #include "share.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 #include "noise.h"
 

@@ -2,7 +2,6 @@
 #include "texture.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 static float linear(float code) {
     return code <= 0.04045f ? code / 12.92f : powf((code + 0.055f) / 1.055f, 2.4f);

@@ -1,17 +1,13 @@
 /* Looks for programs on the PATH. */
 #include "need.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
-/* cmocka needs these before its own header */
-#include <cmocka.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+
+#include "unit.h"
 
 static const char *const programs[][2] = {
 #define PROGRAM(name, package) {name, package},

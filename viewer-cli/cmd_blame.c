@@ -1,7 +1,6 @@
 /* glint blame: attributes the error of a frame to the slots of the pipeline. */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "blame/blame.h"
 #include "options/pass_names.h"
@@ -67,7 +66,21 @@ static const struct example examples[] = {
     {0},
 };
 
-extern const struct command cmd_blame;
+static const struct arg_target targets[] = {
+    STORED(KEY_SHOT, struct arguments, blame.shot),
+    STORED_NUMBER(KEY_PLAYER_RAYS, struct arguments, blame.player_rays, 1, 1024),
+    STORED(ARGP_KEY_ARG, struct arguments, blame.captures),
+    STORED('o', struct arguments, blame.out),
+    STORED('j', struct arguments, json),
+    STORED(KEY_PROGRESS, struct arguments, progress),
+    STORED(KEY_METRIC, struct arguments, metric),
+    STORED_NUMBER(KEY_EXACT, struct arguments, blame.options.exact, 0, GLINT_PLAYERS_MAX),
+    STORED_NUMBER(KEY_PERMUTATIONS, struct arguments, blame.options.permutations, 2, 1000000),
+    STORED_NUMBER(KEY_SEED, struct arguments, blame.options.seed, 0, UINT32_MAX),
+    STORED_NUMBER(KEY_REPEAT, struct arguments, blame.rounds, 0, 100000),
+    PIPELINE_TARGETS(struct arguments, pipeline),
+    {0},
+};
 
 static void split_shot(struct blame *blame, struct argp_state *state) {
     const struct list all = blame->captures;
@@ -78,67 +91,23 @@ static void split_shot(struct blame *blame, struct argp_state *state) {
     blame->before.items[--blame->before.count] = NULL;
 }
 
-static error_t parse_more(int key, char *arg, struct argp_state *state, struct arguments *a) {
-    struct blame *blame = &a->blame;
-    switch (key) {
-    case KEY_REFERENCE:
-    case KEY_RAYS:
-        return answer_args_parse(key, arg, state, &blame->against);
-    case KEY_SHOT:
-        blame->shot = true;
-        return 0;
-    case KEY_PLAYER_RAYS:
-        blame->player_rays = arg_uint("player-rays", arg, 1, 1024, state);
-        return 0;
-    case ARGP_KEY_ARG:
-        list_add(&blame->captures, arg, state);
-        return 0;
-    case ARGP_KEY_END:
-        if (!blame->captures.count) argp_error(state, "no capture given");
-        if (blame->shot) split_shot(blame, state);
-        answer_args_check(&blame->against, blame->captures.count, state);
-        return 0;
-    }
-    return pipeline_args_parse(key, arg, state, &a->pipeline);
-}
-
 static error_t cmd_blame_parse(int key, char *arg, struct argp_state *state) {
     struct arguments *a = state->input;
-    struct glint_shapley_options *shapley = &a->blame.options;
+    struct blame *blame = &a->blame;
     double percent;
     switch (key) {
-    case 'o':
-        a->blame.out = arg;
-        return 0;
-    case 'j':
-        a->json = true;
-        return 0;
-    case KEY_PROGRESS:
-        a->progress = true;
-        return 0;
-    case KEY_METRIC:
-        a->metric = arg;
-        return 0;
-    case KEY_EXACT:
-        shapley->exact = arg_uint("exact", arg, 0, GLINT_PLAYERS_MAX, state);
-        return 0;
     case KEY_INTERVAL:
         arg_numbers("interval", arg, &percent, 1, state);
         if (!(percent > 0 && percent <= 100))
             argp_error(state, "--interval %s: expected a percentage above 0 and up to 100", arg);
-        shapley->interval = 0.01 * percent;
+        blame->options.interval = 0.01 * percent;
         return 0;
-    case KEY_PERMUTATIONS:
-        shapley->permutations = arg_uint("permutations", arg, 2, 1000000, state);
-        return 0;
-    case KEY_SEED:
-        shapley->seed = arg_uint("seed", arg, 0, UINT32_MAX, state);
-        return 0;
-    case KEY_REPEAT:
-        a->blame.rounds = arg_uint("repeat", arg, 0, 100000, state);
+    case ARGP_KEY_END:
+        if (blame->shot) split_shot(blame, state);
+        answer_args_check(&blame->against, blame->captures.count, state);
         return 0;
     }
-    return parse_more(key, arg, state, a);
+    return answer_args_parse(key, arg, state, &blame->against);
 }
 
 static bool choose_metric(struct arguments *a, struct glint_error *err) {
@@ -224,6 +193,8 @@ const struct command cmd_blame = {
         "image. Any metric can be used; symmetric, relative_mse and flip are means over pixels. Fog is off, because "
         "the truth has none. Each capture is replayed without the history of previous frames, except with --shot.",
     .options = options,
+    .targets = targets,
+    .operand = "capture",
     .parse = cmd_blame_parse,
     .examples = examples,
     .run = cmd_blame_run,

@@ -1,6 +1,4 @@
 /* glint check: compares runs with approved baselines. */
-#include <string.h>
-
 #include "check/check.h"
 #include "diff/options.h"
 
@@ -30,17 +28,16 @@ static const struct example examples[] = {
     {0},
 };
 
-extern const struct command cmd_check;
+static const struct arg_target targets[] = {
+    STORED(KEY_BASELINE, struct arguments, baseline),
+    STORED(KEY_APPROVE, struct arguments, approve),
+    DIFF_TARGETS(struct arguments, diff),
+    {0},
+};
 
 static error_t cmd_check_parse(int key, char *arg, struct argp_state *state) {
     struct arguments *a = state->input;
     switch (key) {
-    case KEY_BASELINE:
-        a->baseline = arg;
-        return 0;
-    case KEY_APPROVE:
-        a->approve = true;
-        return 0;
     case ARGP_KEY_ARG:
         if (a->run) argp_error(state, "expected one run or one folder of runs, found also %s", arg);
         a->run = arg;
@@ -168,6 +165,7 @@ const struct command cmd_check = {
         "them contains is a failure, and so is a run without a baseline. --approve prints what changed and makes RUN "
         "the new baseline in one atomic step; the previous baseline is kept.",
     .options = options,
+    .targets = targets,
     .one_dash = true,
     .usage_status = DIFF_USAGE,
     .parse = cmd_check_parse,

@@ -38,7 +38,16 @@ static const struct example examples[] = {
     {0},
 };
 
-extern const struct command cmd_compare;
+static const struct arg_target targets[] = {
+    STORED('o', struct arguments, out),
+    STORED('d', struct arguments, device),
+    STORED('j', struct arguments, json),
+    STORED_NAMES(KEY_PRESETS, struct arguments, presets),
+    STORED(KEY_SET, struct arguments, settings),
+    STORED_NUMBER(KEY_REPEAT, struct arguments, rounds, 1, 100000),
+    STORED(ARGP_KEY_ARG, struct arguments, captures),
+    {0},
+};
 
 static char *cmd_compare_values(int key) {
     const char *names[64] = {NULL};
@@ -48,38 +57,12 @@ static char *cmd_compare_values(int key) {
 
 static error_t cmd_compare_parse(int key, char *arg, struct argp_state *state) {
     struct arguments *a = state->input;
-    bool named = a->presets.count > 0;
-    switch (key) {
-    case 'o':
-        a->out = arg;
-        return 0;
-    case 'd':
-        a->device = arg;
-        return 0;
-    case 'j':
-        a->json = true;
-        return 0;
-    case KEY_PRESETS:
-        list_split(&a->presets, arg, state);
-        return 0;
-    case KEY_SET:
-        list_add(&a->settings, arg, state);
-        return 0;
-    case KEY_REPEAT:
-        a->rounds = arg_uint("repeat", arg, 1, 100000, state);
-        return 0;
-    case ARGP_KEY_ARG:
-        list_add(&a->captures, arg, state);
-        return 0;
-    case ARGP_KEY_NO_ARGS:
-        argp_error(state, "no capture given");
-        return 0;
-    case ARGP_KEY_END:
-        for (size_t i = 0; !named && glint_preset(i); i++)
-            if (strcmp(glint_preset(i), "reference") != 0) list_add(&a->presets, glint_preset(i), state);
-        return 0;
-    }
-    return ARGP_ERR_UNKNOWN;
+    const bool named = a->presets.count > 0;
+    (void)arg;
+    if (key != ARGP_KEY_END) return ARGP_ERR_UNKNOWN;
+    for (size_t i = 0; !named && glint_preset(i); i++)
+        if (strcmp(glint_preset(i), "reference") != 0) list_add(&a->presets, glint_preset(i), state);
+    return 0;
 }
 
 static bool write_table(const char *folder, const struct contest_table *table, struct glint_error *err) {
@@ -215,6 +198,8 @@ const struct command cmd_compare = {
         "all passes, measured in alternating rounds. Passes that a scene does not need are not run, and listed. Fog "
         "is off, because the truth has none.",
     .options = options,
+    .targets = targets,
+    .operand = "capture",
     .parse = cmd_compare_parse,
     .examples = examples,
     .values = cmd_compare_values,

@@ -1,6 +1,4 @@
 /* glint devices: lists the Vulkan devices in the order of preference. */
-#include <string.h>
-
 #include "options/args.h"
 #include "glint/replay.h"
 #include "io/table.h"
@@ -14,8 +12,6 @@ static const struct example examples[] = {
     {"GLINT_DEVICE=llvmpipe glint replay street.exr -o run", "choose one by a part of its name"},
     {0},
 };
-
-extern const struct command cmd_devices;
 
 static error_t cmd_devices_parse(int key, char *arg, struct argp_state *state) {
     (void)arg;

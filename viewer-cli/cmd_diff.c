@@ -20,7 +20,10 @@ static const struct example examples[] = {
     {0},
 };
 
-extern const struct command cmd_diff;
+static const struct arg_target targets[] = {
+    DIFF_TARGETS(struct arguments, diff),
+    {0},
+};
 
 static error_t cmd_diff_parse(int key, char *arg, struct argp_state *state) {
     struct arguments *a = state->input;
@@ -64,6 +67,7 @@ const struct command cmd_diff = {
         "common images are compared: images that the plan does not need are listed and are no failure, and pixels "
         "for which the plan traces no ray are compared only in the final image.",
     .options = options,
+    .targets = targets,
     .one_dash = true,
     .usage_status = DIFF_USAGE,
     .parse = cmd_diff_parse,

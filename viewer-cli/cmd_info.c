@@ -34,30 +34,13 @@ static const struct example examples[] = {
     {0},
 };
 
-extern const struct command cmd_info;
-
-static error_t cmd_info_parse(int key, char *arg, struct argp_state *state) {
-    struct arguments *a = state->input;
-    switch (key) {
-    case 'j':
-        a->json = true;
-        return 0;
-    case KEY_HEADERS:
-        a->headers = true;
-        return 0;
-    case KEY_SURVEY:
-        a->survey = true;
-        return 0;
-    case ARGP_KEY_ARG:
-        if (a->path) argp_error(state, "expected one file, found %s and %s", a->path, arg);
-        a->path = arg;
-        return 0;
-    case ARGP_KEY_NO_ARGS:
-        argp_error(state, "no file given");
-        return 0;
-    }
-    return ARGP_ERR_UNKNOWN;
-}
+static const struct arg_target targets[] = {
+    STORED(ARGP_KEY_ARG, struct arguments, path),
+    STORED('j', struct arguments, json),
+    STORED(KEY_HEADERS, struct arguments, headers),
+    STORED(KEY_SURVEY, struct arguments, survey),
+    {0},
+};
 
 static json_t *channels_json(const struct channel_table *all, const char *part) {
     json_t *list = json_array();
@@ -78,16 +61,10 @@ static json_t *channels_json(const struct channel_table *all, const char *part) 
     return list;
 }
 
-static json_t *numbers_json(const double *v, size_t count) {
-    json_t *list = json_array();
-    for (size_t i = 0; i < count; i++) json_array_append_new(list, json_number(v[i]));
-    return list;
-}
-
 static json_t *camera_json(const struct glint_frame *frame) {
     const struct camera_facts c = camera_facts(frame);
-    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:s}", "position", numbers_json(c.position, 3), "forward",
-                     numbers_json(c.forward, 3), "fov_x_deg", json_number(c.fov_x_deg), "fov_y_deg",
+    return json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:s}", "position", json_numbers(c.position, 3), "forward",
+                     json_numbers(c.forward, 3), "fov_x_deg", json_number(c.fov_x_deg), "fov_y_deg",
                      json_number(c.fov_y_deg), "near", json_number(c.near), "far", json_number(c.far), "up",
                      axis_name(frame->up));
 }
@@ -101,7 +78,7 @@ static json_t *part_json(const struct glint_part_info *part, const struct channe
     if (part->has_cubemap)
         json_object_set_new(
             json, "cubemap",
-            json_pack("{s:o, s:b, s:f, s:s, s:I}", "center", numbers_json(part->cubemap.center, 3), "outdoor",
+            json_pack("{s:o, s:b, s:f, s:s, s:I}", "center", json_numbers(part->cubemap.center, 3), "outdoor",
                       part->cubemap.outdoor, "fade", part->cubemap.fade > 0 ? part->cubemap.fade : 1.0, "inner",
                       cubemap_volume_name(part->cubemap.inner), "age_frames", (json_int_t)part->cubemap.age_frames));
     return json;
@@ -127,7 +104,7 @@ static enum status print_capture(const struct arguments *a, struct glint_capture
         return print_json(json_pack(
             "{s:s, s:b, s:I, s:o, s:o, s:o, s:b, s:b, s:o, s:f, s:o, s:o*}", "file", a->path, "capture", 1, "frame",
             (json_int_t)frame->number, "camera", camera_json(frame), "depth", depth_facts_json(&depth), "parts", parts,
-            "has_previous", frame->has_previous, "fog", frame->has_fog, "jitter_px", numbers_json(frame->jitter_px, 2),
+            "has_previous", frame->has_previous, "fog", frame->has_fog, "jitter_px", json_numbers(frame->jitter_px, 2),
             "metres_per_unit", frame->metres_per_unit > 0 ? frame->metres_per_unit : 1.0, "notes",
             frame_notes_json(frame), "survey", survey ? survey_json(survey) : NULL));
     }
@@ -269,7 +246,8 @@ const struct command cmd_info = {
         "other channels of the part may contain anything, so their ranges cover surfaces only. Any other EXR file is "
         "listed with its parts.",
     .options = options,
-    .parse = cmd_info_parse,
+    .targets = targets,
+    .operand = "file",
     .examples = examples,
     .run = cmd_info_run,
 };

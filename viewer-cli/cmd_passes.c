@@ -26,17 +26,15 @@ static const struct example examples[] = {
     {0},
 };
 
-extern const struct command cmd_passes;
+static const struct arg_target targets[] = {
+    STORED('j', struct arguments, json),
+    STORED('m', struct arguments, markdown),
+    {0},
+};
 
 static error_t cmd_passes_parse(int key, char *arg, struct argp_state *state) {
     struct arguments *a = state->input;
     switch (key) {
-    case 'j':
-        a->json = true;
-        return 0;
-    case 'm':
-        a->markdown = true;
-        return 0;
     case ARGP_KEY_ARG:
         if (a->what) argp_error(state, "expected one effect, slot or variant, found %s and %s", a->what, arg);
         a->what = arg;
@@ -335,6 +333,7 @@ const struct command cmd_passes = {
         "Lists all passes. With an effect, a slot or a variant, prints which images it reads and writes, with unit "
         "and meaning, and its parameters with default, range, unit and source, as used by --set.",
     .options = options,
+    .targets = targets,
     .parse = cmd_passes_parse,
     .examples = examples,
     .run = cmd_passes_run,

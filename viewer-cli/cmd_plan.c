@@ -36,30 +36,11 @@ static const struct example examples[] = {
     {0},
 };
 
-extern const struct command cmd_plan;
-
-static error_t cmd_plan_parse(int key, char *arg, struct argp_state *state) {
-    struct arguments *a = state->input;
-    switch (key) {
-    case 'j':
-        a->json = true;
-        return 0;
-    case KEY_DOT:
-        a->dot = true;
-        return 0;
-    case KEY_MEASURE:
-        a->rounds = arg_uint("measure", arg, 1, 100000, state);
-        return 0;
-    case ARGP_KEY_ARG:
-        if (a->capture) argp_error(state, "expected one capture, found %s and %s", a->capture, arg);
-        a->capture = arg;
-        return 0;
-    case ARGP_KEY_NO_ARGS:
-        argp_error(state, "no capture given");
-        return 0;
-    }
-    return pipeline_args_parse(key, arg, state, &a->pipeline);
-}
+static const struct arg_target targets[] = {
+    STORED(ARGP_KEY_ARG, struct arguments, capture), STORED('j', struct arguments, json),
+    STORED(KEY_DOT, struct arguments, dot),          STORED_NUMBER(KEY_MEASURE, struct arguments, rounds, 1, 100000),
+    PIPELINE_TARGETS(struct arguments, pipeline),    {0},
+};
 
 /* A plan, and its times on the device if they were measured. */
 struct answer {
@@ -234,7 +215,8 @@ const struct command cmd_plan = {
         "bit of the image; --all runs everything, and --skip and --force override the plan for single passes. A "
         "Vulkan device is needed only for --measure.",
     .options = options,
-    .parse = cmd_plan_parse,
+    .targets = targets,
+    .operand = "capture",
     .examples = examples,
     .run = cmd_plan_run,
 };

@@ -36,20 +36,17 @@ static const struct example examples[] = {
     {0},
 };
 
-extern const struct command cmd_probe;
+static const struct arg_target targets[] = {
+    STORED('o', struct arguments, out),
+    STORED('j', struct arguments, json),
+    STORED(KEY_ALONE, struct arguments, alone),
+    PIPELINE_TARGETS(struct arguments, pipeline),
+    {0},
+};
 
 static error_t cmd_probe_parse(int key, char *arg, struct argp_state *state) {
     struct arguments *a = state->input;
     switch (key) {
-    case 'o':
-        a->out = arg;
-        return 0;
-    case 'j':
-        a->json = true;
-        return 0;
-    case KEY_ALONE:
-        a->alone = true;
-        return 0;
     case ARGP_KEY_ARG:
         if (a->has_pixel) argp_error(state, "expected one capture and one pixel, found also %s", arg);
         if (!a->capture) a->capture = arg;
@@ -66,7 +63,7 @@ static error_t cmd_probe_parse(int key, char *arg, struct argp_state *state) {
         if (!a->has_pixel) argp_error(state, "no pixel of %s given: X,Y from the top left corner", a->capture);
         return 0;
     }
-    return pipeline_args_parse(key, arg, state, &a->pipeline);
+    return ARGP_ERR_UNKNOWN;
 }
 
 /* The reference tracers, which skip nothing; all other passes stay. */
@@ -148,6 +145,7 @@ const struct command cmd_probe = {
         "about the half-resolution texel that contains the pixel, and its ray may have been sampled for another "
         "pixel of the 2×2 block. At the end, the same ray is traced by the reference tracers, which skip nothing.",
     .options = options,
+    .targets = targets,
     .parse = cmd_probe_parse,
     .examples = examples,
     .run = cmd_probe_run,

@@ -46,7 +46,17 @@ static const struct example examples[] = {
     {0},
 };
 
-extern const struct command cmd_reference;
+static const struct arg_target targets[] = {
+    STORED(ARGP_KEY_ARG, struct arguments, capture),
+    STORED('o', struct arguments, out),
+    STORED('j', struct arguments, json),
+    STORED_NUMBER(KEY_RAYS, struct arguments, rays, 1, GLINT_REFERENCE_RAYS_MAX),
+    STORED(KEY_LIKE, struct arguments, like),
+    STORED(KEY_PROGRESS, struct arguments, progress),
+    STORED(KEY_OVERWRITE, struct arguments, overwrite),
+    PIPELINE_TARGETS(struct arguments, pipeline),
+    {0},
+};
 
 static double arg_noise(const char *text, struct argp_state *state) {
     double noise = 0;
@@ -58,42 +68,17 @@ static double arg_noise(const char *text, struct argp_state *state) {
 static error_t cmd_reference_parse(int key, char *arg, struct argp_state *state) {
     struct arguments *a = state->input;
     switch (key) {
-    case 'o':
-        a->out = arg;
-        return 0;
-    case 'j':
-        a->json = true;
-        return 0;
-    case KEY_RAYS:
-        a->rays = arg_uint("rays", arg, 1, GLINT_REFERENCE_RAYS_MAX, state);
-        return 0;
     case KEY_NOISE:
         a->noise = arg_noise(arg, state);
         return 0;
     case KEY_SENSITIVITY:
         a->sensitivity = arg ? arg_uint("sensitivity", arg, 1, GLINT_REFERENCE_RAYS_MAX, state) : RAYS_FOR_SENSITIVITY;
         return 0;
-    case KEY_LIKE:
-        a->like = arg;
-        return 0;
-    case KEY_PROGRESS:
-        a->progress = true;
-        return 0;
-    case KEY_OVERWRITE:
-        a->overwrite = true;
-        return 0;
-    case ARGP_KEY_ARG:
-        if (a->capture) argp_error(state, "expected one capture, found %s and %s", a->capture, arg);
-        a->capture = arg;
-        return 0;
-    case ARGP_KEY_NO_ARGS:
-        argp_error(state, "no capture given");
-        return 0;
     case ARGP_KEY_END:
         if (a->rays == 0) a->rays = a->noise > 0 ? RAYS_FOR_NOISE : RAYS;
         return 0;
     }
-    return pipeline_args_parse(key, arg, state, &a->pipeline);
+    return ARGP_ERR_UNKNOWN;
 }
 
 /* Error of the reference against the truth, where the capture contains one: light that the data of the capture cannot show. */
@@ -301,6 +286,8 @@ const struct command cmd_reference = {
         "the capture. The truth has no fog: to compare with it, trace the reference with --set pipeline.fog=false, "
         "and use the same setting in glint replay --against both=RUN.",
     .options = options,
+    .targets = targets,
+    .operand = "capture",
     .parse = cmd_reference_parse,
     .examples = examples,
     .run = cmd_reference_run,

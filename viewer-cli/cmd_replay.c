@@ -67,48 +67,30 @@ static const struct example examples[] = {
 };
 static const char *const precisions[] = {"half", "float", NULL};
 
-extern const struct command cmd_replay;
+static const struct arg_target targets[] = {
+    STORED('o', struct arguments, out),
+    STORED('j', struct arguments, json),
+    STORED_NUMBER(KEY_REPEAT, struct arguments, pipeline.replay.repeat, 1, 100000),
+    STORED_NUMBER(KEY_WARMUP, struct arguments, pipeline.replay.warmup, 1, 100000),
+    STORED(KEY_DIAGNOSTICS, struct arguments, pipeline.replay.diagnostics),
+    STORED(KEY_NO_CACHE, struct arguments, pipeline.replay.no_cache),
+    STORED(KEY_CACHE, struct arguments, cache),
+    STORED(KEY_WATCH, struct arguments, watch),
+    STORED(ARGP_KEY_ARG, struct arguments, captures),
+    PIPELINE_TARGETS(struct arguments, pipeline),
+    {0},
+};
 
 static error_t cmd_replay_parse(int key, char *arg, struct argp_state *state) {
     struct arguments *a = state->input;
     struct glint_replay_options *r = &a->pipeline.replay;
     switch (key) {
-    case 'o':
-        a->out = arg;
-        return 0;
-    case 'j':
-        a->json = true;
-        return 0;
-    case KEY_REPEAT:
-        r->repeat = arg_uint("repeat", arg, 1, 100000, state);
-        return 0;
-    case KEY_WARMUP:
-        r->warmup = arg_uint("warmup", arg, 1, 100000, state);
-        return 0;
     case KEY_PRECISION:
         r->float_precision = arg_choice("precision", arg, precisions, state) == 1;
-        return 0;
-    case KEY_DIAGNOSTICS:
-        r->diagnostics = true;
-        return 0;
-    case KEY_NO_CACHE:
-        r->no_cache = true;
-        return 0;
-    case KEY_CACHE:
-        a->cache = arg;
-        return 0;
-    case KEY_WATCH:
-        a->watch = true;
         return 0;
     case KEY_AGAINST:
         against_parse(&a->against, arg, state);
         r->diagnostics = r->diagnostics || a->against.truth;
-        return 0;
-    case ARGP_KEY_ARG:
-        list_add(&a->captures, arg, state);
-        return 0;
-    case ARGP_KEY_NO_ARGS:
-        argp_error(state, "no capture given");
         return 0;
     case ARGP_KEY_END:
         if (a->watch && (!a->out || a->captures.count != 1)) argp_error(state, "--watch needs one capture and -o RUN");
@@ -116,8 +98,7 @@ static error_t cmd_replay_parse(int key, char *arg, struct argp_state *state) {
             argp_error(state, "--watch cannot be combined with --json or --against");
         return 0;
     }
-    if (metric_args_parse(key, arg, state, &a->against.metrics) == 0) return 0;
-    return pipeline_args_parse(key, arg, state, &a->pipeline);
+    return metric_args_parse(key, arg, state, &a->against.metrics);
 }
 
 struct job {
@@ -416,6 +397,8 @@ const struct command cmd_replay = {
         "one EXR file per pass. At the end it prints the time of each pass: median, minimum and maximum of the timed "
         "rounds.",
     .options = options,
+    .targets = targets,
+    .operand = "capture",
     .parse = cmd_replay_parse,
     .examples = examples,
     .values = metric_args_values,

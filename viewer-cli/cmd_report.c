@@ -30,7 +30,13 @@ static const struct example examples[] = {
     {0},
 };
 
-extern const struct command cmd_report;
+static const struct arg_target targets[] = {
+    STORED('o', struct arguments, out),
+    STORED_NAMES(KEY_IMAGES, struct arguments, images),
+    STORED_NUMBER(KEY_CHART, struct arguments, chart, 1, 1000),
+    STORED(ARGP_KEY_ARG, struct arguments, folders),
+    {0},
+};
 
 static bool ends_with(const char *text, const char *end) {
     size_t length = strlen(text), tail = strlen(end);
@@ -38,28 +44,13 @@ static bool ends_with(const char *text, const char *end) {
 }
 
 static error_t cmd_report_parse(int key, char *arg, struct argp_state *state) {
-    struct arguments *a = state->input;
-    switch (key) {
-    case 'o':
-        a->out = arg;
-        return 0;
-    case KEY_IMAGES:
-        list_split(&a->images, arg, state);
-        return 0;
-    case KEY_CHART:
-        a->chart = arg_uint("chart", arg, 1, 1000, state);
-        return 0;
-    case ARGP_KEY_ARG:
-        list_add(&a->folders, arg, state);
-        return 0;
-    case ARGP_KEY_END:
-        if (!a->folders.count) argp_error(state, "no run given");
-        if (!a->out) argp_error(state, "no output file given: -o FILE.html");
-        else if (!ends_with(a->out, ".html") && !ends_with(a->out, ".svg"))
-            argp_error(state, "%s: expected FILE.html or FILE.svg", a->out);
-        return 0;
-    }
-    return ARGP_ERR_UNKNOWN;
+    const struct arguments *a = state->input;
+    (void)arg;
+    if (key != ARGP_KEY_END) return ARGP_ERR_UNKNOWN;
+    if (!a->out) argp_error(state, "no output file given: -o FILE.html");
+    else if (!ends_with(a->out, ".html") && !ends_with(a->out, ".svg"))
+        argp_error(state, "%s: expected FILE.html or FILE.svg", a->out);
+    return 0;
 }
 
 /* Whether the folder contains the page of a study. */
@@ -122,6 +113,8 @@ const struct command cmd_report = {
         "is written again from there. Click a picture to enlarge it, and use the arrow keys to flip through the "
         "others in place.",
     .options = options,
+    .targets = targets,
+    .operand = "run",
     .parse = cmd_report_parse,
     .examples = examples,
     .run = cmd_report_run,

@@ -98,7 +98,24 @@ static const struct example examples[] = {
 static const char *const probes[] = {"imperfect", "perfect", "auto", NULL};
 static const char *const compressions[] = {"zip", "none", "zips", "piz", "pxr24", "rle", NULL};
 
-extern const struct command cmd_sample;
+static const struct arg_target targets[] = {
+    STORED('o', struct arguments, out),
+    STORED('l', struct arguments, list),
+    STORED('j', struct arguments, json),
+    STORED_NUMBER(KEY_CUBE_SIZE, struct arguments, sample.cube_size, 4, 4096),
+    STORED_NUMBER(KEY_FRAMES, struct arguments, sample.frames, 1, 9999),
+    STORED_NUMBER(KEY_FIRST_FRAME, struct arguments, sample.first_frame, 1, 9999),
+    STORED(KEY_CUT, struct arguments, sample.cut),
+    STORED_NUMBER(KEY_TRUTH, struct arguments, sample.truth_samples, 0, 1 << 20),
+    STORED(KEY_TRUTH_OF_PIXELS, struct arguments, sample.truth_of_pixels),
+    STORED_NUMBER(KEY_FINISHED, struct arguments, sample.finished_samples, 1, 1 << 20),
+    STORED(KEY_FOREGROUND, struct arguments, sample.foreground),
+    STORED_NUMBER(KEY_LIGHT, struct arguments, sample.light_samples, 1, 1 << 20),
+    STORED(KEY_UNJITTERED, struct arguments, sample.unjittered),
+    STORED(KEY_SCATTERED, struct arguments, sample.scattered),
+    STORED_NUMBER(KEY_THREADS, struct arguments, sample.threads, 1, 1024),
+    {0},
+};
 
 static const char *encoding_of_key(int key) {
     switch (key) {
@@ -175,15 +192,6 @@ static void set_encodings(struct glint_encodings *e, char *text, struct argp_sta
 
 static error_t parse_scene(int key, char *arg, struct argp_state *state, struct arguments *a) {
     switch (key) {
-    case 'o':
-        a->out = arg;
-        return 0;
-    case 'l':
-        a->list = true;
-        return 0;
-    case 'j':
-        a->json = true;
-        return 0;
     case ARGP_KEY_ARG:
         if (a->scene) argp_error(state, "expected one scene, found %s and %s", a->scene, arg);
         a->scene = arg;
@@ -206,39 +214,12 @@ static error_t cmd_sample_parse(int key, char *arg, struct argp_state *state) {
     case KEY_SIZE:
         arg_size("size", arg, &s->width, &s->height, state);
         return 0;
-    case KEY_CUBE_SIZE:
-        s->cube_size = arg_uint("cube-size", arg, 4, 4096, state);
-        return 0;
     case KEY_PLANAR:
         arg_size("planar-size", arg, &s->planar_width, &s->planar_height, state);
-        return 0;
-    case KEY_FRAMES:
-        s->frames = arg_uint("frames", arg, 1, 9999, state);
-        return 0;
-    case KEY_FIRST_FRAME:
-        s->first_frame = arg_uint("first-frame", arg, 1, 9999, state);
-        return 0;
-    case KEY_CUT:
-        s->cut = true;
         return 0;
     case KEY_PROBES:
         s->probes_given = true;
         s->probes = (enum glint_probes)arg_choice("probes", arg, probes, state);
-        return 0;
-    case KEY_TRUTH:
-        s->truth_samples = arg_uint("truth", arg, 0, 1 << 20, state);
-        return 0;
-    case KEY_TRUTH_OF_PIXELS:
-        s->truth_of_pixels = true;
-        return 0;
-    case KEY_FINISHED:
-        s->finished_samples = arg_uint("finished", arg, 1, 1 << 20, state);
-        return 0;
-    case KEY_FOREGROUND:
-        s->foreground = true;
-        return 0;
-    case KEY_LIGHT:
-        s->light_samples = arg_uint("light", arg, 1, 1 << 20, state);
         return 0;
     case KEY_CAMERA:
         arg_numbers("camera", arg, numbers, 6, state);
@@ -250,17 +231,11 @@ static error_t cmd_sample_parse(int key, char *arg, struct argp_state *state) {
         arg_numbers("travel", arg, s->travel, 3, state);
         s->travel_given = true;
         return 0;
-    case KEY_UNJITTERED:
-        s->unjittered = true;
-        return 0;
     case KEY_REFLECTING:
         arg_numbers("reflecting", arg, numbers, 1, state);
         if (!(numbers[0] >= 0 && numbers[0] <= 100)) argp_error(state, "--reflecting=%s: expected 0 to 100", arg);
         s->reflecting_given = true;
         s->reflecting = numbers[0] / 100;
-        return 0;
-    case KEY_SCATTERED:
-        s->scattered = true;
         return 0;
     case KEY_FOV:
         arg_numbers("fov", arg, numbers, 1, state);
@@ -272,9 +247,6 @@ static error_t cmd_sample_parse(int key, char *arg, struct argp_state *state) {
         return 0;
     case KEY_COMPRESSION:
         s->compression = (enum glint_compression)arg_choice("compression", arg, compressions, state);
-        return 0;
-    case KEY_THREADS:
-        s->threads = arg_uint("threads", arg, 1, 1024, state);
         return 0;
     case KEY_ENCODING:
         set_encodings(&s->encodings, arg, state);
@@ -350,6 +322,7 @@ const struct command cmd_sample = {
         "blended alpha is opaque. The same command completes an interrupted shot: existing frames with the same "
         "settings are kept.",
     .options = options,
+    .targets = targets,
     .parse = cmd_sample_parse,
     .examples = examples,
     .values = cmd_sample_values,

@@ -38,34 +38,20 @@ static const struct example examples[] = {
     {0},
 };
 
-extern const struct command cmd_selftest;
+static const struct arg_target targets[] = {
+    STORED(KEY_QUICK, struct arguments, quick),
+    STORED(KEY_ONLY, struct arguments, only),
+    STORED(KEY_LIST, struct arguments, list),
+    STORED(KEY_PASSES, struct arguments, passes),
+    STORED('d', struct arguments, device),
+    STORED('j', struct arguments, json),
+    {0},
+};
 
 static error_t cmd_selftest_parse(int key, char *arg, struct argp_state *state) {
-    struct arguments *a = state->input;
-    switch (key) {
-    case KEY_QUICK:
-        a->quick = true;
-        return 0;
-    case KEY_ONLY:
-        list_add(&a->only, arg, state);
-        return 0;
-    case KEY_LIST:
-        a->list = true;
-        return 0;
-    case KEY_PASSES:
-        a->passes = arg;
-        return 0;
-    case 'd':
-        a->device = arg;
-        return 0;
-    case 'j':
-        a->json = true;
-        return 0;
-    case ARGP_KEY_ARG:
-        argp_error(state, "unexpected argument %s (use --only to choose cases)", arg);
-        return 0;
-    }
-    return ARGP_ERR_UNKNOWN;
+    if (key != ARGP_KEY_ARG) return ARGP_ERR_UNKNOWN;
+    argp_error(state, "unexpected argument %s (use --only to choose cases)", arg);
+    return 0;
 }
 
 /* ---- Tables ---- */
@@ -270,6 +256,7 @@ const struct command cmd_selftest = {
         "within rounding of the opposite result. Failed cases are repeated at the end with their description. The "
         "exit status is 1 if a case fails and 2 if none could be run.",
     .options = options,
+    .targets = targets,
     .parse = cmd_selftest_parse,
     .examples = examples,
     .run = cmd_selftest_run,

@@ -39,7 +39,15 @@ static const struct example examples[] = {
     {0},
 };
 
-extern const struct command cmd_stability;
+static const struct arg_target targets[] = {
+    STORED(ARGP_KEY_ARG, struct arguments, capture),
+    STORED('o', struct arguments, out),
+    STORED('j', struct arguments, json),
+    STORED_NUMBER(KEY_SEEDS, struct arguments, options.seeds, 1, 255),
+    STORED_NAMES(KEY_PERTURB, struct arguments, inputs),
+    PIPELINE_TARGETS(struct arguments, pipeline),
+    {0},
+};
 
 static double positive(const char *option, const char *text, struct argp_state *state) {
     double value;
@@ -52,18 +60,6 @@ static error_t cmd_stability_parse(int key, char *arg, struct argp_state *state)
     static const char *const precisions[] = {"half", "float", NULL};
     struct arguments *a = state->input;
     switch (key) {
-    case 'o':
-        a->out = arg;
-        return 0;
-    case 'j':
-        a->json = true;
-        return 0;
-    case KEY_SEEDS:
-        a->options.seeds = arg_uint("seeds", arg, 1, 255, state);
-        return 0;
-    case KEY_PERTURB:
-        list_split(&a->inputs, arg, state);
-        return 0;
     case KEY_PRECISION:
         a->options.half = arg_choice("precision", arg, precisions, state) == 0;
         return 0;
@@ -77,18 +73,13 @@ static error_t cmd_stability_parse(int key, char *arg, struct argp_state *state)
     case KEY_FAIL_PERCENT:
         a->fail_percent = positive("fail-percent", arg, state);
         return 0;
-    case ARGP_KEY_ARG:
-        if (a->capture) argp_error(state, "expected one capture, found also %s", arg);
-        a->capture = arg;
-        return 0;
     case ARGP_KEY_END:
-        if (!a->capture) argp_error(state, "no capture given");
         if (a->fails && a->options.bound > 0)
             argp_error(state, "--bound and --fail-above set the same bound; use only one");
         if (a->fails) a->options.bound = a->fail_above;
         return 0;
     }
-    return pipeline_args_parse(key, arg, state, &a->pipeline);
+    return ARGP_ERR_UNKNOWN;
 }
 
 /* Prints to stderr which pass fails the check. */
@@ -163,6 +154,8 @@ const struct command cmd_stability = {
         "are counted as flips and do not enter the change. Also reports how far the largest value of each image is "
         "from 65504, the limit of half floats. See docs/stability.md.",
     .options = options,
+    .targets = targets,
+    .operand = "capture",
     .parse = cmd_stability_parse,
     .examples = examples,
     .run = cmd_stability_run,

@@ -55,7 +55,18 @@ static const struct example examples[] = {
     {0},
 };
 
-extern const struct command cmd_sweep;
+static const struct arg_target targets[] = {
+    STORED(KEY_METRIC, struct arguments, metric),
+    STORED(ARGP_KEY_ARG, struct arguments, sweep.captures),
+    STORED('o', struct arguments, sweep.out),
+    STORED('j', struct arguments, json),
+    STORED(KEY_VARY, struct arguments, axes),
+    STORED_NUMBER(KEY_SEED, struct arguments, seed, 0, UINT32_MAX),
+    STORED_NUMBER(KEY_REPEAT, struct arguments, sweep.rounds, 0, 100000),
+    STORED(KEY_WHOLE, struct arguments, sweep.whole),
+    PIPELINE_TARGETS(struct arguments, pipeline),
+    {0},
+};
 
 static char *cmd_sweep_values(int key) {
     const char *names[GLINT_METRIC_COUNT + 1] = {NULL};
@@ -70,54 +81,22 @@ static void parse_sample(struct arguments *a, char *text, struct argp_state *sta
     a->sample = text;
 }
 
-static error_t parse_answer(int key, char *arg, struct argp_state *state, struct arguments *a) {
+static error_t cmd_sweep_parse(int key, char *arg, struct argp_state *state) {
+    struct arguments *a = state->input;
     switch (key) {
-    case KEY_METRIC:
-        a->metric = arg;
+    case KEY_SAMPLE:
+        parse_sample(a, arg, state);
         return 0;
-    case ARGP_KEY_ARG:
-        list_add(&a->sweep.captures, arg, state);
+    case KEY_NO_PICTURES:
+        a->sweep.pictures = false;
         return 0;
     case ARGP_KEY_END:
-        if (!a->sweep.captures.count) argp_error(state, "no capture given");
         if (!a->sweep.out) argp_error(state, "no output folder given: -o FOLDER");
         if (!a->axes.count) argp_error(state, "nothing to vary: --vary SLOT.PARAM=A..B");
         answer_args_check(&a->sweep.against, a->sweep.captures.count, state);
         return 0;
     }
-    if (answer_args_parse(key, arg, state, &a->sweep.against) == 0) return 0;
-    return pipeline_args_parse(key, arg, state, &a->pipeline);
-}
-
-static error_t cmd_sweep_parse(int key, char *arg, struct argp_state *state) {
-    struct arguments *a = state->input;
-    switch (key) {
-    case 'o':
-        a->sweep.out = arg;
-        return 0;
-    case 'j':
-        a->json = true;
-        return 0;
-    case KEY_VARY:
-        list_add(&a->axes, arg, state);
-        return 0;
-    case KEY_SAMPLE:
-        parse_sample(a, arg, state);
-        return 0;
-    case KEY_SEED:
-        a->seed = arg_uint("seed", arg, 0, UINT32_MAX, state);
-        return 0;
-    case KEY_REPEAT:
-        a->sweep.rounds = arg_uint("repeat", arg, 0, 100000, state);
-        return 0;
-    case KEY_WHOLE:
-        a->sweep.whole = true;
-        return 0;
-    case KEY_NO_PICTURES:
-        a->sweep.pictures = false;
-        return 0;
-    }
-    return parse_answer(key, arg, state, a);
+    return answer_args_parse(key, arg, state, &a->sweep.against);
 }
 
 /* The order in which the slots run. */
@@ -222,6 +201,8 @@ const struct command cmd_sweep = {
         "Times are measured after a warm-up with shaders without diagnostics; passes that several points share are "
         "timed once a round.",
     .options = options,
+    .targets = targets,
+    .operand = "capture",
     .parse = cmd_sweep_parse,
     .examples = examples,
     .values = cmd_sweep_values,

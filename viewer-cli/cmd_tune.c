@@ -1,5 +1,4 @@
 /* glint tune: the best parameters within a budget. */
-#include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -87,7 +86,25 @@ static const struct example examples[] = {
     {0},
 };
 
-extern const struct command cmd_tune;
+static const struct arg_target targets[] = {
+    STORED_NUMBER(KEY_TRIES, struct arguments, tune.tries, 1, 100000),
+    STORED_NUMBER(KEY_SEED, struct arguments, tune.seed, 0, UINT32_MAX),
+    STORED_NUMBER(KEY_ROUNDS, struct arguments, tune.rounds, 1, 1000),
+    STORED_NUMBER(KEY_REPEAT, struct arguments, tune.repeat, 0, 10000),
+    STORED(KEY_METRIC, struct arguments, metric),
+    STORED(KEY_BUDGET_MS, struct arguments, budget_ms),
+    STORED(KEY_BUDGET_FETCHES, struct arguments, budget_fetches),
+    STORED(KEY_ERROR, struct arguments, error),
+    STORED_NAMES(KEY_SLOTS, struct arguments, tune.slots),
+    STORED(KEY_VARY, struct arguments, tune.vary),
+    STORED(KEY_HELD_OUT, struct arguments, tune.held_out),
+    STORED(KEY_FOLDER, struct arguments, tune.folder),
+    STORED('o', struct arguments, tune.out),
+    STORED('j', struct arguments, json),
+    STORED(ARGP_KEY_ARG, struct arguments, tune.captures),
+    PIPELINE_TARGETS(struct arguments, pipeline),
+    {0},
+};
 
 static char *cmd_tune_values(int key) {
     const char *names[GLINT_METRIC_COUNT + 1] = {NULL};
@@ -95,34 +112,6 @@ static char *cmd_tune_values(int key) {
     for (size_t m = GLINT_METRIC_RMSE; m < GLINT_METRIC_COUNT; m++)
         if (!glint_metric(m)->higher_is_better) names[n++] = glint_metric(m)->name;
     return key == KEY_METRIC ? join_names("", names) : NULL;
-}
-
-static error_t parse_search(int key, char *arg, struct argp_state *state, struct arguments *a) {
-    struct tune *tune = &a->tune;
-    switch (key) {
-    case KEY_TRIES:
-        tune->tries = arg_uint("tries", arg, 1, 100000, state);
-        return 0;
-    case KEY_SEED:
-        tune->seed = arg_uint("seed", arg, 0, UINT32_MAX, state);
-        return 0;
-    case KEY_ROUNDS:
-        tune->rounds = arg_uint("rounds", arg, 1, 1000, state);
-        return 0;
-    case KEY_REPEAT:
-        tune->repeat = arg_uint("repeat", arg, 0, 10000, state);
-        return 0;
-    case KEY_REFERENCE:
-    case KEY_RAYS:
-        return answer_args_parse(key, arg, state, &tune->against);
-    case KEY_METRIC:
-        a->metric = arg;
-        return 0;
-    case KEY_SHADER:
-        list_add(&tune->shaders, arg, state);
-        break;
-    }
-    return pipeline_args_parse(key, arg, state, &a->pipeline);
 }
 
 /* "0.3" or "50%" */
@@ -140,7 +129,6 @@ static void read_limit(struct tune *tune, const char *option, const char *text, 
 static void check_arguments(struct arguments *a, struct argp_state *state) {
     struct tune *tune = &a->tune;
     const size_t length = tune->out ? strlen(tune->out) : 0, all = tune->captures.count + tune->held_out.count;
-    if (!tune->captures.count) argp_error(state, "no capture given");
     if (!!a->budget_ms + !!a->budget_fetches + !!a->error != 1)
         argp_error(state, "expected one of --budget-ms, --budget-fetches and --error");
     if (!tune->out) argp_error(state, "no output file given: -o PRESET.json");
@@ -163,27 +151,9 @@ static error_t cmd_tune_parse(int key, char *arg, struct argp_state *state) {
     struct arguments *a = state->input;
     struct tune *tune = &a->tune;
     switch (key) {
-    case KEY_BUDGET_MS:
-        a->budget_ms = arg;
-        return 0;
-    case KEY_BUDGET_FETCHES:
-        a->budget_fetches = arg;
-        return 0;
-    case KEY_ERROR:
-        a->error = arg;
-        return 0;
     case KEY_COST:
         arg_choice("cost", arg, costs, state);
         a->cost = arg;
-        return 0;
-    case KEY_SLOTS:
-        list_split(&tune->slots, arg, state);
-        return 0;
-    case KEY_VARY:
-        list_add(&tune->vary, arg, state);
-        return 0;
-    case KEY_HELD_OUT:
-        list_add(&tune->held_out, arg, state);
         return 0;
     case KEY_BASELINE:
         tune->baseline = arg_choice("baseline", arg, baselines, state) == 0;
@@ -191,23 +161,11 @@ static error_t cmd_tune_parse(int key, char *arg, struct argp_state *state) {
     case KEY_OVER:
         tune->worst = arg_choice("over", arg, overs, state) == 1;
         return 0;
-    case KEY_FOLDER:
-        tune->folder = arg;
-        return 0;
-    case 'o':
-        tune->out = arg;
-        return 0;
-    case 'j':
-        a->json = true;
-        return 0;
-    case ARGP_KEY_ARG:
-        list_add(&tune->captures, arg, state);
-        return 0;
     case ARGP_KEY_END:
         check_arguments(a, state);
         return 0;
     }
-    return parse_search(key, arg, state, a);
+    return answer_args_parse(key, arg, state, &tune->against);
 }
 
 static bool choose_metric(struct arguments *a, struct glint_error *err) {
@@ -221,6 +179,7 @@ static bool choose_metric(struct arguments *a, struct glint_error *err) {
 static bool begin_tune(struct arguments *a, struct glint_error *err) {
     struct tune *tune = &a->tune;
     tune->all = a->pipeline.replay.all;
+    tune->shaders = &a->pipeline.shader;
     for (size_t i = 0; i < tune->slots.count; i++)
         if (!glint_slot_check(tune->slots.items[i], err)) return false;
     if (!choose_metric(a, err) || !(tune->base = pipeline_args_create(&a->pipeline, err)) ||
@@ -266,8 +225,8 @@ void tune_finish(struct tune *tune) {
     free(tune->left);
     if (tune->base) glint_pipeline_destroy(&tune->base);
     if (tune->device) glint_device_destroy(&tune->device);
-    struct list *const lists[] = {&tune->captures, &tune->held_out, &tune->against.references,
-                                  &tune->vary,     &tune->slots,    &tune->shaders};
+    struct list *const lists[] = {&tune->captures, &tune->held_out, &tune->against.references, &tune->vary,
+                                  &tune->slots};
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) list_free(lists[i]);
 }
 
@@ -332,6 +291,8 @@ const struct command cmd_tune = {
         "least error that meets the budget in the final timing. Every evaluation is stored at once: the same command "
         "resumes an interrupted search, and the preset file then contains the best point so far.",
     .options = options,
+    .targets = targets,
+    .operand = "capture",
     .parse = cmd_tune_parse,
     .examples = examples,
     .values = cmd_tune_values,

@@ -22,23 +22,11 @@ static const struct example examples[] = {
     {0},
 };
 
-extern const struct command cmd_validate;
-
-static error_t cmd_validate_parse(int key, char *arg, struct argp_state *state) {
-    struct arguments *a = state->input;
-    switch (key) {
-    case 'j':
-        a->json = true;
-        return 0;
-    case ARGP_KEY_ARG:
-        list_add(&a->files, arg, state);
-        return 0;
-    case ARGP_KEY_NO_ARGS:
-        argp_error(state, "no capture given");
-        return 0;
-    }
-    return ARGP_ERR_UNKNOWN;
-}
+static const struct arg_target targets[] = {
+    STORED('j', struct arguments, json),
+    STORED(ARGP_KEY_ARG, struct arguments, files),
+    {0},
+};
 
 struct listing {
     json_t *json; /* NULL: print as they come */
@@ -111,7 +99,8 @@ const struct command cmd_validate = {
         "Checks captures against every rule of FORMAT.md, including pixel values, and lists all violations with the "
         "rule that each breaks. The exit status is 1 if there are violations.",
     .options = options,
-    .parse = cmd_validate_parse,
+    .targets = targets,
+    .operand = "capture",
     .examples = examples,
     .run = cmd_validate_run,
 };

@@ -101,7 +101,29 @@ static const struct example examples[] = {
 
 static const char *const scales[] = {"auto", "linear", "log", NULL};
 
-extern const struct command cmd_view;
+static const struct arg_target targets[] = {
+    STORED(KEY_STATS, struct arguments, statistics.table),
+    STORED(KEY_HISTOGRAM, struct arguments, statistics.histogram),
+    STORED_NUMBER(KEY_BINS, struct arguments, statistics.bins, 1, STATISTICS_BINS_MAX),
+    STORED('j', struct arguments, statistics.json),
+    STORED(KEY_TEV, struct arguments, tev),
+    STORED(KEY_LATLONG, struct arguments, render.latlong),
+    STORED(KEY_LEVELS, struct arguments, levels),
+    STORED(KEY_VIEW, struct arguments, render.ocio.view),
+    STORED(KEY_DISPLAY, struct arguments, render.ocio.display),
+    STORED(KEY_OCIO, struct arguments, render.ocio.config),
+    STORED(KEY_INPUT, struct arguments, render.ocio.input),
+    STORED(ARGP_KEY_ARG, struct arguments, paths),
+    STORED('o', struct arguments, out),
+    STORED_NAMES(KEY_IMAGE, struct arguments, images),
+    STORED(KEY_PART, struct arguments, choice.part),
+    STORED(KEY_LAYER, struct arguments, choice.layer),
+    STORED(KEY_SHEET, struct arguments, sheet),
+    STORED(KEY_NO_LEGEND, struct arguments, render.no_legend),
+    STORED(KEY_FACES, struct arguments, render.faces),
+    STORED_NUMBER(KEY_ZOOM, struct arguments, render.zoom, 1, 64),
+    {0},
+};
 
 static char *cmd_view_values(int key) {
     if (key == KEY_AS) return join_names("", kind_names);
@@ -146,80 +168,10 @@ static void end_arguments(struct arguments *a, struct argp_state *state) {
     a->choice.image = a->images.count ? a->images.items[0] : NULL;
 }
 
-static error_t parse_output(int key, char *arg, struct argp_state *state, struct arguments *a) {
-    switch (key) {
-    case KEY_TERMINAL:
-        a->terminal = true;
-        if (arg) a->terminal_mode = (enum terminal_mode)arg_choice("terminal", arg, terminal_mode_names, state);
-        return 0;
-    case KEY_STATS:
-        a->statistics.table = true;
-        return 0;
-    case KEY_HISTOGRAM:
-        a->statistics.histogram = true;
-        return 0;
-    case KEY_BINS:
-        a->statistics.bins = arg_uint("bins", arg, 1, STATISTICS_BINS_MAX, state);
-        return 0;
-    case 'j':
-        a->statistics.json = true;
-        return 0;
-    case KEY_TEV:
-        a->tev = arg;
-        return 0;
-    case KEY_LATLONG:
-        a->render.latlong = true;
-        return 0;
-    case KEY_LEVELS:
-        a->levels = true;
-        return 0;
-    }
-    return ARGP_ERR_UNKNOWN;
-}
-
-static error_t parse_color(int key, char *arg, struct argp_state *state, struct arguments *a) {
-    switch (key) {
-    case KEY_EXPOSURE:
-        arg_numbers("exposure", arg, &a->render.exposure_ev, 1, state);
-        return 0;
-    case KEY_VIEW:
-        a->render.ocio.view = arg;
-        return 0;
-    case KEY_DISPLAY:
-        a->render.ocio.display = arg;
-        return 0;
-    case KEY_OCIO:
-        a->render.ocio.config = arg;
-        return 0;
-    case KEY_INPUT:
-        a->render.ocio.input = arg;
-        return 0;
-    case ARGP_KEY_ARG:
-        list_add(&a->paths, arg, state);
-        return 0;
-    case ARGP_KEY_END:
-        end_arguments(a, state);
-        return 0;
-    }
-    return ARGP_ERR_UNKNOWN;
-}
-
 static error_t cmd_view_parse(int key, char *arg, struct argp_state *state) {
     struct arguments *a = state->input;
     double range[2];
     switch (key) {
-    case 'o':
-        a->out = arg;
-        return 0;
-    case KEY_IMAGE:
-        list_split(&a->images, arg, state);
-        return 0;
-    case KEY_PART:
-        a->choice.part = arg;
-        return 0;
-    case KEY_LAYER:
-        a->choice.layer = arg;
-        return 0;
     case KEY_AS:
         a->render.kind = (enum kind)arg_choice("as", arg, kind_names, state);
         return 0;
@@ -241,24 +193,21 @@ static error_t cmd_view_parse(int key, char *arg, struct argp_state *state) {
     case KEY_SCALE:
         a->render.falsecolor.scale = (enum scale)arg_choice("scale", arg, scales, state);
         return 0;
-    case KEY_SHEET:
-        a->sheet = true;
-        return 0;
-    case KEY_NO_LEGEND:
-        a->render.no_legend = true;
-        return 0;
-    case KEY_FACES:
-        a->render.faces = true;
-        return 0;
     case KEY_CROP:
         parse_crop(a, arg, state);
         return 0;
-    case KEY_ZOOM:
-        a->render.zoom = arg_uint("zoom", arg, 1, 64, state);
+    case KEY_EXPOSURE:
+        arg_numbers("exposure", arg, &a->render.exposure_ev, 1, state);
+        return 0;
+    case KEY_TERMINAL:
+        a->terminal = true;
+        if (arg) a->terminal_mode = (enum terminal_mode)arg_choice("terminal", arg, terminal_mode_names, state);
+        return 0;
+    case ARGP_KEY_END:
+        end_arguments(a, state);
         return 0;
     }
-    const error_t output = parse_output(key, arg, state, a);
-    return output == ARGP_ERR_UNKNOWN ? parse_color(key, arg, state, a) : output;
+    return ARGP_ERR_UNKNOWN;
 }
 
 /* Computes statistics of the cropped part, whose rows are moved together. */
@@ -329,6 +278,7 @@ const struct command cmd_view = {
         "Colour is converted by OpenColorIO; distances, normals, indices and end reasons are shown in false colour "
         "with a legend. NaN is magenta. Without -o the picture is drawn in the terminal.",
     .options = options,
+    .targets = targets,
     .parse = cmd_view_parse,
     .examples = examples,
     .values = cmd_view_values,

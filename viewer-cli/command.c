@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "io/table.h"
+#include "options/args.h"
 
 struct parsing {
     const struct command *command;
@@ -23,7 +24,12 @@ static error_t command_parse_key(int key, char *arg, struct argp_state *state) {
     case ARGP_KEY_FINI:
     case ARGP_KEY_SUCCESS:
         return 0;
+    case ARGP_KEY_NO_ARGS:
+        if (parsing->command->operand) argp_error(state, "no %s given", parsing->command->operand);
+        break;
     }
+    if (args_store(parsing->command, key, arg, state, parsing->input)) return 0;
+    if (!parsing->command->parse) return ARGP_ERR_UNKNOWN;
     state->input = parsing->input;
     error_t result = parsing->command->parse(key, arg, state);
     state->input = (void *)parsing;
@@ -57,7 +63,7 @@ char *command_option_help(const struct command *command, const struct argp_optio
     return text;
 }
 
-static const struct argp_option *option_by_key(const struct command *command, int key) {
+const struct argp_option *command_option(const struct command *command, int key) {
     for (const struct argp_option *o = command->options; o->name || o->key || o->doc; o++)
         if (o->key == key) return o;
     return NULL;
@@ -80,7 +86,7 @@ static char *filter(int key, const char *text, void *input) {
     if (!parsing) return (char *)text;
     const struct command *command = parsing->command;
     if (key == ARGP_KEY_HELP_POST_DOC) return examples_text(command);
-    const struct argp_option *option = key > 0 && key < ARGP_KEY_HELP_PRE_DOC ? option_by_key(command, key) : NULL;
+    const struct argp_option *option = key > 0 && key < ARGP_KEY_HELP_PRE_DOC ? command_option(command, key) : NULL;
     return option && text ? command_option_help(command, option) : (char *)text;
 }
 

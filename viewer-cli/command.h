@@ -19,17 +19,42 @@ struct command {
     const char *summary;     /* one line for the list of commands */
     const char *description; /* a paragraph or two */
     const struct argp_option *options;
-    bool one_dash;    /* long options may begin with a single dash */
-    bool numbers;     /* arguments may be negative numbers: -5,3 */
-    int usage_status; /* of a usage error; 0: STATUS_USAGE */
-    argp_parser_t parse;
-    const struct example *examples; /* ends with an entry whose text is NULL */
+    const struct arg_target *targets; /* options that need no more than parsing (options/args.h), or NULL */
+    bool one_dash;                    /* long options may begin with a single dash */
+    bool numbers;                     /* arguments may be negative numbers: -5,3 */
+    int usage_status;                 /* of a usage error; 0: STATUS_USAGE */
+    const char *operand;              /* what an argument is, such as "capture", if there has to be one; or NULL */
+    argp_parser_t parse;              /* of everything else, or NULL */
+    const struct example *examples;   /* ends with an entry whose text is NULL */
     /* Values that are known only at run time (encodings, scenes, views), appended to the help of an option; malloc'd,
        NULL for none. The function may be NULL. */
     char *(*values)(int key);
     enum status (*run)(int argc, char **argv);
 };
 
+/* clang-format off */
+extern const struct command
+    cmd_sample,
+    cmd_info,
+    cmd_validate,
+    cmd_lint,
+    cmd_plan,
+    cmd_replay,
+    cmd_reference,
+    cmd_compare,
+    cmd_sweep,
+    cmd_blame,
+    cmd_tune,
+    cmd_stability,
+    cmd_probe,
+    cmd_diff,
+    cmd_check,
+    cmd_view,
+    cmd_report,
+    cmd_selftest,
+    cmd_passes,
+    cmd_devices;
+/* clang-format on */
 /* All commands in the order of the help. */
 extern const struct command *const commands[];
 extern const size_t command_count;
@@ -39,6 +64,8 @@ const struct command *command_find(const char *name);
    A usage error prints a message and exits with 2, --help exits with 0. */
 void command_parse(const struct command *command, int argc, char **argv, void *input);
 
+/* The option of this key, or NULL. */
+const struct argp_option *command_option(const struct command *command, int key);
 /* An option's help with its run-time values, malloc'd. */
 char *command_option_help(const struct command *command, const struct argp_option *option);
 

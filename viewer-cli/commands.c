@@ -1,31 +1,9 @@
-/* The list of commands. A new one is added here and to meson.build, with its own cmd_NAME.c. */
+/* The list of commands. A new one is added here, to command.h and to meson.build, with its own cmd_NAME.c. */
 #include "command.h"
 
 #include <string.h>
 
 /* clang-format off */
-extern const struct command
-    cmd_sample,
-    cmd_info,
-    cmd_validate,
-    cmd_lint,
-    cmd_plan,
-    cmd_replay,
-    cmd_reference,
-    cmd_compare,
-    cmd_sweep,
-    cmd_blame,
-    cmd_tune,
-    cmd_stability,
-    cmd_probe,
-    cmd_diff,
-    cmd_check,
-    cmd_view,
-    cmd_report,
-    cmd_selftest,
-    cmd_passes,
-    cmd_devices;
-
 const struct command *const commands[] = {
     &cmd_sample,
     &cmd_info,

@@ -4,7 +4,6 @@
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* Prints text in mdoc: control characters are escaped, and each sentence begins a new line. */
 static void print_text(const char *text) {

@@ -2,7 +2,6 @@
    equals the required one stays as it is, and whatever only it depends on is neither read nor computed. */
 #include "run.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include <xxhash.h>

@@ -2,7 +2,6 @@
 #include "run.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #include "spirv_accumulate.h"
 

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "format.h"
-#include "timing.h"
 
 struct host_run {
     struct tables *tables;

@@ -3,7 +3,6 @@
 
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 VkImageSubresourceRange image_range(const struct image_desc *desc) {
     return (VkImageSubresourceRange){VK_IMAGE_ASPECT_COLOR_BIT, 0, desc->levels, 0, image_layers(desc)};

@@ -1,7 +1,6 @@
 /* Finds declarations that contradict themselves or one another. */
 #include "graph.h"
 
-#include <stdio.h>
 #include <string.h>
 
 void graph_check_kind(const struct glint_pass *pass, const struct glint_row *binding, const struct glint_row *image,

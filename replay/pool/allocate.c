@@ -3,7 +3,6 @@
 #include "pool.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 /* Whether an image may share its memory. Images that depend on cube maps alone serve the next frame, and lists are read back for statistics. */
 static bool is_transient(const struct frame_plan *plan, const struct graph_image *image) {

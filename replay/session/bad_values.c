@@ -4,7 +4,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* An alias shows an image of the capture, whose invalid values were counted when it was uploaded. */
 static bool is_captured(const struct image_part *part) {

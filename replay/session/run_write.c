@@ -1,7 +1,6 @@
 /* Writes run folders: an EXR file for each pass, and run.json last, which marks the folder as complete. */
 #include "session.h"
 
-#include <errno.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -2,7 +2,6 @@
 #include "glint/savings.h"
 
 #include <stdlib.h>
-#include <string.h>
 
 #include "glint/sort.h"
 

@@ -4,7 +4,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 static void add_row(struct glint_reference_sensitivity *sensitivity, const struct glint_pass *pass,
                     const struct glint_row *row, double value, double factor) {

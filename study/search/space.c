@@ -1,6 +1,5 @@
 /* The points of a space: grids, Latin hypercubes, and their order. */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

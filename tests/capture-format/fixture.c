@@ -102,6 +102,14 @@ void fixture_init(struct fixture *f) {
     f->planar.camera = fixture_camera((const double[3]){1, -2, 3}, 0.1, 500);
 }
 
+struct fixture fixture;
+
+int fixture_setup(void **state) {
+    (void)state;
+    fixture_init(&fixture);
+    return 0;
+}
+
 static const char *const gbuffer_names[] = {"depth.Z",           "normal.X",           "normal.Y",
                                             "normal.Z",          "material.roughness", "material.metalness",
                                             "material.specular", "albedo.R",           "albedo.G",

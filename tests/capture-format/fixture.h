@@ -25,6 +25,9 @@ struct fixture {
     struct glint_planar planar;
 };
 void fixture_init(struct fixture *f);
+/* The one of a test program. Its setup, with cmocka's signature, initialises it. */
+extern struct fixture fixture;
+int fixture_setup(void **state);
 
 enum fixture_part {
     FIXTURE_GBUFFER,

@@ -1,12 +1,11 @@
 /* Loads an EXR file into memory to change and rewrite it. */
 #include "rewrite.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <cmocka.h>
+
+#include "unit.h"
 
 void rewrite_load(struct rewrite *r, const char *path) {
     struct glint_error err = {0};

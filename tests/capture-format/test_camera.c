@@ -2,17 +2,12 @@
    orthonormal, and notes contain only effects that are visible. */
 #include <float.h>
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-#include <cmocka.h>
 
 #include "fixture.h"
-
-static struct fixture fixture;
+#include "unit.h"
 
 /* An engine's matrix: the rotation in floats, and the translation computed from it in double. */
 static struct glint_camera camera_in_floats(const double eye[3], bool mirrored) {
@@ -61,8 +56,7 @@ static double off_rotation(const double *m) {
     return largest;
 }
 
-static void cameras_stand_where_the_engine_put_them(void **unused) {
-    (void)unused;
+static void cameras_stand_where_the_engine_put_them(UNUSED void **unused) {
     static const double kilometres[] = {0, 100, 1000};
     for (size_t k = 0; k < sizeof kilometres / sizeof *kilometres; k++)
         for (int mirrored = 0; mirrored < 2; mirrored++) {
@@ -91,8 +85,7 @@ static void cameras_stand_where_the_engine_put_them(void **unused) {
         }
 }
 
-static void a_precise_camera_keeps_its_bits(void **unused) {
-    (void)unused;
+static void a_precise_camera_keeps_its_bits(UNUSED void **unused) {
     struct glint_frame frame = fixture_frame();
     frame.camera = fixture_camera((const double[3]){1e6, -2e6, 3}, 0.1, 500);
     const struct glint_frame found = read_back(&frame, "precise.exr");
@@ -102,8 +95,7 @@ static void a_precise_camera_keeps_its_bits(void **unused) {
 }
 
 /* Near the origin floats are as precise as doubles, so there are no notes. */
-static void visible_effects_are_noted(void **unused) {
-    (void)unused;
+static void visible_effects_are_noted(UNUSED void **unused) {
     char notes[GLINT_NOTES][GLINT_NOTE_LENGTH];
     struct glint_frame frame = fixture_frame();
     frame.metres_per_unit = 1;
@@ -122,17 +114,11 @@ static void visible_effects_are_noted(void **unused) {
     assert_non_null(strstr(notes[1], "glint.previousWorldToView"));
 }
 
-static int setup(void **state) {
-    (void)state;
-    fixture_init(&fixture);
-    return 0;
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cameras_stand_where_the_engine_put_them),
         cmocka_unit_test(a_precise_camera_keeps_its_bits),
         cmocka_unit_test(visible_effects_are_noted),
     };
-    return cmocka_run_group_tests(tests, setup, NULL);
+    return cmocka_run_group_tests(tests, fixture_setup, NULL);
 }

@@ -1,16 +1,12 @@
 /* The reader returns what was written. */
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <setjmp.h>
 #include <string.h>
 #include <unistd.h>
-#include <cmocka.h>
 
 #include "fixture.h"
-
-static struct fixture fixture;
+#include "unit.h"
 
 static struct glint_capture *open_all(const char *path) {
     struct glint_error err = {0};
@@ -20,8 +16,7 @@ static struct glint_capture *open_all(const char *path) {
     return capture;
 }
 
-static void every_role_comes_back(void **state) {
-    (void)state;
+static void every_role_comes_back(UNUSED void **state) {
     char path[512];
     struct glint_error err = {0};
     struct glint_capture *capture = open_all(fixture_path(path, "roles.exr"));
@@ -50,8 +45,7 @@ static void every_role_comes_back(void **state) {
     unlink(path);
 }
 
-static void frame_comes_back_bit_for_bit(void **state) {
-    (void)state;
+static void frame_comes_back_bit_for_bit(UNUSED void **state) {
     char path[512];
     struct glint_capture *capture = open_all(fixture_path(path, "frame.exr"));
     const struct glint_frame expected = fixture_frame(), *found = glint_capture_frame(capture);
@@ -85,8 +79,7 @@ static void frame_comes_back_bit_for_bit(void **state) {
 
 /* ---- single values ---- */
 
-static void lengths_are_metres(void **state) {
-    (void)state;
+static void lengths_are_metres(UNUSED void **state) {
     char path[512];
     static float out[6 * FIX_CUBE * FIX_CUBE];
     struct glint_error err = {0};
@@ -131,8 +124,7 @@ static void read_values(struct glint_capture *capture, size_t count, enum glint_
     if (!glint_capture_read(capture, part, names, count, type, out, 0, &err)) fail_msg("%s", err.message);
 }
 
-static void every_half_keeps_its_bits(void **state) {
-    (void)state;
+static void every_half_keeps_its_bits(UNUSED void **state) {
     char path[512];
     static uint16_t in[65536], back[2 * 65536];
     static float wide[65536];
@@ -154,8 +146,7 @@ static void every_half_keeps_its_bits(void **state) {
 }
 
 /* Floats are rounded to the nearest half, ties to even, compared with both exact neighbours. */
-static void floats_round_to_the_nearest_half(void **state) {
-    (void)state;
+static void floats_round_to_the_nearest_half(UNUSED void **state) {
     char path[512];
     static float in[65536];
     static uint16_t out[65536];
@@ -183,8 +174,7 @@ static void floats_round_to_the_nearest_half(void **state) {
 }
 
 /* Each 8- and 16-bit value decodes to the value nearest to its own code. */
-static void every_code_comes_back(void **state) {
-    (void)state;
+static void every_code_comes_back(UNUSED void **state) {
     static const enum glint_type types[] = {GLINT_UNORM8, GLINT_SNORM8, GLINT_UNORM16, GLINT_SNORM16};
     static uint8_t small[65536];
     static uint16_t large[65536];
@@ -205,8 +195,7 @@ static void every_code_comes_back(void **state) {
     }
 }
 
-static void folders_are_made_with_those_around_them(void **state) {
-    (void)state;
+static void folders_are_made_with_those_around_them(UNUSED void **state) {
     static const char *const made[] = {"around/within/deepest", "around/within", "around"};
     struct glint_error err = {0};
     char path[512];
@@ -224,12 +213,6 @@ static void folders_are_made_with_those_around_them(void **state) {
     unlink(path);
 }
 
-static int setup(void **state) {
-    (void)state;
-    fixture_init(&fixture);
-    return 0;
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_role_comes_back),
@@ -240,5 +223,5 @@ int main(void) {
         cmocka_unit_test(every_code_comes_back),
         cmocka_unit_test(folders_are_made_with_those_around_them),
     };
-    return cmocka_run_group_tests(tests, setup, NULL);
+    return cmocka_run_group_tests(tests, fixture_setup, NULL);
 }

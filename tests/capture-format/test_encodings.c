@@ -3,18 +3,15 @@
    derivative of the decoder, plus the rounding of the float that the reader returns, and of the half for 8-bit formats that the file
    stores as half. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-#include <cmocka.h>
 
-#include "fixture.h"
+#include "encoded.h"
+#include "unit.h"
 
 enum { COUNT = FIX_W * FIX_H };
-static struct fixture fixture;
 static const double NEAR = 0.1, FAR = 500;
 
 /* ---- storage formats: the stored value, and half the step there ---- */
@@ -70,52 +67,6 @@ static void store(const struct storage *s, double v, size_t i, void *out) {
     else ((float *)out)[i] = (float)v;
 }
 
-/* ---- a capture in which some channels of gbuffer or lit are replaced ---- */
-
-static double bits[3][COUNT]; /* large enough for any type */
-
-static struct glint_capture *dump(const char *path, const char *part_name, const struct glint_encodings *encodings,
-                                  const char *const *names, size_t count, enum glint_type type, const char *storage,
-                                  const struct glint_frame *frame) {
-    struct glint_error err = {0};
-    struct glint_writer *writer = glint_writer_create(path, NULL, &err);
-    bool ok = writer && glint_writer_set_frame(writer, frame, &err);
-    for (int p = 0; ok && p <= FIXTURE_PREVIOUS_GBUFFER; p++) {
-        struct fixture_channels channels;
-        struct glint_part part = fixture_part(&fixture, (enum fixture_part)p, &channels);
-        if (!strcmp(part.name, part_name)) {
-            part.encodings = *encodings;
-            size_t kept = 0;
-            for (size_t c = 0; c < part.channel_count; c++) {
-                bool drop = false;
-                for (size_t i = 0; i < count; i++) {
-                    if (strcmp(channels.all[c].name, names[i])) continue;
-                    channels.all[c] =
-                        (struct glint_channel){.name = names[i], .type = type, .data = bits[i], .storage = storage};
-                }
-                if (encodings->normal == GLINT_NORMAL_OCTAHEDRAL) drop |= !strcmp(channels.all[c].name, "normal.Z");
-                if (encodings->vertex_normal == GLINT_NORMAL_OCTAHEDRAL)
-                    drop |= !strcmp(channels.all[c].name, "vertexNormal.Z");
-                if (!drop) channels.all[kept++] = channels.all[c];
-            }
-            part.channel_count = kept;
-        }
-        ok = glint_writer_add_part(writer, &part, &err);
-    }
-    ok = ok && glint_writer_finish(writer, &err);
-    glint_writer_destroy(&writer);
-    struct glint_capture *capture = ok ? glint_capture_open(path, NULL, &err) : NULL;
-    if (!capture) fail_msg("%s", err.message);
-    return capture;
-}
-
-static void decoded(struct glint_capture *capture, const char *part, const char *const *names, size_t count,
-                    float *out) {
-    struct glint_error err = {0};
-    if (!glint_capture_read(capture, glint_capture_find(capture, part), names, count, GLINT_F32, out, 0, &err))
-        fail_msg("%s", err.message);
-}
-
 static void close_and_remove(struct glint_capture **capture, const char *path) {
     glint_capture_close(capture);
     unlink(path);
@@ -158,11 +109,11 @@ static void check_depth(enum glint_depth_encoding e, enum projection p, const st
     project(frame.previous.view_to_clip, FINITE, -1, symmetric ? -1 : 0);
     project(camera->view_to_clip, p, sign, symmetric ? -1 : 0);
     for (size_t i = 0; i < COUNT; i++)
-        store(s, stored_depth(e, camera->view_to_clip, symmetric, (double)fixture.gbuffer[17 * i]), i, bits[0]);
+        store(s, stored_depth(e, camera->view_to_clip, symmetric, (double)fixture.gbuffer[17 * i]), i, encoded_bits[0]);
     const struct glint_encodings encodings = {.depth = e};
     struct glint_capture *capture =
-        dump(fixture_path(path, "depth.exr"), part, &encodings, names, 1, s->type, s->name, &frame);
-    decoded(capture, part, names, 1, out);
+        encoded_capture(fixture_path(path, "depth.exr"), part, &encodings, names, 1, s->type, s->name, &frame);
+    encoded_read(capture, part, names, 1, out);
     for (size_t i = 0; i < COUNT; i++) {
         const double t = (double)fixture.gbuffer[17 * i], unit = frame.metres_per_unit;
         if (isinf(t)) {
@@ -194,8 +145,7 @@ static void check_depth(enum glint_depth_encoding e, enum projection p, const st
     close_and_remove(&capture, path);
 }
 
-static void depth(void **state) {
-    (void)state;
+static void depth(UNUSED void **state) {
     const struct storage *fixed[] = {&D16, &D24, &D32F};
     for (size_t i = 0; i < 3; i++)
         for (double sign = -1; sign <= 1; sign += 2)
@@ -249,16 +199,16 @@ static void check_normals(enum glint_normal_encoding e, enum glint_normal_space 
         } else if (e == GLINT_NORMAL_UNORM) {
             for (int a = 0; a < 3; a++) n[a] = (n[a] + 1) / 2;
         }
-        for (int a = 0; a < 3; a++) store(s, e == GLINT_NORMAL_OCTAHEDRAL && a == 2 ? 0 : n[a], i, bits[a]);
+        for (int a = 0; a < 3; a++) store(s, e == GLINT_NORMAL_OCTAHEDRAL && a == 2 ? 0 : n[a], i, encoded_bits[a]);
     }
     struct glint_encodings encodings = {.normal_space = space};
     if (at == 1) encodings.normal = e;
     else encodings.vertex_normal = e;
     /* The other images are in world space then, but are not tested here. */
-    struct glint_capture *capture = dump(fixture_path(path, "normal.exr"), part, &encodings, pointers,
-                                         e == GLINT_NORMAL_OCTAHEDRAL ? 2 : 3, s->type, s->name, &frame);
+    struct glint_capture *capture = encoded_capture(fixture_path(path, "normal.exr"), part, &encodings, pointers,
+                                                    e == GLINT_NORMAL_OCTAHEDRAL ? 2 : 3, s->type, s->name, &frame);
     assert_true(glint_part_has_channel(glint_capture_find(capture, part), names[2]));
-    decoded(capture, part, pointers, 3, out);
+    encoded_read(capture, part, pointers, 3, out);
     /* Half a step in each component rotates a unit normal by at most √3 half steps (1 for signed, 2 for unorm, whose scale is 2). The
        octahedral mapping stretches angles by at most 2√3 · 2: at the centre of a face |n| = 1/√3 of its L1 norm, where the slope is 3,
        its maximum; both components have errors. */
@@ -279,8 +229,7 @@ static void check_normals(enum glint_normal_encoding e, enum glint_normal_space 
     close_and_remove(&capture, path);
 }
 
-static void normals(void **state) {
-    (void)state;
+static void normals(UNUSED void **state) {
     static const char *const families[] = {"normal", "vertexNormal"};
     for (int space = 0; space < 2; space++)
         for (int f = 0; f < 2; f++) {
@@ -335,13 +284,13 @@ static void check_roughness(enum glint_roughness_encoding e, const struct storag
     double r[COUNT];
     for (size_t i = 0; i < COUNT; i++) {
         r[i] = fmax((double)fixture.gbuffer[17 * i + 4], lowest);
-        store(s, stored_roughness(e, r[i]), i, bits[0]);
+        store(s, stored_roughness(e, r[i]), i, encoded_bits[0]);
     }
     const struct glint_encodings encodings = {.roughness = e};
     const struct glint_frame frame = fixture_frame();
     struct glint_capture *capture =
-        dump(fixture_path(path, "roughness.exr"), "gbuffer", &encodings, names, 1, s->type, s->name, &frame);
-    decoded(capture, "gbuffer", names, 1, out);
+        encoded_capture(fixture_path(path, "roughness.exr"), "gbuffer", &encodings, names, 1, s->type, s->name, &frame);
+    encoded_read(capture, "gbuffer", names, 1, out);
     for (size_t i = 0; i < COUNT; i++) {
         const double v = stored_roughness(e, r[i]), step = half_step(s, v);
         const double bound =
@@ -354,8 +303,7 @@ static void check_roughness(enum glint_roughness_encoding e, const struct storag
     close_and_remove(&capture, path);
 }
 
-static void roughness(void **state) {
-    (void)state;
+static void roughness(UNUSED void **state) {
     const struct storage *all[] = {&UNORM8, &UNORM16, &R16F, &R32F};
     for (size_t i = 0; i < 4; i++)
         for (int e = 0; e < 3; e++) check_roughness((enum glint_roughness_encoding)e, all[i]);
@@ -379,13 +327,13 @@ static void check_motion(enum glint_motion_encoding e, const struct storage *s, 
     for (size_t i = 0; i < COUNT; i++)
         for (int a = 0; a < 2; a++) {
             const double v = scale[a] * (double)fixture.gbuffer[17 * i + 10 + (size_t)a];
-            if (e == GLINT_MOTION_PACKED16) ((uint16_t *)bits[a])[i] = (uint16_t)lround(v + 32768);
-            else store(s, v, i, bits[a]);
+            if (e == GLINT_MOTION_PACKED16) ((uint16_t *)encoded_bits[a])[i] = (uint16_t)lround(v + 32768);
+            else store(s, v, i, encoded_bits[a]);
         }
     const struct glint_encodings encodings = {.motion = e};
-    struct glint_capture *capture = dump(fixture_path(path, "motion.exr"), "gbuffer", &encodings, names, 2,
-                                         e == GLINT_MOTION_PACKED16 ? GLINT_U16 : s->type, s->name, &frame);
-    decoded(capture, "gbuffer", names, 2, out);
+    struct glint_capture *capture = encoded_capture(fixture_path(path, "motion.exr"), "gbuffer", &encodings, names, 2,
+                                                    e == GLINT_MOTION_PACKED16 ? GLINT_U16 : s->type, s->name, &frame);
+    encoded_read(capture, "gbuffer", names, 2, out);
     for (size_t i = 0; i < COUNT; i++)
         for (int a = 0; a < 2; a++) {
             const double uv = (double)fixture.gbuffer[17 * i + 10 + (size_t)a], v = uv * scale[a];
@@ -398,8 +346,7 @@ static void check_motion(enum glint_motion_encoding e, const struct storage *s, 
     close_and_remove(&capture, path);
 }
 
-static void motion(void **state) {
-    (void)state;
+static void motion(UNUSED void **state) {
     const struct storage *all[] = {&R16F, &R32F};
     for (int y = 0; y < 2; y++)
         for (size_t i = 0; i < 2; i++)
@@ -430,11 +377,12 @@ static void check_color(enum glint_color_encoding e, const struct storage *s, do
     const struct glint_frame frame = fixture_frame();
     for (size_t i = 0; i < COUNT; i++)
         for (size_t c = 0; c < 3; c++)
-            store(s, stored_color(e, brightest * (double)fixture.color[4 * i + c], frame.pre_exposure), i, bits[c]);
+            store(s, stored_color(e, brightest * (double)fixture.color[4 * i + c], frame.pre_exposure), i,
+                  encoded_bits[c]);
     const struct glint_encodings encodings = {.color = e};
     struct glint_capture *capture =
-        dump(fixture_path(path, "color.exr"), "lit", &encodings, names, 3, s->type, s->name, &frame);
-    decoded(capture, "lit", names, 3, out);
+        encoded_capture(fixture_path(path, "color.exr"), "lit", &encodings, names, 3, s->type, s->name, &frame);
+    encoded_read(capture, "lit", names, 3, out);
     for (size_t i = 0; i < COUNT; i++)
         for (size_t c = 0; c < 3; c++) {
             const double linear = brightest * (double)fixture.color[4 * i + c];
@@ -452,8 +400,7 @@ static void check_color(enum glint_color_encoding e, const struct storage *s, do
     close_and_remove(&capture, path);
 }
 
-static void color(void **state) {
-    (void)state;
+static void color(UNUSED void **state) {
     const struct storage *all[] = {&R16F, &R32F};
     for (size_t i = 0; i < 2; i++)
         for (int e = 0; e < 3; e++) check_color((enum glint_color_encoding)e, all[i], 30);
@@ -462,16 +409,10 @@ static void color(void **state) {
     check_color(GLINT_COLOR_LINEAR, &UNORM16, 1);
 }
 
-static int setup(void **state) {
-    (void)state;
-    fixture_init(&fixture);
-    return 0;
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(depth),  cmocka_unit_test(normals), cmocka_unit_test(roughness),
         cmocka_unit_test(motion), cmocka_unit_test(color),
     };
-    return cmocka_run_group_tests(tests, setup, NULL);
+    return cmocka_run_group_tests(tests, fixture_setup, NULL);
 }

@@ -1,18 +1,14 @@
 /* The EXR layer alone: unknown attributes and parts are preserved, layers are read separately, and usage errors are reported. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <cmocka.h>
 
 #include "fixture.h"
 #include "rewrite.h"
-
-static struct fixture fixture;
+#include "unit.h"
 
 /* box2i, rational, v2f and an unknown type, as bytes in the file's order. */
 static const int32_t box[4] = {1, -2, 3, 4};
@@ -56,8 +52,7 @@ static void check_same(const struct glint_exr_attribute *a, const struct glint_e
 }
 
 /* A capture with foreign parts and attributes, read and written twice. */
-static void what_is_not_known_is_kept_and_passed_on(void **state) {
-    (void)state;
+static void what_is_not_known_is_kept_and_passed_on(UNUSED void **state) {
     static struct rewrite r;
     char path[512];
     struct glint_error err = {0};
@@ -108,8 +103,7 @@ static void what_is_not_known_is_kept_and_passed_on(void **state) {
 }
 
 /* Attributes that an engine adds through the public writer. */
-static void the_engines_own_attributes_come_back(void **state) {
-    (void)state;
+static void the_engines_own_attributes_come_back(UNUSED void **state) {
     char path[512];
     struct glint_error err = {0};
     const struct glint_attribute mine[] = {
@@ -144,8 +138,7 @@ static void the_engines_own_attributes_come_back(void **state) {
 }
 
 /* A damaged part does not prevent reading the others: only the chunks of the requested part are read. */
-static void a_layer_is_read_without_the_others(void **state) {
-    (void)state;
+static void a_layer_is_read_without_the_others(UNUSED void **state) {
     char path[512];
     struct glint_error err = {0};
     /* Constant enough for ZIP to be used; noise would be stored uncompressed. */
@@ -177,8 +170,7 @@ static void a_layer_is_read_without_the_others(void **state) {
     unlink(path);
 }
 
-static void mistakes_of_the_caller_are_told(void **state) {
-    (void)state;
+static void mistakes_of_the_caller_are_told(UNUSED void **state) {
     char path[512];
     struct glint_error err = {0};
     assert_true(fixture_write(&fixture, fixture_path(path, "calls.exr"), FIXTURE_PARTS, NULL, &err));
@@ -223,12 +215,6 @@ static void mistakes_of_the_caller_are_told(void **state) {
     unlink(path);
 }
 
-static int setup(void **state) {
-    (void)state;
-    fixture_init(&fixture);
-    return 0;
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_not_known_is_kept_and_passed_on),
@@ -236,5 +222,5 @@ int main(void) {
         cmocka_unit_test(a_layer_is_read_without_the_others),
         cmocka_unit_test(mistakes_of_the_caller_are_told),
     };
-    return cmocka_run_group_tests(tests, setup, NULL);
+    return cmocka_run_group_tests(tests, fixture_setup, NULL);
 }

@@ -1,19 +1,16 @@
 /* Untrusted files are read or refused with a reason, within the documented limits of memory. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-#include <cmocka.h>
 
 #include "fixture.h"
 #include "glint/exr.h"
 #include "heap.h"
 #include "hostile.h"
+#include "unit.h"
 
-static struct fixture fixture;
 static uint8_t *whole;
 static size_t size;
 
@@ -44,8 +41,7 @@ static size_t find_bytes(const char *text, size_t length, size_t from) {
 
 /* ---- truncated ---- */
 
-static void cut_off_anywhere_is_refused(void **state) {
-    (void)state;
+static void cut_off_anywhere_is_refused(UNUSED void **state) {
     load_file(FIXTURE_LIT + 1);
     struct glint_error err = {0};
     assert_true(hostile_use_bytes(whole, size, &err));
@@ -60,8 +56,7 @@ static void cut_off_anywhere_is_refused(void **state) {
 
 /* ---- damaged ---- */
 
-static void damage_is_read_or_refused(void **state) {
-    (void)state;
+static void damage_is_read_or_refused(UNUSED void **state) {
     load_file(FIXTURE_CUBEMAP_1 + 1);
     uint8_t *copy = malloc(size);
     assert_non_null(copy);
@@ -95,8 +90,7 @@ static void assert_lie_refused(size_t at, const void *bytes, size_t count, const
         fail_msg("%zu bytes taken, the limit is %llu", used, (unsigned long long)hostile_limits.memory_bytes);
 }
 
-static void absurd_headers_take_no_memory(void **state) {
-    (void)state;
+static void absurd_headers_take_no_memory(UNUSED void **state) {
     load_file(FIXTURE_LIT + 1);
     const size_t window = find_bytes("dataWindow\0box2i\0", 17, 0) + 17 + 4;
     const int32_t huge[4] = {0, 0, 0x7ffffff0, 0x7ffffff0}, wide[4] = {0, 0, 2000, 23}, tall[4] = {0, 0, 39, 7000};
@@ -118,14 +112,12 @@ static void absurd_headers_take_no_memory(void **state) {
     assert_lie_refused(0, &(uint32_t){0}, 4, "/proc/self/fd/"); /* not an EXR file */
 }
 
-static void two_parts_of_one_name_are_refused(void **state) {
-    (void)state;
+static void two_parts_of_one_name_are_refused(UNUSED void **state) {
     load_file(FIXTURE_CUBEMAP_1 + 1);
     assert_lie_refused(find_bytes("cubemap.017", 11, 0), "cubemap.000", 11, "cubemap.000");
 }
 
-static void subsampled_parts_are_refused(void **state) {
-    (void)state;
+static void subsampled_parts_are_refused(UNUSED void **state) {
     load_file(FIXTURE_LIT + 1);
     /* The first channel of lit: name, type, flags, then the sampling in x. */
     const size_t list = find_bytes("channels\0chlist\0", 16, find_bytes("channels\0chlist\0", 16, 0) + 1) + 16 + 4;
@@ -133,8 +125,7 @@ static void subsampled_parts_are_refused(void **state) {
     assert_lie_refused(list + 2 + 4 + 4, &(int32_t){2}, 4, "part lit: expected flat scanlines");
 }
 
-static void limits_hold(void **state) {
-    (void)state;
+static void limits_hold(UNUSED void **state) {
     load_file(FIXTURE_PARTS);
     char path[512];
     struct glint_error err = {0};
@@ -161,8 +152,7 @@ static void limits_hold(void **state) {
 }
 
 /* The headers that need the most memory per byte: many channels, many small attributes, many strings. */
-static void crowded_headers_stay_within_memory(void **state) {
-    (void)state;
+static void crowded_headers_stay_within_memory(UNUSED void **state) {
     char path[512];
     struct glint_error err = {0};
     static char names[1000][8];
@@ -206,8 +196,7 @@ static void crowded_headers_stay_within_memory(void **state) {
     unlink(path);
 }
 
-static void what_is_no_file_is_refused(void **state) {
-    (void)state;
+static void what_is_no_file_is_refused(UNUSED void **state) {
     static const char *const paths[] = {"/", "/dev/null", "/dev/zero", "/nowhere.exr", ""};
     for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) {
         struct glint_error err = {0};
@@ -216,14 +205,7 @@ static void what_is_no_file_is_refused(void **state) {
     }
 }
 
-static int setup(void **state) {
-    (void)state;
-    fixture_init(&fixture);
-    return 0;
-}
-
-static int teardown(void **state) {
-    (void)state;
+static int teardown(UNUSED void **state) {
     free(whole);
     return 0;
 }
@@ -235,5 +217,5 @@ int main(void) {
         cmocka_unit_test(subsampled_parts_are_refused),      cmocka_unit_test(crowded_headers_stay_within_memory),
         cmocka_unit_test(what_is_no_file_is_refused),        cmocka_unit_test(damage_is_read_or_refused),
     };
-    return cmocka_run_group_tests(tests, setup, teardown);
+    return cmocka_run_group_tests(tests, fixture_setup, teardown);
 }

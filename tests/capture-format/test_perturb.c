@@ -1,19 +1,13 @@
 /* Perturbed reads: the distance by which values move for each storage format, and the values that do not move. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include <cmocka.h>
-
 #include "fixture.h"
+#include "unit.h"
 
 enum { PIXELS = FIX_W * FIX_H };
-static struct fixture fixture;
 static char path[512];
 
 /* The smallest capture, with these values and storage in those channels of the G-buffer whose names begin with `channel`. */
@@ -60,7 +54,7 @@ static double half_of(double v, int digits) {
 }
 
 /* Catches: a format's name mistaken for another's, steps of the wrong size, random signs that are always equal. */
-static void values_move_by_half_a_step(void **state) {
+static void values_move_by_half_a_step(UNUSED void **state) {
     static const struct {
         const char *storage;
         int digits; /* of floating-point formats; 0: fixed point with `steps` */
@@ -82,7 +76,6 @@ static void values_move_by_half_a_step(void **state) {
         {"VK_FORMAT_R16G16B16A16_SFLOAT", 10, 0},
     };
     static float values[PIXELS], moved[PIXELS], again[PIXELS], other[PIXELS];
-    (void)state;
     for (size_t i = 0; i < PIXELS; i++) values[i] = 0.1F + 0.85F * (float)fixture_noise((uint32_t)i, 5);
     values[0] = 0;
     values[1] = 1;
@@ -114,12 +107,11 @@ static void values_move_by_half_a_step(void **state) {
 
 /* Over eight seeds. Catches: channels that move alike, channels with independent coins, which agree in other than half of eight seeds
    for 73 % of the pixels, and a ninth seed that equals the first. */
-static void channels_of_a_pixel_have_nothing_in_common(void **state) {
+static void channels_of_a_pixel_have_nothing_in_common(UNUSED void **state) {
     static const char *const channels[] = {"material.roughness", "material.metalness", "material.specular"};
     static float values[PIXELS], moved[3 * PIXELS], first[3 * PIXELS];
     static int agree[3][PIXELS];
     struct glint_error err = {0};
-    (void)state;
     for (size_t i = 0; i < PIXELS; i++) values[i] = 0.1F + 0.8F * (float)fixture_noise((uint32_t)i, 5);
     struct glint_capture *capture = capture_with("material", values, "R8", (struct glint_encodings){0});
     for (uint32_t seed = 1; seed <= 9; seed++) {
@@ -138,11 +130,10 @@ static void channels_of_a_pixel_have_nothing_in_common(void **state) {
 }
 
 /* t² / |B| · h, whether the buffer was decoded before capturing or by the reader; sky does not move. */
-static void depth_moves_as_its_buffer_does(void **state) {
+static void depth_moves_as_its_buffer_does(UNUSED void **state) {
     static float device[PIXELS], linear[PIXELS], moved[2][PIXELS], before[2][PIXELS];
     const double *m = fixture_frame().camera.view_to_clip, unit = fixture_frame().metres_per_unit;
     const double scale = unit > 0 ? unit : 1;
-    (void)state;
     for (size_t i = 0; i < PIXELS; i++) {
         const double t = 1 + 20 * fixture_noise((uint32_t)i, 9);
         device[i] = (float)(m[10] * m[14] + m[11] / t);
@@ -166,10 +157,9 @@ static void depth_moves_as_its_buffer_does(void **state) {
     }
 }
 
-static void only_what_is_named_moves(void **state) {
+static void only_what_is_named_moves(UNUSED void **state) {
     static float values[PIXELS], moved[PIXELS], normal[PIXELS], normal_moved[PIXELS];
     struct glint_error err = {0};
-    (void)state;
     for (size_t i = 0; i < PIXELS; i++) values[i] = 0.3F;
     struct glint_capture *capture = capture_with("material.metalness", values, "R8", (struct glint_encodings){0});
     read_moved(capture, "normal.X", 0, NULL, normal);
@@ -198,6 +188,5 @@ int main(void) {
         cmocka_unit_test(depth_moves_as_its_buffer_does),
         cmocka_unit_test(only_what_is_named_moves),
     };
-    fixture_init(&fixture);
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, fixture_setup, NULL);
 }

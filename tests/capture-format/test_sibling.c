@@ -1,16 +1,12 @@
 /* Cube maps in a sibling file: found by name in the same folder, and only used if their content hash matches. */
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
-#include <cmocka.h>
 
 #include "fixture.h"
+#include "unit.h"
 
-static struct fixture fixture;
 static char probes[512], capture_path[512];
 
 /* A file with the cube maps alone. A missing channel only shifts bytes. */
@@ -52,8 +48,7 @@ static bool write_capture(const char *sibling, bool background, struct glint_err
     return ok;
 }
 
-static void pixels_come_from_the_sibling(void **state) {
-    (void)state;
+static void pixels_come_from_the_sibling(UNUSED void **state) {
     static float out[6 * FIX_CUBE * FIX_CUBE * 5];
     static const char *const names[] = {"R", "G", "B", "A", "distance.Z"};
     write_probes(0);
@@ -82,8 +77,7 @@ static void assert_refused(const char *words) {
         fail_msg("expected \"%s\", found \"%s\"", words, err.message);
 }
 
-static void one_changed_byte_is_refused(void **state) {
-    (void)state;
+static void one_changed_byte_is_refused(UNUSED void **state) {
     struct glint_error err = {0};
     write_probes(0);
     assert_true(write_capture("probes.exr", false, &err));
@@ -97,8 +91,7 @@ static void one_changed_byte_is_refused(void **state) {
     assert_refused("expected the hash");
 }
 
-static void another_file_of_that_name_is_refused(void **state) {
-    (void)state;
+static void another_file_of_that_name_is_refused(UNUSED void **state) {
     struct glint_error err = {0};
     write_probes(0);
     assert_true(write_capture("probes.exr", false, &err));
@@ -109,16 +102,14 @@ static void another_file_of_that_name_is_refused(void **state) {
 }
 
 /* The hash is right, but the file has no such part, which only a faulty writer can produce. */
-static void a_sibling_without_the_part_is_refused(void **state) {
-    (void)state;
+static void a_sibling_without_the_part_is_refused(UNUSED void **state) {
     struct glint_error err = {0};
     assert_true(fixture_write(&fixture, probes, FIXTURE_LIT + 1, NULL, &err));
     assert_true(write_capture("probes.exr", false, &err));
     assert_refused("expected a part of this name");
 }
 
-static void a_sibling_that_is_not_there_is_an_error_of_the_writer(void **state) {
-    (void)state;
+static void a_sibling_that_is_not_there_is_an_error_of_the_writer(UNUSED void **state) {
     for (int background = 0; background < 2; background++) {
         struct glint_error err = {0};
         unlink(probes);
@@ -130,8 +121,7 @@ static void a_sibling_that_is_not_there_is_an_error_of_the_writer(void **state) 
     }
 }
 
-static void cube_maps_alone_are_no_capture(void **state) {
-    (void)state;
+static void cube_maps_alone_are_no_capture(UNUSED void **state) {
     struct glint_error err = {0};
     write_probes(0);
     assert_null(glint_capture_open(probes, NULL, &err));
@@ -144,8 +134,7 @@ static void count_violation(void *user, const char *rule, const char *message) {
 }
 
 /* A file with cube maps alone is valid. */
-static void cube_maps_alone_validate(void **state) {
-    (void)state;
+static void cube_maps_alone_validate(UNUSED void **state) {
     struct glint_error err = {0};
     size_t reported = 0, count = 0;
     write_probes(0);
@@ -154,16 +143,14 @@ static void cube_maps_alone_validate(void **state) {
     assert_int_equal(reported, 0);
 }
 
-static int setup(void **state) {
-    (void)state;
+static int setup(UNUSED void **state) {
     fixture_init(&fixture);
     fixture_path(probes, "probes.exr");
     fixture_path(capture_path, "shot.0001.exr");
     return 0;
 }
 
-static int teardown(void **state) {
-    (void)state;
+static int teardown(UNUSED void **state) {
     unlink(probes);
     unlink(capture_path);
     return 0;

@@ -1,16 +1,11 @@
 /* The resolution of depth storage, compared with all values of the format, decoded by the formula of FORMAT.md. */
 #include <Imath/half.h>
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
-#include <cmocka.h>
 
 #include "fixture.h"
-
-static struct fixture fixture;
+#include "unit.h"
 
 /* A capture whose depth is declared like this. The fixture's projection has near at 0.1 and far at 500 units; here a unit is a metre. */
 static struct glint_capture *capture_of(enum glint_depth_encoding encoding, const char *storage, char path[512]) {
@@ -61,9 +56,8 @@ static void assert_step(const char *storage, enum glint_depth_encoding encoding,
     unlink(path);
 }
 
-static void steps_are_those_between_neighbours(void **state) {
+static void steps_are_those_between_neighbours(UNUSED void **state) {
     static const double places[] = {0.7, 1, 10, 47, 100, 444};
-    (void)state;
     for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
         struct around half = {places[i], 0, (double)INFINITY}, linear = half, fixed = half;
         for (unsigned h = 0; h < 0x7c00; h++) {
@@ -78,9 +72,8 @@ static void steps_are_those_between_neighbours(void **state) {
     }
 }
 
-static void what_is_out_of_range_has_no_step(void **state) {
+static void what_is_out_of_range_has_no_step(UNUSED void **state) {
     char path[512];
-    (void)state;
     struct glint_capture *capture = capture_of(GLINT_DEPTH_DEVICE, "D24", path);
     const struct glint_part_info *gbuffer = glint_capture_find(capture, "gbuffer");
     assert_true(isnan(glint_depth_step(capture, gbuffer, 0.05)));
@@ -97,6 +90,5 @@ int main(void) {
         cmocka_unit_test(steps_are_those_between_neighbours),
         cmocka_unit_test(what_is_out_of_range_has_no_step),
     };
-    fixture_init(&fixture);
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, fixture_setup, NULL);
 }

@@ -1,17 +1,13 @@
 /* Each rule of FORMAT.md is broken separately: validate names the rule, and the reader refuses what it must. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-#include <cmocka.h>
 
 #include "fixture.h"
 #include "rewrite.h"
-
-static struct fixture fixture;
+#include "unit.h"
 
 struct found {
     size_t count;
@@ -275,8 +271,7 @@ static const struct {
     {"pixels-range", {"truth.reflection.ggx: error", "not negative"}, negative_error, true},
 };
 
-static void every_rule_is_reported_by_name(void **state) {
-    (void)state;
+static void every_rule_is_reported_by_name(UNUSED void **state) {
     static struct rewrite r;
     static struct found found;
     char path[512], broken[512];
@@ -305,8 +300,7 @@ static void every_rule_is_reported_by_name(void **state) {
     unlink(broken);
 }
 
-static void a_whole_capture_has_no_violation(void **state) {
-    (void)state;
+static void a_whole_capture_has_no_violation(UNUSED void **state) {
     static struct found found;
     char path[512];
     struct glint_error err = {0};
@@ -318,8 +312,7 @@ static void a_whole_capture_has_no_violation(void **state) {
 
 /* A few samples of a small bright lamp, whose standard error exceeds the mean. A missing mirror ray. The positions of samples without
    their colours. */
-static void unusual_but_valid_captures_pass(void **state) {
-    (void)state;
+static void unusual_but_valid_captures_pass(UNUSED void **state) {
     static struct rewrite r;
     static struct found found;
     static float depth[FIX_W * FIX_H];
@@ -345,8 +338,7 @@ static void unusual_but_valid_captures_pass(void **state) {
     unlink(path);
 }
 
-static void all_violations_are_reported_together(void **state) {
-    (void)state;
+static void all_violations_are_reported_together(UNUSED void **state) {
     static struct rewrite r;
     static struct found found;
     char path[512];
@@ -365,8 +357,7 @@ static void all_violations_are_reported_together(void **state) {
 }
 
 /* An alpha between 0 and 1, as filtering produces, implies nothing about other channels. */
-static void filtered_alpha_implies_nothing(void **state) {
-    (void)state;
+static void filtered_alpha_implies_nothing(UNUSED void **state) {
     static struct rewrite r;
     static struct found found;
     char path[512];
@@ -384,8 +375,7 @@ static void filtered_alpha_implies_nothing(void **state) {
 }
 
 /* A G-buffer may contain anything where there is sky. */
-static void only_depth_is_checked_at_sky(void **state) {
-    (void)state;
+static void only_depth_is_checked_at_sky(UNUSED void **state) {
     static struct rewrite r;
     static struct found found;
     char path[512];
@@ -404,8 +394,7 @@ static void only_depth_is_checked_at_sky(void **state) {
 
 /* The example for engine programmers is valid and correct: a floor two metres below the eye. */
 static const char *example;
-static void the_example_is_a_valid_capture(void **state) {
-    (void)state;
+static void the_example_is_a_valid_capture(UNUSED void **state) {
     static struct found found;
     static float out[64 * 36 * 4];
     char path[512], command[1100];
@@ -430,12 +419,6 @@ static void the_example_is_a_valid_capture(void **state) {
     unlink(path);
 }
 
-static int setup(void **state) {
-    (void)state;
-    fixture_init(&fixture);
-    return 0;
-}
-
 int main(int argc, char **argv) {
     example = argc > 1 ? argv[1] : "";
     const struct CMUnitTest tests[] = {
@@ -444,5 +427,5 @@ int main(int argc, char **argv) {
         cmocka_unit_test(unusual_but_valid_captures_pass),      cmocka_unit_test(only_depth_is_checked_at_sky),
         cmocka_unit_test(the_example_is_a_valid_capture),
     };
-    return cmocka_run_group_tests(tests, setup, NULL);
+    return cmocka_run_group_tests(tests, fixture_setup, NULL);
 }

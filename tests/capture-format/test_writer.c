@@ -2,19 +2,15 @@
 #include <dirent.h>
 #include <fcntl.h>
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <cmocka.h>
 
 #include "fixture.h"
 #include "glint/exr.h"
-
-static struct fixture fixture;
+#include "unit.h"
 
 static bool exists(const char *path) {
     return access(path, F_OK) == 0;
@@ -50,8 +46,7 @@ static bool add_part(struct glint_writer *writer, enum fixture_part which, struc
 
 /* ---- compressions ---- */
 
-static void every_compression_reads_back(void **state) {
-    (void)state;
+static void every_compression_reads_back(UNUSED void **state) {
     static float out[FIX_W * FIX_H * 3];
     static const char *const names[] = {"albedo.R", "motion.X", "vertexNormal.Y"};
     static const size_t at[] = {7, 10, 14};
@@ -89,8 +84,7 @@ static void every_compression_reads_back(void **state) {
     fixture_init(&fixture);
 }
 
-static void the_same_input_gives_the_same_bytes(void **state) {
-    (void)state;
+static void the_same_input_gives_the_same_bytes(UNUSED void **state) {
     char hashes[3][33];
     for (int i = 0; i < 3; i++) {
         char path[512];
@@ -110,8 +104,7 @@ static void the_same_input_gives_the_same_bytes(void **state) {
 /* ---- background ---- */
 
 /* The worker cannot finish, because the name of its temporary file is taken by a named pipe without a reader. */
-static void finish_returns_before_the_file_exists(void **state) {
-    (void)state;
+static void finish_returns_before_the_file_exists(UNUSED void **state) {
     char path[512], temporary[600];
     struct glint_error err = {0};
     fixture_path(path, "background.exr");
@@ -131,8 +124,7 @@ static void finish_returns_before_the_file_exists(void **state) {
     assert_false(has_leftovers(path));
 }
 
-static void memory_is_the_callers_again_after_add_part(void **state) {
-    (void)state;
+static void memory_is_the_callers_again_after_add_part(UNUSED void **state) {
     char path[512];
     struct glint_error err = {0};
     static float color[FIX_W * FIX_H * 3], out[FIX_W * FIX_H * 3];
@@ -162,8 +154,7 @@ static void memory_is_the_callers_again_after_add_part(void **state) {
     unlink(path);
 }
 
-static void nothing_is_left_without_finish(void **state) {
-    (void)state;
+static void nothing_is_left_without_finish(UNUSED void **state) {
     char path[512];
     struct glint_error err = {0};
     for (int background = 0; background < 2; background++) {
@@ -175,8 +166,7 @@ static void nothing_is_left_without_finish(void **state) {
     }
 }
 
-static void a_failed_write_leaves_what_was_there(void **state) {
-    (void)state;
+static void a_failed_write_leaves_what_was_there(UNUSED void **state) {
     char path[512];
     struct glint_error err = {0};
     fixture_path(path, "kept.exr");
@@ -196,8 +186,7 @@ static void a_failed_write_leaves_what_was_there(void **state) {
     assert_false(has_leftovers(path));
 }
 
-static void a_folder_that_is_not_there_is_an_io_error(void **state) {
-    (void)state;
+static void a_folder_that_is_not_there_is_an_io_error(UNUSED void **state) {
     struct glint_error err = {0};
     assert_false(fixture_write(&fixture, "/nowhere/at/all.exr", FIXTURE_LIT + 1, NULL, &err));
     assert_int_equal(err.code, GLINT_ERROR_IO);
@@ -255,19 +244,16 @@ static void octahedral_with_z(struct glint_part *p, struct fixture_channels *c) 
 static void half_motion(struct glint_part *p, struct fixture_channels *c) {
     (void)p, c->all[11].name = "stencil.id", p->channel_count = 16;
 }
-static void ours(struct glint_part *p, struct fixture_channels *c) {
-    (void)c;
+static void ours(struct glint_part *p, UNUSED struct fixture_channels *c) {
     static const struct glint_attribute a = {.name = "glint.up", .type = GLINT_ATTRIBUTE_STRING, .string = "+z"};
     p->attributes = &a;
     p->attribute_count = 1;
 }
-static void inside_out_box(struct glint_part *p, struct fixture_channels *c) {
-    (void)c;
+static void inside_out_box(struct glint_part *p, UNUSED struct fixture_channels *c) {
     static struct glint_cubemap cube = {.inner = GLINT_VOLUME_BOX, .box_min = {1, 1, 1}, .box_max = {2, 2, 0}};
     p->cubemap = &cube;
 }
-static void far_away(struct glint_part *p, struct fixture_channels *c) {
-    (void)c;
+static void far_away(struct glint_part *p, UNUSED struct fixture_channels *c) {
     static struct glint_cubemap cube = {.center = {INFINITY, 0, 0}};
     p->cubemap = &cube;
 }
@@ -293,8 +279,7 @@ static const struct refusal refusals[] = {
     {FIXTURE_CUBEMAP_0, far_away, GLINT_ERROR_FORMAT, {"glint.center", "finite"}},
 };
 
-static void what_breaks_a_rule_is_refused_and_the_writer_stays_usable(void **state) {
-    (void)state;
+static void what_breaks_a_rule_is_refused_and_the_writer_stays_usable(UNUSED void **state) {
     char path[512];
     struct glint_error err = {0};
     struct glint_writer *writer = begin(fixture_path(path, "refused.exr"), false);
@@ -319,8 +304,7 @@ static void what_breaks_a_rule_is_refused_and_the_writer_stays_usable(void **sta
     unlink(path);
 }
 
-static void a_frame_that_breaks_a_rule_is_refused(void **state) {
-    (void)state;
+static void a_frame_that_breaks_a_rule_is_refused(UNUSED void **state) {
     struct glint_error err = {0};
     char path[512];
     for (int i = 0; i < 9; i++) {
@@ -341,8 +325,7 @@ static void a_frame_that_breaks_a_rule_is_refused(void **state) {
     }
 }
 
-static void zero_is_the_default(void **state) {
-    (void)state;
+static void zero_is_the_default(UNUSED void **state) {
     char path[512];
     struct glint_error err = {0};
     struct glint_frame frame = {0};
@@ -360,12 +343,6 @@ static void zero_is_the_default(void **state) {
     unlink(path);
 }
 
-static int setup(void **state) {
-    (void)state;
-    fixture_init(&fixture);
-    return 0;
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_compression_reads_back),
@@ -379,5 +356,5 @@ int main(void) {
         cmocka_unit_test(a_frame_that_breaks_a_rule_is_refused),
         cmocka_unit_test(zero_is_the_default),
     };
-    return cmocka_run_group_tests(tests, setup, NULL);
+    return cmocka_run_group_tests(tests, fixture_setup, NULL);
 }

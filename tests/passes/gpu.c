@@ -1,17 +1,13 @@
 #include "gpu.h"
 
 #include <dirent.h>
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
-
-#include <cmocka.h>
 
 #include "glint/sort.h"
 #include "plain_capture.h"
+#include "unit.h"
 
 static void require(bool ok, const struct glint_error *err) {
     if (!ok) fail_msg("%s", err->message);

@@ -1,16 +1,10 @@
 /* blur/mips compared with its definition in double precision: box-filtered levels, between which a pixel's cone selects. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 #include "gpu.h"
 #include "plain_capture.h"
+#include "unit.h"
 
 enum { SIZE = 128, HALF = SIZE / 2, LEVELS = 7 };
 
@@ -24,8 +18,7 @@ static void stripes(const struct plain *plain, float *values) {
     }
 }
 
-static void far_away(uint32_t number, const double direction[3], float out[5]) {
-    (void)number;
+static void far_away(UNUSED uint32_t number, const double direction[3], float out[5]) {
     for (int k = 0; k < 4; ++k) out[k] = 1;
     out[4] = direction[0] > 0 ? 40 : INFINITY;
 }

@@ -1,15 +1,11 @@
 /* The neighbours with which reflections are shared, and their weights: blur/plus, and temporal/rough without history. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-#include <cmocka.h>
-
 #include "gpu.h"
 #include "plain_capture.h"
+#include "unit.h"
 
 enum { SIZE = 96, HALF = SIZE / 2 };
 

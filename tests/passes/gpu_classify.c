@@ -1,16 +1,11 @@
 /* Lists of rays by class: their order compared with an independent one, and the bits of tracers that process them. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "gpu.h"
 #include "plain_capture.h"
+#include "unit.h"
 
 enum { LIST_WIDTH = 256, CLASSES = 2, RANGES_AT = 128 };
 

@@ -1,17 +1,13 @@
 /* The cocoon compared with maxima that are computed here, level by level. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "cocoon_walk.h"
 #include "gpu.h"
 #include "plain_capture.h"
+#include "unit.h"
 
 static float *level_of(struct gpu *gpu, uint32_t level, uint32_t *width) {
     char name[64];

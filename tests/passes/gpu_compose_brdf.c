@@ -1,15 +1,11 @@
 /* compose: pixels without reflection do not change, and others get the fraction of reflection that their material defines. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-#include <cmocka.h>
-
 #include "gpu.h"
 #include "plain_capture.h"
+#include "unit.h"
 
 static void load_matte(struct gpu *gpu) {
     gpu_sample(gpu, "matte", "matte", &(struct glint_sample_options){.width = 160, .height = 90, .cube_size = 32});

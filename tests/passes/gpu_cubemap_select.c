@@ -1,23 +1,18 @@
 /* cubemap_select/score compared with scores in double precision: spheres of known radii around known centres. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-#include <cmocka.h>
-
 #include "gpu.h"
 #include "plain_capture.h"
+#include "unit.h"
 
 enum { MAPS = 4 };
 
 static const double radius[MAPS] = {3, 6, 2.5, 9}, fades[MAPS] = {0.6, 1, 0.9, 0.25};
 static const double centers[MAPS][3] = {{-1, 0, -3}, {1.5, 0.5, -2}, {2.5, -0.5, -4}, {0, 0, 2}};
 
-static void sphere(uint32_t number, const double d[3], float out[5]) {
-    (void)d;
+static void sphere(uint32_t number, UNUSED const double d[3], float out[5]) {
     out[0] = out[1] = out[2] = out[3] = 1;
     out[4] = (float)radius[number];
 }

@@ -1,15 +1,11 @@
 /* The stratification of downsample's normals, and their density in a cut lobe. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-#include <cmocka.h>
-
 #include "gpu.h"
 #include "plain_capture.h"
+#include "unit.h"
 
 enum { SIZE = 256, DRAWS = SIZE * SIZE, WIDE = 1024 };
 static const double pi = 3.14159265358979323846, roughness = 0.5, threshold = 0.1, share = 0.5;

@@ -1,15 +1,11 @@
 /* downsample/pick: the distribution of its normals, and the pixel that it chooses. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-#include <cmocka.h>
-
 #include "gpu.h"
 #include "plain_capture.h"
+#include "unit.h"
 
 enum { SIZE = 256, DRAWS = SIZE * SIZE / 4 };
 /* Kolmogorov and Smirnov: one sample in 1,000 is farther from its distribution. */

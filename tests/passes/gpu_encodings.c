@@ -1,15 +1,10 @@
 /* A G-buffer as in the GTA V article, with reversed logarithmic depth and glossiness, is traced like the canonical one: passes read
    linear depth in metres, downsampled, and march in inverse depth. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdio.h>
 #include <stdlib.h>
 
-#include <cmocka.h>
-
 #include "gpu.h"
+#include "unit.h"
 
 static void reversed_logarithmic_depth_is_marched_as_linear_depth_is(void **state) {
     struct gpu *gpu = *state;

@@ -1,32 +1,24 @@
 /* Rays that fall back to the cocoon, compared with a march through it by small steps, a sphere and a box. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 #include "cocoon_walk.h"
 #include "end_reason_names.h"
 #include "gpu.h"
 #include "plain_capture.h"
+#include "unit.h"
 
 static const double radius = 3.2;
-static void sphere(uint32_t number, const double d[3], float out[5]) {
-    (void)number;
-    (void)d;
+static void sphere(UNUSED uint32_t number, UNUSED const double d[3], float out[5]) {
     out[0] = out[1] = out[2] = out[3] = 1;
     out[4] = (float)radius;
 }
 
 /* A room with thin poles and a window to the sky. The cube map is not at its centre. */
 static const double low_corner[3] = {-4, -1.5, -3.2}, high_corner[3] = {3, 2, 5};
-static void box(uint32_t number, const double d[3], float out[5]) {
+static void box(UNUSED uint32_t number, const double d[3], float out[5]) {
     double distance = INFINITY;
-    (void)number;
     for (int k = 0; k < 3; ++k) distance = fmin(distance, (d[k] < 0 ? low_corner[k] : high_corner[k]) / d[k]);
     bool window = distance * d[0] > 2.99 && fabs(distance * d[1]) < 1 && distance * d[2] > 0 && distance * d[2] < 2;
     out[0] = out[1] = out[2] = out[3] = window ? 0 : 1;

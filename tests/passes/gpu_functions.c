@@ -1,17 +1,11 @@
 /* Statistics of the functions in passes/shared/: distributions, nets. glint selftest compares single values. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 #include "functions_rows.h"
 #include "gpu.h"
 #include "plain_capture.h"
+#include "unit.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -44,8 +38,7 @@ static const float *texel(int row, int column) {
     return &table[4 * (row * COLUMNS + column)];
 }
 
-static void roughness_zero_is_an_exact_mirror(void **state) {
-    (void)state;
+static void roughness_zero_is_an_exact_mirror(UNUSED void **state) {
     for (int i = 0; i < COLUMNS; ++i)
         for (int k = 0; k < 2; ++k) {
             assert_true(texel(ROW_EXACT_MIRROR, i)[0] == 1.0f);
@@ -54,8 +47,7 @@ static void roughness_zero_is_an_exact_mirror(void **state) {
         }
 }
 
-static void without_specular_nothing_reflects(void **state) {
-    (void)state;
+static void without_specular_nothing_reflects(UNUSED void **state) {
     assert_true(texel(ROW_GRAZING, 0)[2] == 0.0f);
     assert_true(texel(ROW_GRAZING, 0)[1] == 0.0f);
     assert_true(texel(ROW_GRAZING, 128)[1] == 1.0f); /* ordinary dielectrics: 1 at grazing incidence */
@@ -64,8 +56,7 @@ static void without_specular_nothing_reflects(void **state) {
 
 /* Sobol's first two dimensions are a (0, 2)-sequence, also after scrambling: of the first 2^m points, each elementary box of area 2^-m
    contains exactly one. */
-static void points_of_a_pixels_rays_are_a_net(void **state) {
-    (void)state;
+static void points_of_a_pixels_rays_are_a_net(UNUSED void **state) {
     for (int first = 0; first < 4; first += 2)
         for (int m = 1; m <= 8; ++m)
             for (int a = 0; a <= m; ++a) {
@@ -85,11 +76,10 @@ static void points_of_a_pixels_rays_are_a_net(void **state) {
 }
 
 /* The density of visible GGX normals: G1(v) max(v·h, 0) D(h) / cos v. */
-static double visible_density(double x, double y, double z) {
+static double visible_density(double x, UNUSED double y, double z) {
     double a2 = VISIBLE_ALPHA * VISIBLE_ALPHA, vx = sin(VISIBLE_ANGLE), vz = cos(VISIBLE_ANGLE);
     double d = z * z * (a2 - 1) + 1, ggx = a2 / (pi * d * d), vh = vx * x + vz * z;
     double masking = 2 / (1 + sqrt(1 + a2 * (vx * vx) / (vz * vz)));
-    (void)y;
     return vh > 0 ? masking * vh * ggx / vz : 0;
 }
 
@@ -101,8 +91,7 @@ static int bin_of(double x, double y, double z) {
     return (ring < RINGS ? ring : RINGS - 1) * SLICES + (slice < SLICES ? slice : SLICES - 1);
 }
 
-static void visible_normals_follow_their_density(void **state) {
-    (void)state;
+static void visible_normals_follow_their_density(UNUSED void **state) {
     double expected[RINGS * SLICES] = {0}, found[RINGS * SLICES] = {0}, total = 0;
     enum { FINE = 1000 };
     for (int i = 0; i < FINE; ++i)
@@ -123,8 +112,7 @@ static void visible_normals_follow_their_density(void **state) {
             fail_msg("bin %d: %g, expected %g", i, found[i], expected[i]);
 }
 
-static void random_numbers_are_uniform_and_inside(void **state) {
-    (void)state;
+static void random_numbers_are_uniform_and_inside(UNUSED void **state) {
     for (int k = 0; k < 4; ++k) {
         double bins[32] = {0};
         for (int i = 0; i < ROWS * COLUMNS; ++i) {

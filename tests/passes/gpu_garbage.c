@@ -1,14 +1,10 @@
 /* Invalid pixels in the G-buffer: every pass terminates, and only nearby pixels are affected. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdlib.h>
-
-#include <cmocka.h>
 
 #include "gpu.h"
 #include "plain_capture.h"
+#include "unit.h"
 
 enum { WIDTH = 192, HEIGHT = 128, APART = 16 };
 

@@ -1,15 +1,10 @@
 /* resolve/blurred and compose/contribution on a mirror floor in front of a wall, where every reflection has a closed form. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdio.h>
 #include <stdlib.h>
-
-#include <cmocka.h>
 
 #include "gpu.h"
 #include "plain_capture.h"
+#include "unit.h"
 
 enum { WIDE = 96, HIGH = 64 };
 static const double degrees = 60, wall_m = 5;

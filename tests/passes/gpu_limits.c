@@ -1,17 +1,11 @@
 /* Limits: rays in front of the near plane, very steep or near facets, the number of cells of a ray, unfiltered colours, cones wider
    than the image, sky beside the surface that a ray hits, and fog in front of reflections. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 #include "gpu.h"
 #include "plain_capture.h"
+#include "unit.h"
 
 enum { WIDTH = 48, HEIGHT = 80, PIXELS = WIDTH * HEIGHT };
 
@@ -184,14 +178,12 @@ static void a_cone_wider_than_the_picture_sees_all_of_it(void **state) {
 enum { HALF_SKY = 32 }; /* texels */
 enum { FINITE, ENDLESS, UNFILTERED, MIRROR, KINDS };
 static const double border = 0.125; /* x where z is 1, between two texels */
-static void half_sky(uint32_t number, const double d[3], float out[5]) {
+static void half_sky(UNUSED uint32_t number, const double d[3], float out[5]) {
     const bool is_sky = d[0] > border * d[2];
-    (void)number;
     for (int k = 0; k < 4; ++k) out[k] = is_sky ? 0 : 1;
     out[4] = is_sky ? INFINITY : 10;
 }
-static void dim(const double d[3], float out[3]) {
-    (void)d;
+static void dim(UNUSED const double d[3], float out[3]) {
     for (int k = 0; k < 3; ++k) out[k] = 0.25F;
 }
 

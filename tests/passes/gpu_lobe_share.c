@@ -1,16 +1,12 @@
 /* Ground under a light that is a step function, bright above an elevation and dark below: what rays and their cones gather, compared
    with the mean over the whole lobe by quadrature. Dark above and bright below is the same difference with the opposite sign. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-#include <cmocka.h>
-
 #include "gpu.h"
 #include "plain_capture.h"
+#include "unit.h"
 
 enum { KINDS = 7, BLOCK = 64, SIZE = KINDS * BLOCK, STEPS = 9, NODES = 20, FINE = 240, TURNS = 90 };
 static const double pi = 3.14159265358979323846, threshold = 0.1;

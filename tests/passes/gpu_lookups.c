@@ -1,14 +1,10 @@
 /* Lookups without a march in mirror_box, compared with the proxies in closed form and with the contents of the cube maps. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-#include <cmocka.h>
-
 #include "mirror_box.h"
+#include "unit.h"
 
 /* Where a ray through the proxy that a cube map has leaves it; negative: by the direction alone. */
 typedef double proxy(const struct glint_cubemap *map, const double start[3], const double direction[3]);

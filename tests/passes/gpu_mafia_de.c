@@ -1,17 +1,12 @@
 /* The variants of Mafia: Definitive Edition: rays around the mirror direction, levels with edges, sharing at three resolutions, and
    colour of the previous frame. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 #include "gpu.h"
 #include "plain_capture.h"
+#include "unit.h"
 
 enum { SIZE = 128, SPLIT = 37 };
 static const double oblique = 0.6;

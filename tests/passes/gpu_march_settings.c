@@ -1,15 +1,11 @@
 /* Settings of the march through cube maps that must not change certain values, and the counts of steps and fetches. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "room.h"
+#include "unit.h"
 
 enum { HALF = ROOM_SIZE / 2, COUNT = HALF * HALF };
 enum { NOT_TRACED, HIT }; /* values of end_reasons.h */

@@ -1,16 +1,12 @@
 /* MIP chains of cube maps, sky and screen, compared with filters in double precision. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "gpu.h"
 #include "plain_capture.h"
+#include "unit.h"
 
 static const double texel_scale = 3.5, threshold = 0.1;
 
@@ -48,9 +44,7 @@ static struct plain plain_with(uint32_t size, void (*cube)(uint32_t, const doubl
     return plain;
 }
 
-static void gray(uint32_t number, const double direction[3], float out[5]) {
-    (void)number;
-    (void)direction;
+static void gray(UNUSED uint32_t number, UNUSED const double direction[3], float out[5]) {
     const float values[5] = {0.25f, 0.5f, 1.0f, 1.0f, 3.0f};
     memcpy(out, values, sizeof values);
 }
@@ -116,8 +110,7 @@ static void integrate(const float *base, uint32_t size, const double axis[3], do
 }
 
 /* Smooth in red, an edge in green, a lamp in blue; the upper half is sky. */
-static void varied(uint32_t number, const double d[3], float out[5]) {
-    (void)number;
+static void varied(UNUSED uint32_t number, const double d[3], float out[5]) {
     double a = d[1] < 0.2 ? 1 : 0;
     out[0] = (float)(a * (1 + 0.4 * d[0] + 0.3 * d[1] * d[2]));
     out[1] = (float)(a * (d[0] > 0.1 ? 1 : 0.2));

@@ -1,15 +1,11 @@
 /* Traced distances in mirror_box compared with closed forms. The camera's rays, the mirror floor and the box are computed here in
    double from the attributes of the capture, independently of the shaders. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-#include <cmocka.h>
-
 #include "mirror_box.h"
+#include "unit.h"
 
 /* Prints and returns quantiles of the relative error of the marked rays with distances in a range. */
 struct errors {

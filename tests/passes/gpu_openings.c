@@ -2,18 +2,13 @@
    window behind the door, a house opposite and the sky outside; one cube map in each of the three. Everything is made of boxes, whose
    closed form also determines which points a cube map sees. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 #include "end_reason_names.h"
 #include "gpu.h"
 #include "plain_capture.h"
+#include "unit.h"
 
 enum { SIZE = 96, CUBE = 128, MAPS = 3, PLACES = 60, NO_PLACE = 255 };
 static const double half_view = 1; /* tangent of half the field of view */
@@ -65,8 +60,7 @@ static void cube(uint32_t number, const double d[3], float out[5]) {
     out[4] = (float)distance;
 }
 
-static void sky(const double d[3], float out[3]) {
-    (void)d;
+static void sky(UNUSED const double d[3], float out[3]) {
     out[0] = out[1] = out[2] = (float)sky_light;
 }
 

@@ -1,31 +1,25 @@
 /* Dual paraboloids of a cube map whose colour is the direction. The position of a direction is derived from optics: the paraboloid's
    normal bisects the angle between the direction and the axis. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-#include <cmocka.h>
-
 #include "gpu.h"
 #include "plain_capture.h"
+#include "unit.h"
 
 enum { SIZE = 64 };
 /* The disc's radius relative to half the width of the map: the rim is at the centres of the outermost texels. */
 static const double disc = 1 - 1.0 / SIZE;
 
-static void colored_by_direction(uint32_t number, const double direction[3], float out[5]) {
-    (void)number;
+static void colored_by_direction(UNUSED uint32_t number, const double direction[3], float out[5]) {
     for (int k = 0; k < 3; ++k) out[k] = (float)(0.5 + 0.5 * direction[k]);
     out[3] = 1;
     out[4] = 5;
 }
 
 /* A colour that must not leak through closed maps. */
-static void dark(const double direction[3], float out[3]) {
-    (void)direction;
+static void dark(UNUSED const double direction[3], float out[3]) {
     out[0] = out[1] = out[2] = 0;
 }
 
@@ -125,8 +119,7 @@ static double density(double from, double to) {
 }
 
 /* The article claims that the projection preserves details at the top and the bottom, at the expense of the sides. */
-static void the_rim_has_more_texels_than_the_pole(void **state) {
-    (void)state;
+static void the_rim_has_more_texels_than_the_pole(UNUSED void **state) {
     const double degree = acos(-1) / 180;
     double pole = density(0, 20 * degree), rim = density(70 * degree, 90 * degree);
     double face = SIZE * SIZE / 4.0; /* at the centre of a cube map's face */

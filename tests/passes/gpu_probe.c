@@ -1,17 +1,12 @@
 /* Probed pixels of the street: the recorded values equal those that the run computed, and recording does not change an image. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 #include "glint/probe.h"
 #include "gpu.h"
 #include "probed.h"
+#include "unit.h"
 
 /* ---- Runs ---- */
 

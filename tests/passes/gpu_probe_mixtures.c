@@ -1,16 +1,11 @@
 /* Probed pixels of passes that average or blend: the weighted records sum up to the pass's result, each recorded colour equals its
    image, and recording does not change an image. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "probed.h"
+#include "unit.h"
 
 static const char *const rgb[] = {"r", "g", "b"}, *const below[] = {"lower_r", "lower_g", "lower_b"};
 

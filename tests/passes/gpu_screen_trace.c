@@ -1,19 +1,14 @@
 /* hiz/nearest, screen_trace/hiz and screen_trace/dda compared with depth_traversal.c in double precision, with each other at odd sizes
    and depth encodings, and with closed forms for special rays. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 #include "end_reason_names.h"
 #include "gpu.h"
 #include "plain_capture.h"
 #include "depth_traversal.h"
+#include "unit.h"
 
 struct traced {
     uint32_t width, height;
@@ -446,8 +441,7 @@ static void with_infinite_thickness_all_is_solid(void **state) {
     assert_int_equal(hits[1], hits[0] + behind[0]); /* anything behind a surface is a hit there */
 }
 
-int main(int argc, char **argv) {
-    (void)argv;
+int main(int argc, UNUSED char **argv) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(on_mirror_box_as_in_double),
         cmocka_unit_test(on_street_as_in_double),

@@ -1,17 +1,12 @@
 /* Stability on mirror_box: amplification compared with the derivative of the closed form, in double. The box, the mirror and the camera
    are computed here and in mirror_box.c from the attributes of the capture, independently of the shaders. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "glint/stability.h"
 #include "mirror_box.h"
+#include "unit.h"
 
 enum { WIDTH = 120, HEIGHT = 80 };
 #define NEAR_M 0.1 /* the sampler's near plane: B of the projection */

@@ -1,15 +1,11 @@
 /* The limits of finer steps: screen_trace/linear_facets approaches dda, and cubemap_trace/march with surfaces=exact approaches exact
    with maps=chain. The steps of both differ from texels, so that nothing agrees by construction. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-#include <cmocka.h>
-
 #include "gpu.h"
+#include "unit.h"
 
 /* The end of each ray and its cube map, which is NULL for screen rays. */
 struct ends {

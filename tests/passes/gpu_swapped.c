@@ -1,16 +1,11 @@
 /* A room and the same room with x and y exchanged, seen by a camera that looks along z: their images are mirror images about the
    diagonal. This holds for every variant that treats both axes equally. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "room.h"
+#include "unit.h"
 
 static const char *const images[] = {"screen_travelled",
                                      "travelled",

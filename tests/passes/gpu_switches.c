@@ -1,14 +1,9 @@
 /* Every switch has an effect: if it is changed, some image of the room changes. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "room.h"
+#include "unit.h"
 
 enum { WORDS = 16 };
 static const char *const images[] = {"travelled",      "reflection_half",      "reflection_blurred",

@@ -1,18 +1,13 @@
 /* Glass on the scene glasshouse, compared with the image of its path tracer: both faces of a pane with Fresnel's equations, and the
    exact mirror ray. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 #include "gpu.h"
 #include "glint/study.h"
 #include "plain_capture.h"
+#include "unit.h"
 
 enum { WIDTH = 240, HEIGHT = 136 };
 
@@ -131,8 +126,7 @@ static void panes_find_their_colour_in_the_previous_frame(void **state) {
 
 enum { SIDE = 96 };
 
-static void at_wall(uint32_t number, const double direction[3], float out[5]) {
-    (void)number;
+static void at_wall(UNUSED uint32_t number, const double direction[3], float out[5]) {
     for (int k = 0; k < 3; ++k) out[k] = (float)(0.5 + 0.5 * direction[k]);
     out[3] = 1, out[4] = 100;
 }
@@ -143,14 +137,12 @@ static void matte(const struct plain *plain, float *values) {
     memset(values + (size_t)PLAIN_SPECULAR * plain->width * plain->height, 0,
            sizeof *values * plain->width * plain->height);
 }
-static void pane_at(uint32_t x, uint32_t y, float out[9]) {
+static void pane_at(uint32_t x, UNUSED uint32_t y, float out[9]) {
     const float values[9] = {0.25f, 0.5f, 0.75f, 0.5f, 0, 0, 1, x < SIDE / 2 ? 3 : INFINITY, pane_roughness};
-    (void)y;
     memcpy(out, values, sizeof values);
 }
-static void water_at(uint32_t x, uint32_t y, float out[9]) {
+static void water_at(UNUSED uint32_t x, uint32_t y, float out[9]) {
     const float values[9] = {0, 0.125f, 0.25f, 0.5f, 0, 0, 1, y < SIDE / 3 ? 2 : 4, 1};
-    (void)x;
     memcpy(out, values, sizeof values);
 }
 
@@ -259,9 +251,8 @@ static void panes_have_their_roughness(void **state) {
 }
 
 /* In the left column of each block a pane at 2 m without a normal, in the right one a valid pane at 3 m. */
-static void half_usable(uint32_t x, uint32_t y, float out[9]) {
+static void half_usable(uint32_t x, UNUSED uint32_t y, float out[9]) {
     const float values[9] = {0.25f, 0.5f, 0.75f, 0.5f, 0, 0, (float)(x % 2), x % 2 ? 3 : 2, 0};
-    (void)y;
     memcpy(out, values, sizeof values);
 }
 
@@ -289,8 +280,7 @@ static void two_panes(uint32_t x, uint32_t y, float out[9]) {
     memcpy(out, values, sizeof values);
 }
 
-static void white(const double direction[3], float out[3]) {
-    (void)direction;
+static void white(UNUSED const double direction[3], float out[3]) {
     out[0] = out[1] = out[2] = 1;
 }
 

@@ -1,15 +1,10 @@
 /* upscale/best_match: the texel that a pixel uses; resolve_sharp: the colour of smooth pixels. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdio.h>
 #include <stdlib.h>
-
-#include <cmocka.h>
 
 #include "gpu.h"
 #include "plain_capture.h"
+#include "unit.h"
 
 enum { SIZE = 128 };
 
@@ -126,8 +121,7 @@ static void barred_wall(const struct plain *plain, float *values) {
         for (uint32_t k = 0; k < 3; ++k) values[(PLAIN_LIT_R + k) * pixels + i] = floor ? 0 : bar ? 1 : 4;
     }
 }
-static void bright(const double direction[3], float out[3]) {
-    (void)direction;
+static void bright(UNUSED const double direction[3], float out[3]) {
     for (int k = 0; k < 3; ++k) out[k] = 4;
 }
 static void nothing_but_sky(uint32_t number, const double direction[3], float out[5]) {

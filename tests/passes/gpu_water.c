@@ -1,17 +1,12 @@
 /* Water on the scene lake, compared with the image of its path tracer: Fresnel's equations, with both the reflected and the refracted
    ray traced to their hits. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "gpu.h"
 #include "plain_capture.h"
+#include "unit.h"
 
 enum { WIDTH = 192, HEIGHT = 108 };
 
@@ -168,13 +163,11 @@ static void encodings_change_nothing(void **state) {
 enum { SIDE = 64 };
 static const double half_view = 0.57735026918962576; /* tan 30° */
 
-static void wall_or_sky(uint32_t number, const double direction[3], float out[5]) {
-    (void)number;
+static void wall_or_sky(UNUSED uint32_t number, const double direction[3], float out[5]) {
     for (int k = 0; k < 4; ++k) out[k] = direction[0] > 0 ? 1 : 0;
     out[4] = 100;
 }
-static void blue(const double direction[3], float out[3]) {
-    (void)direction;
+static void blue(UNUSED const double direction[3], float out[3]) {
     out[0] = 0.25f, out[1] = 0.5f, out[2] = 2;
 }
 static void facing(uint32_t x, uint32_t y, float out[9]) {
@@ -222,10 +215,9 @@ static void the_sky_is_behind_the_cube_map(void **state) {
 static double down_at(double y) {
     return (2 * (y + 0.5) / SIDE - 1) * half_view;
 }
-static void lake_at(uint32_t x, uint32_t y, float out[9]) {
+static void lake_at(UNUSED uint32_t x, uint32_t y, float out[9]) {
     const double down = down_at(y);
     const float values[9] = {0, 0, 0, 0.5f, 0, 1, 0, down > 0.1 ? (float)(1 / down) : INFINITY, 0.5f};
-    (void)x;
     memcpy(out, values, sizeof values);
 }
 

@@ -1,13 +1,9 @@
 #include "mirror_box.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdio.h>
 #include <stdlib.h>
 
-#include <cmocka.h>
+#include "unit.h"
 
 const double mirror_box[3] = {8, 4, 6};
 

@@ -2,14 +2,11 @@
 #include "probed.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
+#include "unit.h"
 
 void require(bool ok, const struct glint_error *err) {
     if (!ok) fail_msg("%s", err->message);

@@ -2,15 +2,10 @@
 #include "room.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdio.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "plain_capture.h"
+#include "unit.h"
 
 enum { SIZE = ROOM_SIZE, CUBE = 32 };
 static const double room[2][3] = {{-3, -2.5, -7}, {4, 3.5, 1.5}}, block[2][3] = {{0.5, -2.5, -5}, {1.5, -0.5, -4}};

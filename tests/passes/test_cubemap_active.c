@@ -1,14 +1,10 @@
 /* cubemap_active/nearest: the active cube maps, and their chains. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "glint/passes.h"
+#include "unit.h"
 
 enum { MOST = 16 };
 
@@ -32,8 +28,7 @@ static double value(const struct glint_host_context *context, const char *parame
 }
 
 static struct glint_table *table(struct glint_host_context *context, const char *image, uint32_t width, uint32_t height,
-                                 struct glint_error *err) {
-    (void)err;
+                                 UNUSED struct glint_error *err) {
     struct mock_replay *s = context->user;
     static const char *const names[] = {"active_index", "active_center", "active_chain", "active_volume"};
     struct glint_table *const tables[] = {&s->index, &s->center, &s->chains, &s->volumes};
@@ -67,8 +62,7 @@ static void run_pass(struct mock_replay *s) {
     assert_true(pass->host(&s->context, &err));
 }
 
-static void the_nearest_in_order(void **state) {
-    (void)state;
+static void the_nearest_in_order(UNUSED void **state) {
     struct mock_replay *s = corridor(12);
     s->frame.has_player = true;
     s->frame.player[0] = 6.2;
@@ -80,8 +74,7 @@ static void the_nearest_in_order(void **state) {
     free(s);
 }
 
-static void around_the_camera_without_a_player(void **state) {
-    (void)state;
+static void around_the_camera_without_a_player(UNUSED void **state) {
     struct mock_replay *s = corridor(12);
     s->context.eye[0] = 11.9;
     s->count = 1;
@@ -90,8 +83,7 @@ static void around_the_camera_without_a_player(void **state) {
     free(s);
 }
 
-static void one_outdoor_is_kept(void **state) {
-    (void)state;
+static void one_outdoor_is_kept(UNUSED void **state) {
     struct mock_replay *s = corridor(12);
     s->cubemaps[9].outdoor = s->cubemaps[11].outdoor = true;
     run_pass(s);
@@ -104,8 +96,7 @@ static void one_outdoor_is_kept(void **state) {
     free(s);
 }
 
-static void an_outdoor_one_already_there_changes_nothing(void **state) {
-    (void)state;
+static void an_outdoor_one_already_there_changes_nothing(UNUSED void **state) {
     for (size_t there = 0; there < 8; there++) {
         struct mock_replay *s = corridor(12);
         s->cubemaps[there].outdoor = s->cubemaps[11].outdoor = true;
@@ -115,8 +106,7 @@ static void an_outdoor_one_already_there_changes_nothing(void **state) {
     }
 }
 
-static void floors_are_kept_apart(void **state) {
-    (void)state;
+static void floors_are_kept_apart(UNUSED void **state) {
     struct mock_replay *s = corridor(2);
     s->cubemaps[0].center[0] = 0; /* 3 m above */
     s->cubemaps[0].center[2] = 3;
@@ -135,8 +125,7 @@ static void floors_are_kept_apart(void **state) {
     free(s);
 }
 
-static void chains_start_with_themselves_and_go_by_distance(void **state) {
-    (void)state;
+static void chains_start_with_themselves_and_go_by_distance(UNUSED void **state) {
     struct mock_replay *s = corridor(5);
     const double x[] = {0, 1, 3, 7, 15};
     for (int i = 0; i < 5; ++i) s->cubemaps[i].center[0] = x[i];
@@ -148,8 +137,7 @@ static void chains_start_with_themselves_and_go_by_distance(void **state) {
     free(s);
 }
 
-static void a_chain_is_no_longer_than_there_are_cube_maps(void **state) {
-    (void)state;
+static void a_chain_is_no_longer_than_there_are_cube_maps(UNUSED void **state) {
     struct mock_replay *s = corridor(2);
     run_pass(s);
     assert_int_equal(s->chains.width, 2);
@@ -158,8 +146,7 @@ static void a_chain_is_no_longer_than_there_are_cube_maps(void **state) {
     free(s);
 }
 
-static void centres_lose_nothing_far_from_the_origin(void **state) {
-    (void)state;
+static void centres_lose_nothing_far_from_the_origin(UNUSED void **state) {
     struct mock_replay *s = corridor(1);
     s->frame.metres_per_unit = 0.01;
     s->cubemaps[0].center[0] = 1e8 + 0.125; /* 1,000 km */
@@ -170,8 +157,7 @@ static void centres_lose_nothing_far_from_the_origin(void **state) {
     free(s);
 }
 
-static void no_cube_map_is_an_error(void **state) {
-    (void)state;
+static void no_cube_map_is_an_error(UNUSED void **state) {
     struct mock_replay *s = corridor(0);
     struct glint_error err = {0};
     assert_false(glint_pass_find("cubemap_active", "nearest")->host(&s->context, &err));
@@ -193,8 +179,7 @@ static double outside(const struct mock_replay *s, uint32_t i, const double at[3
     return most;
 }
 
-static void inner_volumes_become_planes_and_spheres_around_the_eye(void **state) {
-    (void)state;
+static void inner_volumes_become_planes_and_spheres_around_the_eye(UNUSED void **state) {
     struct mock_replay *s = corridor(4);
     s->context.eye[0] = 1000;
     s->frame.metres_per_unit = 0.5;

@@ -3,15 +3,12 @@
 
 #include <dirent.h>
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include <cmocka.h>
+#include "unit.h"
 
 enum { W = FIXTURE_WIDTH, H = FIXTURE_HEIGHT, N = FIXTURE_FACE };
 

@@ -1,17 +1,11 @@
 /* Results for cube maps that one process stores for the next, here one replay for another. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include <dirent.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
-#include <cmocka.h>
-
 #include "fixture.h"
+#include "unit.h"
 
 /* Begins with an empty state, as in a new process. */
 static void reset_replay(struct fixture *fixture, struct glint_capture *capture) {

@@ -1,15 +1,11 @@
 /* Plans change no bit on random captures: gpu_drawn [COUNT [FIRST SEED]]. Each is replayed with one preset in turn; a seed that fails
    is printed. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-#include <cmocka.h>
-
 #include "drawn.h"
 #include "pair.h"
+#include "unit.h"
 
 static uint32_t count = 6,
                 first = 6; /* two of these six once revealed lookups that depended on neighbouring invocations */

@@ -1,15 +1,11 @@
 /* Shots on a device with validation: history of passes, and results that are kept between frames. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "made.h"
+#include "unit.h"
 
 enum { W = FIXTURE_WIDTH, H = FIXTURE_HEIGHT, PIXEL = (H - 1) * W + 7 /* floor, not sky */ };
 

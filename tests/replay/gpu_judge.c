@@ -1,15 +1,10 @@
 /* A judge on a device with validation: its errors, counts of rays and times. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "fixture.h"
 #include "glint/judge.h"
+#include "unit.h"
 
 static struct glint_judge *judge_of(struct fixture *fixture, struct glint_capture *capture, bool all) {
     struct glint_error err = {0};

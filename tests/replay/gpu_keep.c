@@ -1,15 +1,10 @@
 /* Alternating pipelines on one replay: each finds its own images again, and only what changed runs. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "fixture.h"
 #include "session.h"
+#include "unit.h"
 
 enum { PLENTY = 64 << 20 };
 

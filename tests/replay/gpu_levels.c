@@ -1,15 +1,11 @@
 /* Images with levels on a device with validation: written one level at a time, read as a whole. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "made.h"
+#include "unit.h"
 
 enum { W = FIXTURE_WIDTH, H = FIXTURE_HEIGHT, LEVELS = 6 /* 50 × 31 … 1 × 1 */ };
 

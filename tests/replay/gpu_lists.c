@@ -1,15 +1,10 @@
 /* Dispatches over lists of tiles on a device under validation. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "made.h"
 #include "shared/work_list.h"
+#include "unit.h"
 
 enum { W = (FIXTURE_WIDTH + 1) / 2, H = (FIXTURE_HEIGHT + 1) / 2, NOTHING = 7 };
 

@@ -1,18 +1,14 @@
 /* Plans change nothing: the images equal those of a replay that skips nothing, bit for bit. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 #include "glint/samples.h"
 #include "painted.h"
 #include "plain_capture.h"
 #include "ray_paths.h"
+#include "unit.h"
 
 enum { WIDTH = 56, HEIGHT = 32, FACE = 16, FRAMES = 2 };
 
@@ -300,8 +296,7 @@ static void half_a_window(uint32_t number, const double direction[3], float out[
     pair_cube(number, direction, out);
     out[3] = direction[2] > 0 ? 0.5f : 1;
 }
-static void bright(const double direction[3], float out[3]) {
-    (void)direction;
+static void bright(UNUSED const double direction[3], float out[3]) {
     for (int k = 0; k < 3; k++) out[k] = 1;
 }
 

@@ -1,15 +1,11 @@
 /* Several rays per frame on a device with validation. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "made.h"
+#include "unit.h"
 
 enum {
     W = (FIXTURE_WIDTH + 1) / 2,
@@ -171,8 +167,7 @@ static void a_pass_between_rays_is_refused(void **state) {
     fixture_says(&err, "catch/made runs for each ray and reads what tally makes after all of them");
 }
 
-static void the_number_of_rays_has_its_range(void **state) {
-    (void)state;
+static void the_number_of_rays_has_its_range(UNUSED void **state) {
     struct made made;
     static const char *const wrong[] = {"pipeline.rays=0", "pipeline.rays=1025", "pipeline.rays=1.5",
                                         "pipeline.rays=many"};

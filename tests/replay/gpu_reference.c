@@ -1,19 +1,14 @@
 /* The reference on a device with validation: its noise, its folder, and errors. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include <cmocka.h>
-
 #include "fixture.h"
 #include "glint/reference.h"
 #include "plain_capture.h"
+#include "unit.h"
 
 static struct glint_reference *open_at_once(struct fixture *fixture, const char *folder, const char *set,
                                             bool overwrite, uint32_t at_once, struct glint_error *err) {

@@ -1,18 +1,12 @@
 /* Whole runs on a device with validation: the same bits for partial, repeated and diagnostic runs. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
-#include <cmocka.h>
-
 #include "fixture.h"
+#include "unit.h"
 
 static void a_run_makes_every_image_of_its_passes(void **state) {
     struct fixture *fixture = fixture_need_device(state);

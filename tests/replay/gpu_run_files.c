@@ -1,19 +1,13 @@
 /* Files of a run: run folders, the engine's images, and users' shaders. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
-
-#include <cmocka.h>
 
 #include "fixture.h"
 #include "need.h"
+#include "unit.h"
 
 /* Composes with the engine's own reflection in the capture, which the replay then refers to; the caller closes it. */
 static struct glint_capture *compose_engines(struct fixture *fixture,

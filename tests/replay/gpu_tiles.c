@@ -1,16 +1,12 @@
 /* Lists of tiles cover everything that the image, a kernel or the next frame reads; wrong lists are detected. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "pair.h"
 #include "plain_capture.h"
+#include "unit.h"
 
 enum { FACE = 16, TILED_WIDTH = 75, TILED_HEIGHT = 53, TILED_FRAMES = 3, SHIFT = 6 /* SHIFT: pixels per frame */ };
 

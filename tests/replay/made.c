@@ -2,16 +2,12 @@
 #include "made.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "names.h"
+#include "unit.h"
 #define PASS_ID chain
 #include "made/chain.pass.h"
 #undef PASS_ID

@@ -1,14 +1,11 @@
 #include "pair.h"
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
-#include <cmocka.h>
+#include "unit.h"
 
 void pair_check(bool ok, const struct glint_error *err) {
     if (!ok) fail_msg("%s", err->message);

@@ -1,12 +1,9 @@
 #include "ray_paths.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
 #include <stdio.h>
 
-#include <cmocka.h>
+#include "unit.h"
 
 /* The surface of a pixel relative to the world's origin, and the unit direction of its mirror ray. Inverts the rows (a 0 c 0), (0 b d
    0), (0 0 0 ±1) of the projection, and the rotation. */

@@ -1,18 +1,11 @@
 /* The cache folder: what it returns, what it does not, and how much it keeps. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include <dirent.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
-#include <cmocka.h>
-
 #include "cache.h"
+#include "unit.h"
 
 static const char *const keys[] = {"00000000000000000000000000000000", "11111111111111111111111111111111",
                                    "22222222222222222222222222222222"};
@@ -59,10 +52,9 @@ static size_t count_files(const char *folder) {
     return count;
 }
 
-static void what_was_stored_comes_back(void **state) {
+static void what_was_stored_comes_back(UNUSED void **state) {
     struct place place;
     char path[256];
-    (void)state;
     begin(&place);
     assert_false(cache_find(place.folder, keys[0], path, sizeof path)); /* no folder yet */
     write_text(place.file, "first");
@@ -83,10 +75,9 @@ static void what_was_stored_comes_back(void **state) {
 }
 
 /* Catches: damaged data that is returned as if it were the stored one. */
-static void a_damaged_entry_is_none(void **state) {
+static void a_damaged_entry_is_none(UNUSED void **state) {
     struct place place;
     char path[256];
-    (void)state;
     begin(&place);
     for (int give = 0; give < 2; give++) {
         write_text(place.file, "first");
@@ -101,10 +92,9 @@ static void a_damaged_entry_is_none(void **state) {
 }
 
 /* Catches: a limit that is exceeded, or that evicts recently used entries. */
-static void what_was_not_used_for_longest_goes(void **state) {
+static void what_was_not_used_for_longest_goes(UNUSED void **state) {
     struct place place;
     char path[256];
-    (void)state;
     begin(&place);
     write_text(place.file, "ten bytes.");
     for (int i = 0; i < 2; i++) {
@@ -121,10 +111,9 @@ static void what_was_not_used_for_longest_goes(void **state) {
 }
 
 /* Catches: a cache whose failure makes its user fail. */
-static void a_folder_that_cannot_be_written_keeps_nothing(void **state) {
+static void a_folder_that_cannot_be_written_keeps_nothing(UNUSED void **state) {
     struct place place;
     char path[256];
-    (void)state;
     begin(&place);
     write_text(place.file, "first");
     cache_store(place.file, keys[0], place.file, UINT64_MAX); /* a file exists at that path */

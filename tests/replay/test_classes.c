@@ -1,17 +1,11 @@
 /* Classes of pixels, compared with the geometry of the fixture's G-buffer. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-
-#include <cmocka.h>
 
 #include "fixture.h"
 #include "glint/study.h"
+#include "unit.h"
 
 enum { W = FIXTURE_WIDTH, H = FIXTURE_HEIGHT };
 

@@ -1,16 +1,11 @@
 /* Comparisons by class and channel, non-finite values, and intervals, compared with closed forms and simulated truth. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "glint/metrics.h"
 #include "uniform.h"
+#include "unit.h"
 
 static void assert_near(double found, double expected, double tolerance) {
     if (!(fabs(found - expected) <= tolerance)) fail_msg("%.17g is not %.17g ± %g", found, expected, tolerance);
@@ -24,8 +19,8 @@ static struct glint_metric_table compared(const struct glint_pixels *found, cons
     return table;
 }
 
-static void each_set_of_classes_divides_all_pixels(void **state) {
-    (void)state;
+static void each_set_of_classes_divides_all_pixels(UNUSED void **state) {
+    static const char *const sides[] = {"left", "right"}, *const heights[] = {"top", "middle", "bottom"};
     float found[] = {1, 2, 3, 4}, truth[] = {0, 0, 0, 0};
     uint8_t side[] = {1, 2, 1, 2}, height[] = {1, 1, 0, 3};
     const struct glint_pixels f = {2, 2, 1, found}, t = {2, 2, 1, truth};
@@ -59,8 +54,7 @@ static void each_set_of_classes_divides_all_pixels(void **state) {
     assert_int_equal(cross[1 * 4 + 1], 0);
 }
 
-static void channels_meet_by_their_names(void **state) {
-    (void)state;
+static void channels_meet_by_their_names(UNUSED void **state) {
     float found[] = {1, 2, 3, 9}, truth[] = {3, 2, 1};
     const struct glint_pixels f = {1, 1, 4, found}, t = {1, 1, 3, truth};
     struct glint_metric_options o = {.found_channels = "B G R A", .truth_channels = "R G B"};
@@ -78,8 +72,7 @@ static void channels_meet_by_their_names(void **state) {
     assert_non_null(strstr(err.message, "'X Y Z' and 'R G B'"));
 }
 
-static void invalid_pixels_are_counted_in_both_and_named(void **state) {
-    (void)state;
+static void invalid_pixels_are_counted_in_both_and_named(UNUSED void **state) {
     float found[12] = {0}, truth[12] = {0};
     const struct glint_pixels f = {4, 3, 1, found}, t = {4, 3, 1, truth};
     uint8_t mask[12] = {0, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1};
@@ -113,8 +106,7 @@ static double displayed(double x) {
     return y <= 0.0031308 ? 12.92 * y : 1.055 * pow(y, 1 / 2.4) - 0.055;
 }
 
-static void flat_images_have_closed_forms(void **state) {
-    (void)state;
+static void flat_images_have_closed_forms(UNUSED void **state) {
     enum { SIZE = 13, PIXELS = SIZE * SIZE };
     float found[3 * PIXELS], truth[3 * PIXELS];
     const struct glint_pixels f = {SIZE, SIZE, 3, found}, t = {SIZE, SIZE, 3, truth};
@@ -156,8 +148,7 @@ static void flat_images_have_closed_forms(void **state) {
 
 /* Errors are equal within patches, as those of wrong reflections are: intervals for independent pixels would be a quarter as wide as
    required, and contain the mean four times in ten. */
-static void intervals_hold_the_mean_as_often_as_they_say(void **state) {
-    (void)state;
+static void intervals_hold_the_mean_as_often_as_they_say(UNUSED void **state) {
     enum { SIZE = 192, PATCH = 4, IMAGES = 300 };
     static float found[SIZE * SIZE], truth[SIZE * SIZE];
     const struct glint_pixels f = {SIZE, SIZE, 1, found}, t = {SIZE, SIZE, 1, truth};
@@ -181,8 +172,7 @@ static void intervals_hold_the_mean_as_often_as_they_say(void **state) {
     assert_in_range(held, IMAGES * 88 / 100, IMAGES * 97 / 100);
 }
 
-static void the_same_seed_gives_the_same_interval(void **state) {
-    (void)state;
+static void the_same_seed_gives_the_same_interval(UNUSED void **state) {
     enum { SIZE = 64 };
     static float found[SIZE * SIZE], truth[SIZE * SIZE];
     const struct glint_pixels f = {SIZE, SIZE, 1, found}, t = {SIZE, SIZE, 1, truth};
@@ -202,8 +192,7 @@ static void the_same_seed_gives_the_same_interval(void **state) {
 
 /* Two images have equal errors except for a difference of 0.02: both intervals overlap, while that of the difference is narrow and
    contains it. */
-static void a_difference_is_surer_than_its_parts(void **state) {
-    (void)state;
+static void a_difference_is_surer_than_its_parts(UNUSED void **state) {
     enum { SIZE = 128 };
     static float first[SIZE * SIZE], second[SIZE * SIZE], truth[SIZE * SIZE];
     const struct glint_pixels f = {SIZE, SIZE, 1, first}, s = {SIZE, SIZE, 1, second}, t = {SIZE, SIZE, 1, truth};
@@ -235,8 +224,7 @@ static void a_difference_is_surer_than_its_parts(void **state) {
 }
 
 /* Excluded pixels are black for metrics with neighbourhoods, whatever their values are. */
-static void what_is_left_out_leaks_into_no_neighbour(void **state) {
-    (void)state;
+static void what_is_left_out_leaks_into_no_neighbour(UNUSED void **state) {
     enum { SIZE = 24, PIXELS = SIZE * SIZE };
     static float found[3 * PIXELS], truth[3 * PIXELS], black_found[3 * PIXELS], black_truth[3 * PIXELS];
     static uint8_t mask[PIXELS];
@@ -267,8 +255,7 @@ static void what_is_left_out_leaks_into_no_neighbour(void **state) {
     glint_metric_table_finish(&b);
 }
 
-static void metrics_have_names(void **state) {
-    (void)state;
+static void metrics_have_names(UNUSED void **state) {
     uint32_t chosen = 0;
     struct glint_error err = {0};
     assert_true(glint_metrics_parse("rmse,hdr_flip", &chosen, &err));

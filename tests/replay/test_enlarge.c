@@ -1,14 +1,9 @@
 /* Cube maps resampled to another size, compared with closed forms: planes stay planes, and edges stay in place. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 
-#include <cmocka.h>
-
 #include "channels.h"
+#include "unit.h"
 
 enum { CHANNELS = 3 }; /* a colour, a constant, a distance */
 
@@ -39,9 +34,8 @@ static void planes(int face, double a, double b, float out[CHANNELS]) {
     out[0] = (float)(2 + a - b), out[1] = 7, out[2] = (float)(along * sqrt(1 + a * a + b * b));
 }
 
-static void planes_stay_planes_and_ramps_ramps(void **state) {
+static void planes_stay_planes_and_ramps_ramps(UNUSED void **state) {
     static const uint32_t sizes[][2] = {{8, 24}, {10, 24}, {17, 128}, {96, 128}, {24, 24}};
-    (void)state;
     for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
         const uint32_t own = sizes[s][0], face = sizes[s][1];
         float *found = enlarged(own, face, planes), *wanted = texels(face, planes);
@@ -65,11 +59,10 @@ static void edges(int face, double a, double b, float out[CHANNELS]) {
     out[2] = a + 0.3 * b < 0.1 ? 1 : face % 2 ? 3 : INFINITY;
 }
 
-static void nothing_is_seen_between_two_surfaces(void **state) {
+static void nothing_is_seen_between_two_surfaces(UNUSED void **state) {
     enum { OWN = 12, FACE = 32 };
     float *found = enlarged(OWN, FACE, edges), *own = texels(OWN, edges);
     size_t near = 0;
-    (void)state;
     for (size_t i = 0; i < 6 * FACE * FACE; i++) {
         const size_t x = (2 * (i % FACE) + 1) * OWN / (2 * FACE), y = (2 * (i / FACE) + 1) * OWN / (2 * FACE);
         const float nearest = own[CHANNELS * (y * OWN + x) + 2], f = found[CHANNELS * i + 2];
@@ -87,9 +80,8 @@ static void walls(int face, double a, double b, float out[CHANNELS]) {
     out[0] = out[1] = 1, out[2] = face == 2 ? INFINITY : (float)(2 * sqrt(1 + a * a + b * b));
 }
 
-static void a_single_texel_is_a_wall(void **state) {
+static void a_single_texel_is_a_wall(UNUSED void **state) {
     float *found = enlarged(1, 5, walls), *wanted = texels(5, walls);
-    (void)state;
     for (size_t i = 0; i < 6 * 25 * CHANNELS; i++) assert_true(found[i] == wanted[i]);
     free(found), free(wanted);
 }

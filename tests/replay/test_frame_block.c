@@ -1,16 +1,11 @@
 /* The uniform block compared with matrix products in double: random cameras, mirrored ones, both clip conventions. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "frame_block.h"
 #include "uniform.h"
+#include "unit.h"
 
 static void transform(const double m[16], const double in[4], double out[4]) {
     for (int r = 0; r < 4; r++)
@@ -66,8 +61,7 @@ static bool project(const struct glint_camera *camera, enum glint_clip_y clip_y,
     return true;
 }
 
-static void the_mirror_projects_as_its_camera_says(void **unused) {
-    (void)unused;
+static void the_mirror_projects_as_its_camera_says(UNUSED void **unused) {
     uint64_t state = 2;
     int checked = 0;
     for (int n = 0; n < 200; n++) {
@@ -102,8 +96,7 @@ static void the_mirror_projects_as_its_camera_says(void **unused) {
     assert_true(checked > 50);
 }
 
-static void points_project_as_the_matrices_say(void **unused) {
-    (void)unused;
+static void points_project_as_the_matrices_say(UNUSED void **unused) {
     uint64_t state = 1;
     int checked = 0;
     for (int n = 0; n < 400; n++) {
@@ -152,8 +145,7 @@ static void points_project_as_the_matrices_say(void **unused) {
     assert_true(checked > 100);
 }
 
-static void the_depth_range_is_that_of_the_projection(void **unused) {
-    (void)unused;
+static void the_depth_range_is_that_of_the_projection(UNUSED void **unused) {
     const double n = 0.25, f = 400;
     const struct {
         enum glint_clip_z z;
@@ -182,8 +174,7 @@ static void the_depth_range_is_that_of_the_projection(void **unused) {
         }
 }
 
-static void a_frame_far_from_the_origin_has_the_same_block(void **unused) {
-    (void)unused;
+static void a_frame_far_from_the_origin_has_the_same_block(UNUSED void **unused) {
     uint64_t one = 5, other = 5;
     struct glint_frame near = {.has_previous = true,
                                .has_fog = true,
@@ -203,8 +194,7 @@ static void a_frame_far_from_the_origin_has_the_same_block(void **unused) {
 
 /* An engine's matrices with rotations in floats, which are orthonormal to 1e-7 only: the previous position of a static point follows
    from these matrices, although the world is 1,000 km wide. */
-static void rotations_in_floats_do_not_move_the_camera(void **unused) {
-    (void)unused;
+static void rotations_in_floats_do_not_move_the_camera(UNUSED void **unused) {
     uint64_t state = 9;
     for (int n = 0; n < 60; n++) {
         static const double distances[] = {0, 1e5, 1e6};
@@ -234,8 +224,7 @@ static void rotations_in_floats_do_not_move_the_camera(void **unused) {
     }
 }
 
-static void fog_and_up_are_in_metres(void **unused) {
-    (void)unused;
+static void fog_and_up_are_in_metres(UNUSED void **unused) {
     struct glint_frame frame = {.metres_per_unit = 0.01,
                                 .up = GLINT_AXIS_NEG_Z,
                                 .has_fog = true,
@@ -252,8 +241,7 @@ static void fog_and_up_are_in_metres(void **unused) {
 }
 
 /* std140 as in the shader: offsets in a block of 16-byte members. */
-static void the_layout_is_std140(void **unused) {
-    (void)unused;
+static void the_layout_is_std140(UNUSED void **unused) {
     assert_int_equal(offsetof(struct frame_block, world_from_view), 64);
     assert_int_equal(offsetof(struct frame_block, view_from_uv), 192);
     assert_int_equal(sizeof(struct frame_block) % 16, 0);

@@ -1,18 +1,13 @@
 /* Linking, ordering, dropping and errors with passes that are defined here. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "fixture.h"
 #include "graph.h"
 #include "survey.h"
+#include "unit.h"
 
 #define READS(image)                                                                                                   \
     { .kind = GLINT_ROW_READ, .name = image, .glsl = "texture2D" }

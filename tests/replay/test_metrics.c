@@ -1,16 +1,11 @@
 /* Metrics of images and distances compared with sums by hand, and with errors that are added. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "glint/study.h"
 #include "uniform.h"
+#include "unit.h"
 
 enum { NONE = GLINT_SURFACE_NONE, MIRROR = GLINT_SURFACE_MIRROR, GLOSSY = GLINT_SURFACE_GLOSSY };
 
@@ -18,8 +13,7 @@ static void assert_near(double found, double expected, double tolerance) {
     if (!(fabs(found - expected) <= tolerance)) fail_msg("%.17g is not %.17g ± %g", found, expected, tolerance);
 }
 
-static void figures_are_those_of_a_sum_by_hand(void **state) {
-    (void)state;
+static void figures_are_those_of_a_sum_by_hand(UNUSED void **state) {
     float found[] = {1, 2, 9, 0, 1, 9, 5, 5, 9, 7, 7, 9}, truth[] = {1, 1, 0, 2, 3, 3, 9, 9};
     const uint8_t surfaces[] = {MIRROR, MIRROR, GLOSSY, NONE};
     const struct glint_pixels f = {2, 2, 3, found}, t = {2, 2, 2, truth};
@@ -42,8 +36,7 @@ static void figures_are_those_of_a_sum_by_hand(void **state) {
     assert_int_equal(e.of[0].pixels, 4);
 }
 
-static void what_is_no_number_is_counted_and_spoils_nothing(void **state) {
-    (void)state;
+static void what_is_no_number_is_counted_and_spoils_nothing(UNUSED void **state) {
     float found[] = {NAN, 1, INFINITY, 1}, truth[] = {1, 1, 1, 1};
     const uint8_t surfaces[] = {MIRROR, MIRROR, GLOSSY, GLOSSY};
     const struct glint_pixels f = {4, 1, 1, found}, t = {4, 1, 1, truth};
@@ -56,8 +49,7 @@ static void what_is_no_number_is_counted_and_spoils_nothing(void **state) {
     assert_near(e.of[0].rmse, 0, 0);
 }
 
-static void images_of_two_sizes_are_refused(void **state) {
-    (void)state;
+static void images_of_two_sizes_are_refused(UNUSED void **state) {
     float values[4] = {0};
     const struct glint_pixels a = {2, 2, 1, values}, b = {4, 1, 1, values};
     struct glint_image_errors e;
@@ -68,8 +60,7 @@ static void images_of_two_sizes_are_refused(void **state) {
 }
 
 /* The image has a constant error and the truth has known noise: after subtracting the noise, the constant remains. */
-static void the_truths_noise_is_taken_off(void **state) {
-    (void)state;
+static void the_truths_noise_is_taken_off(UNUSED void **state) {
     enum { SIZE = 512 };
     const double off = 0.05, noise = 0.2;
     struct glint_pixels f = {SIZE, SIZE, 1, malloc(sizeof(float) * SIZE * SIZE)};
@@ -99,8 +90,7 @@ static void the_truths_noise_is_taken_off(void **state) {
     free(error);
 }
 
-static void distances_know_the_sky(void **state) {
-    (void)state;
+static void distances_know_the_sky(UNUSED void **state) {
     const float found[] = {1, 1.04f, 2, INFINITY, INFINITY, 3, NAN, -1},
                 truth[] = {1, 1, 1, INFINITY, 1, INFINITY, 1, 1};
     const uint8_t surfaces[] = {MIRROR, MIRROR, MIRROR, GLOSSY, GLOSSY, GLOSSY, MIRROR, NONE};
@@ -117,8 +107,7 @@ static void distances_know_the_sky(void **state) {
     assert_int_equal(e.of[GLINT_SURFACE_ROUGH].rays, 0);
 }
 
-static void classes_meet_at_their_thresholds(void **state) {
-    (void)state;
+static void classes_meet_at_their_thresholds(UNUSED void **state) {
     assert_int_equal(glint_surface_of(0), MIRROR);
     assert_int_equal(glint_surface_of(GLINT_MIRROR_ROUGHNESS), MIRROR);
     assert_int_equal(glint_surface_of(0.1001), GLOSSY);
@@ -128,8 +117,7 @@ static void classes_meet_at_their_thresholds(void **state) {
 }
 
 /* Millions of equal differences: sums in double lose at most 6e6 · 2^-53 of their value, those in float a hundredth. */
-static void a_full_picture_keeps_its_digits(void **state) {
-    (void)state;
+static void a_full_picture_keeps_its_digits(UNUSED void **state) {
     enum { PIXELS = 1920 * 1080 };
     struct glint_pixels f = {1920, 1080, 4, malloc(4 * PIXELS * sizeof(float))},
                         t = {1920, 1080, 4, malloc(4 * PIXELS * sizeof(float))};

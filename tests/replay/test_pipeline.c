@@ -1,16 +1,10 @@
 /* Pipelines are checked against the declarations; errors list known names and ranges. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-#include <cmocka.h>
-
 #include "glint/replay.h"
+#include "unit.h"
 
 static struct glint_pipeline *preset(void) {
     struct glint_error err = {0};
@@ -34,8 +28,7 @@ static void assert_says(const struct glint_error *err, const char *part) {
     if (!strstr(err->message, part)) fail_msg("expected '%s' in: %s", part, err->message);
 }
 
-static void the_preset_holds_every_slot_with_its_defaults(void **state) {
-    (void)state;
+static void the_preset_holds_every_slot_with_its_defaults(UNUSED void **state) {
     struct glint_pipeline *pipeline = preset();
     assert_string_equal(glint_pipeline_name(pipeline), "plain");
     assert_int_equal(glint_pipeline_pass_count(pipeline), 8);
@@ -45,8 +38,7 @@ static void the_preset_holds_every_slot_with_its_defaults(void **state) {
     assert_null(pipeline);
 }
 
-static void values_are_set_by_number_by_word_and_by_choice(void **state) {
-    (void)state;
+static void values_are_set_by_number_by_word_and_by_choice(UNUSED void **state) {
     struct glint_error err = {0};
     struct glint_pipeline *pipeline = preset();
     assert_true(glint_pipeline_set(pipeline, "downsample.share=0.25", &err));
@@ -60,8 +52,7 @@ static void values_are_set_by_number_by_word_and_by_choice(void **state) {
     glint_pipeline_destroy(&pipeline);
 }
 
-static void what_is_wrong_with_an_assignment_is_said(void **state) {
-    (void)state;
+static void what_is_wrong_with_an_assignment_is_said(UNUSED void **state) {
     static const struct {
         const char *assignment, *says[3];
     } cases[] = {
@@ -92,8 +83,7 @@ static void what_is_wrong_with_an_assignment_is_said(void **state) {
     }
 }
 
-static void a_switch_is_set_in_every_pass_that_has_it(void **state) {
-    (void)state;
+static void a_switch_is_set_in_every_pass_that_has_it(UNUSED void **state) {
     struct glint_error err = {0};
     struct glint_pipeline *pipeline = glint_pipeline_create("mafia_de", &err),
                           *without = glint_pipeline_create("kf2", &err);
@@ -109,8 +99,7 @@ static void a_switch_is_set_in_every_pass_that_has_it(void **state) {
     glint_pipeline_destroy(&without);
 }
 
-static void slots_can_be_left_out_and_variants_are_checked(void **state) {
-    (void)state;
+static void slots_can_be_left_out_and_variants_are_checked(UNUSED void **state) {
     struct glint_error err = {0};
     struct glint_pipeline *pipeline = preset();
     assert_true(glint_pipeline_use(pipeline, "upscale=none", &err));
@@ -126,8 +115,7 @@ static void slots_can_be_left_out_and_variants_are_checked(void **state) {
     glint_pipeline_destroy(&pipeline);
 }
 
-static void a_host_pass_has_no_shader_to_replace(void **state) {
-    (void)state;
+static void a_host_pass_has_no_shader_to_replace(UNUSED void **state) {
     struct glint_error err = {0};
     struct glint_pipeline *pipeline = preset();
     assert_false(glint_pipeline_shader(pipeline, "cubemap_active=mine.comp", &err));
@@ -152,16 +140,14 @@ static struct glint_error read_preset(const char *text) {
     return err;
 }
 
-static void a_good_preset_file_is_read(void **state) {
-    (void)state;
+static void a_good_preset_file_is_read(UNUSED void **state) {
     struct glint_error err =
         read_preset("{\"slots\": {\"downsample\": \"pick\"}, \"set\": {\"downsample.share\": 0.5, \"downsample.ndf\": "
                     "\"ggx\", \"downsample.edges\": false}}");
     assert_int_equal(err.code, GLINT_OK);
 }
 
-static void every_fault_of_a_preset_is_reported_at_once(void **state) {
-    (void)state;
+static void every_fault_of_a_preset_is_reported_at_once(UNUSED void **state) {
     struct glint_error err = read_preset(
         "{\"slots\": {\"downsample\": \"pick\", \"resolve\": \"guess\", \"blurr\": \"none\"}, \"titel\": 1, "
         "\"set\": {\"downsample.share\": 3, \"downsample.sharp\": 1}}");
@@ -172,8 +158,7 @@ static void every_fault_of_a_preset_is_reported_at_once(void **state) {
     assert_says(&err, "no parameter sharp (did you mean share?)");
 }
 
-static void broken_json_is_placed_by_line(void **state) {
-    (void)state;
+static void broken_json_is_placed_by_line(UNUSED void **state) {
     struct glint_error err = read_preset("{\"slots\": {\n\"downsample\" \"pick\"}}");
     assert_int_equal(err.code, GLINT_ERROR_FORMAT);
     assert_says(&err, ".json:2:");
@@ -183,8 +168,7 @@ static void broken_json_is_placed_by_line(void **state) {
     assert_says(&err, "duplicate");
 }
 
-static void unknown_presets_name_the_known_ones(void **state) {
-    (void)state;
+static void unknown_presets_name_the_known_ones(UNUSED void **state) {
     struct glint_error err = {0};
     assert_null(glint_pipeline_create("mafia4", &err));
     assert_says(&err, "mafia4");

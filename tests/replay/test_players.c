@@ -1,17 +1,12 @@
 /* Which slots are replaced by their references together, and the pipelines of coalitions. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
-
-#include <cmocka.h>
 
 #include "fixture.h"
 #include "glint/blame.h"
 #include "glint/study.h"
 #include "graph.h"
+#include "unit.h"
 
 static struct glint_pipeline *preset(const char *name) {
     struct glint_error err = {0};
@@ -45,8 +40,7 @@ static const char *const presets[] = {"mafia3", "mafia3_shipped", "mafia_de", "k
 enum { PRESETS = sizeof presets / sizeof *presets };
 
 /* The references that passes declare equal those of the preset. */
-static void declarations_are_the_preset(void **state) {
-    (void)state;
+static void declarations_are_the_preset(UNUSED void **state) {
     struct glint_pipeline *reference = preset("reference");
     size_t count, references = 0;
     const struct glint_pass *passes = glint_passes(&count);
@@ -65,8 +59,7 @@ static void declarations_are_the_preset(void **state) {
 }
 
 /* Chains that no pass writes cannot provide cones: the player of rays is separate from that of cube maps. */
-static void what_is_not_there_joins_nothing(void **state) {
-    (void)state;
+static void what_is_not_there_joins_nothing(UNUSED void **state) {
     struct glint_pipeline *kf2 = preset("kf2"), *mafia3 = preset("mafia3");
     struct glint_players *alone = players_of(kf2, 4), *with = players_of(mafia3, 4);
     assert_string_equal(glint_player_change(alone, player(alone, "downsample")), "downsample none by its values");
@@ -82,8 +75,7 @@ static void what_is_not_there_joins_nothing(void **state) {
 }
 
 /* Applying every declared value to the references' defaults gives the preset's values. */
-static void declared_values_are_the_presets(void **state) {
-    (void)state;
+static void declared_values_are_the_presets(UNUSED void **state) {
     struct glint_pipeline *reference = preset("reference"), *made = preset("reference");
     struct glint_error err = {0};
     for (size_t i = 0; i < made->count; i++)
@@ -107,8 +99,7 @@ static void declared_values_are_the_presets(void **state) {
     glint_pipeline_destroy(&made);
 }
 
-static void players_run_from_the_last_to_the_first(void **state) {
-    (void)state;
+static void players_run_from_the_last_to_the_first(UNUSED void **state) {
     struct glint_pipeline *pipeline = preset("mafia3");
     struct glint_players *players = players_of(pipeline, 0);
     static const char *const names[] = {"upscale",      "temporal",   "blur", "cubemap_trace",
@@ -127,8 +118,7 @@ static void players_run_from_the_last_to_the_first(void **state) {
 }
 
 /* A slot that reads images which only one variant of another slot writes cannot be replaced alone. */
-static void shared_images_join_slots(void **state) {
-    (void)state;
+static void shared_images_join_slots(UNUSED void **state) {
     struct glint_pipeline *pipeline = preset("mafia_de");
     struct glint_players *players = players_of(pipeline, 0);
     const size_t p = player(players, "downsample+upscale");
@@ -139,8 +129,7 @@ static void shared_images_join_slots(void **state) {
     glint_pipeline_destroy(&pipeline);
 }
 
-static enum fact_about about(const char *fact) {
-    (void)fact;
+static enum fact_about about(UNUSED const char *fact) {
     return FACT_PARTS;
 }
 static bool holds(void *user, const char *fact, char *reason, size_t size, struct glint_error *err) {
@@ -192,8 +181,7 @@ static void assert_same(const struct glint_pipeline *made, const struct glint_pi
     assert_int_equal(glint_pipeline_rays(made), glint_pipeline_rays(model));
 }
 
-static void ends_are_the_preset_and_its_reference(void **state) {
-    (void)state;
+static void ends_are_the_preset_and_its_reference(UNUSED void **state) {
     for (size_t i = 0; i < PRESETS; i++) {
         struct glint_error err = {0};
         struct glint_pipeline *pipeline = preset(presets[i]), *reference = glint_study_reference(pipeline, &err);
@@ -221,8 +209,7 @@ static double value(const struct glint_pipeline *pipeline, const char *slot, con
 }
 
 /* How distances are filtered is a parameter of cubemap_trace's player, whichever variant writes the chain. */
-static void values_go_with_their_owners(void **state) {
-    (void)state;
+static void values_go_with_their_owners(UNUSED void **state) {
     struct glint_pipeline *pipeline = preset("mafia3");
     struct glint_players *players = players_of(pipeline, 7);
     const uint32_t trace = 1u << player(players, "cubemap_trace"), down = 1u << player(players, "downsample");
@@ -238,8 +225,7 @@ static void values_go_with_their_owners(void **state) {
     glint_pipeline_destroy(&pipeline);
 }
 
-static void the_reference_has_no_players(void **state) {
-    (void)state;
+static void the_reference_has_no_players(UNUSED void **state) {
     struct glint_pipeline *pipeline = preset("reference");
     struct glint_error err = {0};
     assert_null(glint_players_create(pipeline, 0, &err));

@@ -1,18 +1,13 @@
 /* Tests without a device: surveys, plans, and untrusted run folders. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
-#include <cmocka.h>
-
 #include "fixture.h"
 #include "glint/exr.h"
+#include "unit.h"
 
 /* The fixture's floor is metal in columns 0, 11, … and dielectric elsewhere; its wall is metal in those columns only. */
 static void the_survey_counts_what_the_frame_holds(void **state) {

@@ -1,15 +1,10 @@
 /* The search on functions with known optima. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "glint/search.h"
+#include "unit.h"
 
 /* A model of a march: errors fall with the inverse of two counts, and time grows with them; one number has its optimum inside its
    range, a switch costs time, one of three choices is better, and one number has no effect. */
@@ -79,8 +74,7 @@ static struct glint_search_result search(double limit, uint32_t tries, uint64_t 
 }
 
 /* Catches: a limit that is exceeded, fractional steps, choices that are not tried, and a search that stays at its start. */
-static void the_best_point_within_a_limit_is_found(void **state) {
-    (void)state;
+static void the_best_point_within_a_limit_is_found(UNUSED void **state) {
     static const double limits[] = {160, 76, 38, 12}; /* all of the start's cost, a half, a fourth, nearly nothing */
     for (int i = 0; i < 4; i++) {
         struct calls calls = {0};
@@ -99,8 +93,7 @@ static void the_best_point_within_a_limit_is_found(void **state) {
     }
 }
 
-static void a_seed_gives_the_same_points_again(void **state) {
-    (void)state;
+static void a_seed_gives_the_same_points_again(UNUSED void **state) {
     struct calls calls[3] = {{0}, {0}, {0}};
     for (int i = 0; i < 3; i++) {
         struct glint_search_result result = search(76, 300, i < 2 ? 7 : 8, &calls[i]);
@@ -110,8 +103,7 @@ static void a_seed_gives_the_same_points_again(void **state) {
     assert_int_not_equal(calls[0].hash, calls[2].hash);
 }
 
-static void what_was_found_before_an_error_is_kept(void **state) {
-    (void)state;
+static void what_was_found_before_an_error_is_kept(UNUSED void **state) {
     struct calls calls = {.stop_after = 40};
     struct glint_search_result result;
     struct glint_error err = {0};
@@ -125,8 +117,7 @@ static void what_was_found_before_an_error_is_kept(void **state) {
 }
 
 /* Catches: an impossible limit whose result is not the lowest possible cost. */
-static void an_unreachable_limit_is_reported(void **state) {
-    (void)state;
+static void an_unreachable_limit_is_reported(UNUSED void **state) {
     struct calls calls = {0};
     struct glint_search_result result = search(1, 300, 1, &calls);
     assert_false(result.feasible);
@@ -136,8 +127,7 @@ static void an_unreachable_limit_is_reported(void **state) {
 }
 
 /* Known points follow the start, and the result is never worse than the best of them. */
-static void known_points_are_never_lost(void **state) {
-    (void)state;
+static void known_points_are_never_lost(UNUSED void **state) {
     struct calls calls = {0};
     struct glint_search_result result;
     struct glint_error err = {0};
@@ -152,8 +142,7 @@ static void known_points_are_never_lost(void **state) {
     glint_search_result_finish(&result);
 }
 
-static void noise_moves_the_answer_little(void **state) {
-    (void)state;
+static void noise_moves_the_answer_little(UNUSED void **state) {
     struct calls calls = {.noise = 0.02};
     struct glint_search_result result = search(76, 300, 1, &calls);
     const struct glint_search_point *best = &result.points[result.best];
@@ -169,8 +158,7 @@ static bool try_hidden(void *user, const double *v, struct glint_search_figures 
     *figures = (struct glint_search_figures){v[0] == 0 ? 10 : 8 + fabs(v[1] - 40) / 10, v[0] == 0 ? 5 : 4};
     return true;
 }
-static void what_matters_under_another_choice_is_found(void **state) {
-    (void)state;
+static void what_matters_under_another_choice_is_found(UNUSED void **state) {
     for (int hidden = 0; hidden < 2; hidden++) {
         const struct glint_search_axis two[] = {
             {.choices = 2}, {.lowest = 1, .highest = 64, .start = 32, .whole = true, .keep = hidden}};
@@ -198,8 +186,7 @@ static bool try_many(void *user, const double *v, struct glint_search_figures *f
     }
     return true;
 }
-static void twenty_numbers_take_some_hundred_tries(void **state) {
-    (void)state;
+static void twenty_numbers_take_some_hundred_tries(UNUSED void **state) {
     struct glint_search_axis many[MANY];
     double start = 0, sum = 0;
     for (int i = 0; i < MANY; i++) {
@@ -226,9 +213,9 @@ struct touched {
     bool axis[SIXTY];
     size_t count;
 };
-static bool try_sixty(void *user, const double *v, struct glint_search_figures *figures, struct glint_error *err) {
+static bool try_sixty(void *user, const double *v, struct glint_search_figures *figures,
+                      UNUSED struct glint_error *err) {
     struct touched *touched = user;
-    (void)err;
     for (int a = 0; a < SIXTY; a++) touched->axis[a] |= v[a] != (a == CHOICE ? 0 : 8);
     touched->count++;
     *figures = (struct glint_search_figures){1 + 8 / v[UP] + (v[CHOICE] > 0 ? 0 : 0.5) + 0.4 / v[COSTLY],
@@ -240,8 +227,7 @@ static bool try_sixty(void *user, const double *v, struct glint_search_figures *
     }
     return true;
 }
-static void few_tries_are_spent_on_what_matters(void **state) {
-    (void)state;
+static void few_tries_are_spent_on_what_matters(UNUSED void **state) {
     struct glint_search_axis sixty[SIXTY];
     struct glint_search_result result;
     struct glint_error err = {0};
@@ -262,8 +248,7 @@ static void few_tries_are_spent_on_what_matters(void **state) {
     glint_search_result_finish(&result);
 }
 
-static void better_is_within_then_less(void **state) {
-    (void)state;
+static void better_is_within_then_less(UNUSED void **state) {
     const struct glint_search_figures in = {2, 9}, less = {1, 9.5}, out = {0.1, 11}, far = {0.05, 20}, none = {NAN, 1};
     assert_true(glint_search_better(&less, &in, 10) && !glint_search_better(&in, &less, 10));
     assert_true(glint_search_better(&in, &out, 10) && glint_search_better(&out, &far, 10));
@@ -276,8 +261,7 @@ static bool no_figures(void *user, const double *v, struct glint_search_figures 
     (void)user, (void)v, (void)figures, (void)err;
     return true;
 }
-static void odd_searches_end(void **state) {
-    (void)state;
+static void odd_searches_end(UNUSED void **state) {
     struct glint_search_result result;
     struct glint_error err = {0};
     struct glint_search_options options = {.limit = 76, .max_points = 50};

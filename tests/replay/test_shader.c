@@ -1,17 +1,12 @@
 /* Users' shaders: includes are found, and errors have the user's file and line. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
-#include <cmocka.h>
-
 #include "fixture.h"
 #include "shader.h"
+#include "unit.h"
 
 static char *write_text(void **state, const char *name, const char *text) {
     const struct fixture *fixture = *state;

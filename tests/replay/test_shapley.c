@@ -1,15 +1,9 @@
 /* Shapley values, exact and sampled, compared with closed forms. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "glint/blame.h"
+#include "unit.h"
 
 enum { PLAYERS = 9, AIRPORT = 0, GLOVES, SQUARE, GAMES };
 
@@ -91,8 +85,7 @@ static void assert_sums(const struct glint_shapley *found) {
     }
 }
 
-static void all_coalitions_give_the_closed_forms(void **state) {
-    (void)state;
+static void all_coalitions_give_the_closed_forms(UNUSED void **state) {
     struct record record;
     struct glint_shapley found = solve(&record, (struct glint_shapley_options){.exact = PLAYERS});
     assert_true(found.exact);
@@ -107,8 +100,7 @@ static void all_coalitions_give_the_closed_forms(void **state) {
 }
 
 /* Alone and last, by the definitions of the games. */
-static void ends_are_those_of_one_exchange(void **state) {
-    (void)state;
+static void ends_are_those_of_one_exchange(UNUSED void **state) {
     struct record record;
     double sum = 0;
     for (size_t i = 0; i < PLAYERS; i++) sum += runway[i];
@@ -129,8 +121,7 @@ static void ends_are_those_of_one_exchange(void **state) {
 }
 
 /* How often the interval of 200 seeds contains the closed form: 95 % of 9 players each, apart from chance. */
-static void intervals_hold_what_they_say(void **state) {
-    (void)state;
+static void intervals_hold_what_they_say(UNUSED void **state) {
     struct record record;
     size_t inside = 0, all = 0;
     for (uint32_t seed = 0; seed < 200; seed++) {
@@ -147,8 +138,7 @@ static void intervals_hold_what_they_say(void **state) {
 }
 
 /* Interactions of pairs only: an order and its reverse together have no variance. */
-static void opposite_orders_cancel(void **state) {
-    (void)state;
+static void opposite_orders_cancel(UNUSED void **state) {
     struct record record;
     struct glint_shapley found = solve(&record, (struct glint_shapley_options){.permutations = 4});
     for (size_t i = 0; i < PLAYERS; i++)
@@ -157,8 +147,7 @@ static void opposite_orders_cancel(void **state) {
     glint_shapley_finish(&found);
 }
 
-static void drawing_stops_at_the_interval(void **state) {
-    (void)state;
+static void drawing_stops_at_the_interval(UNUSED void **state) {
     struct record record;
     uint32_t last = 0;
     for (size_t k = 0; k < 3; k++) {
@@ -173,8 +162,7 @@ static void drawing_stops_at_the_interval(void **state) {
     }
 }
 
-static void the_same_seed_draws_the_same(void **state) {
-    (void)state;
+static void the_same_seed_draws_the_same(UNUSED void **state) {
     struct record record;
     struct glint_shapley a = solve(&record, (struct glint_shapley_options){.permutations = 10, .seed = 3});
     struct glint_shapley b = solve(&record, (struct glint_shapley_options){.permutations = 10, .seed = 3});
@@ -211,8 +199,7 @@ static bool watch_progress(void *user, struct glint_error *err) {
     watch->permutations = found->permutations;
     return true;
 }
-static void known_values_are_returned_at_once(void **state) {
-    (void)state;
+static void known_values_are_returned_at_once(UNUSED void **state) {
     struct glint_error err = {0};
     for (size_t exact = 0; exact <= PLAYERS; exact += PLAYERS)
         for (size_t stop = 0; stop < 3; stop++) {
@@ -230,8 +217,7 @@ static void known_values_are_returned_at_once(void **state) {
         }
 }
 
-static void failures_end_the_game(void **state) {
-    (void)state;
+static void failures_end_the_game(UNUSED void **state) {
     for (size_t exact = 0; exact <= PLAYERS; exact += PLAYERS)
         for (size_t at = 1; at < 30; at += 7) {
             struct record record = {.fail_at = at};

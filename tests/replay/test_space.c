@@ -1,16 +1,11 @@
 /* Spaces of pipelines: grids, Latin hypercubes and their order; fronts compared with brute force. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "glint/space.h"
+#include "unit.h"
 
 static struct glint_pipeline *plain(void) {
     struct glint_error err = {0};
@@ -40,8 +35,7 @@ static void assert_values(const char *axis, const char *expected) {
     glint_space_destroy(&space);
 }
 
-static void ranges_and_lists_are_what_they_say(void **state) {
-    (void)state;
+static void ranges_and_lists_are_what_they_say(UNUSED void **state) {
     assert_values("screen_trace.steps=4..8", "4 5 6 7 8");
     assert_values("screen_trace.steps=4..9:2", "4 6 8");
     assert_values("screen_trace.steps=4..128:log", "4 8 16 32 64 128");
@@ -66,8 +60,7 @@ static double value_of(const struct glint_pipeline *pipeline, const char *slot, 
 }
 
 /* Every combination occurs once, the pipelines have the values, and one value is set for all names of an axis. */
-static void a_grid_has_every_combination_once(void **state) {
-    (void)state;
+static void a_grid_has_every_combination_once(UNUSED void **state) {
     struct glint_space *space = grid(AXES("cubemap_trace.steps_hq+cubemap_trace.steps_lq=3..5",
                                           "screen_trace.thickness=0.5,0.25", "cubemap_trace.secant=true,false"));
     struct glint_error err = {0};
@@ -89,8 +82,7 @@ static void a_grid_has_every_combination_once(void **state) {
 }
 
 /* Only the linear march has `steps`. */
-static void values_without_a_use_make_no_points(void **state) {
-    (void)state;
+static void values_without_a_use_make_no_points(UNUSED void **state) {
     struct glint_space *space = grid(AXES("screen_trace.steps=8,16,32", "screen_trace=dda,linear"));
     size_t without = 0;
     assert_int_equal(glint_space_count(space), 4);
@@ -103,8 +95,7 @@ static void values_without_a_use_make_no_points(void **state) {
     glint_space_destroy(&space);
 }
 
-static void late_slots_vary_fastest(void **state) {
-    (void)state;
+static void late_slots_vary_fastest(UNUSED void **state) {
     const char *const slots[] = {"downsample", "screen_trace", "cubemap_trace", "resolve", NULL};
     struct glint_error err = {0};
     struct glint_space *space =
@@ -124,8 +115,7 @@ static void late_slots_vary_fastest(void **state) {
 enum { N = 40 };
 
 /* Catches: strata that are hit twice or never, and points that differ for the same seed. */
-static void a_hypercube_hits_each_stratum_once(void **state) {
-    (void)state;
+static void a_hypercube_hits_each_stratum_once(UNUSED void **state) {
     struct glint_error err = {0};
     struct glint_pipeline *pipeline = plain();
     const char *const axes[] = {"screen_trace.thickness=0.5..4.5", "cubemap_trace.length_m=1..10000:log",
@@ -165,8 +155,7 @@ static void assert_refused(const char *const *axes, const char *says) {
     glint_pipeline_destroy(&pipeline);
 }
 
-static void what_is_wrong_is_named(void **state) {
-    (void)state;
+static void what_is_wrong_is_named(UNUSED void **state) {
     assert_refused((const char *const[]){NULL}, "an axis to vary");
     assert_refused(AXES("screen_trace.steps"), "expected SLOT.PARAMETER=A..B");
     assert_refused(AXES("=4"), "expected SLOT.PARAMETER=A..B");
@@ -205,8 +194,7 @@ static void what_is_wrong_is_named(void **state) {
 }
 
 /* Compared with the definition, with many equal coordinates. */
-static void a_front_is_not_dominated(void **state) {
-    (void)state;
+static void a_front_is_not_dominated(UNUSED void **state) {
     enum { M = 300 };
     double x[M] = {0}, y[M] = {0};
     bool on[M];

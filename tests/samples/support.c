@@ -15,10 +15,7 @@ int folder_make(void **state) {
     return *state ? 0 : -1;
 }
 
-static int drop(const char *path, const struct stat *status, int flag, struct FTW *place) {
-    (void)status;
-    (void)flag;
-    (void)place;
+static int drop(const char *path, UNUSED const struct stat *status, UNUSED int flag, UNUSED struct FTW *place) {
     return remove(path);
 }
 

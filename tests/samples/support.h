@@ -2,14 +2,8 @@
 #ifndef TESTS_SAMPLES_SUPPORT_H
 #define TESTS_SAMPLES_SUPPORT_H
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-/* cmocka needs these four before its own header */
-#include <cmocka.h>
-
 #include "glint/samples.h"
+#include "unit.h"
 
 /* Creates and removes a folder, with cmocka's signatures. */
 int folder_make(void **state);

@@ -181,9 +181,8 @@ static void test_hotels_nearest_eight_are_indoors(void **state) {
 }
 
 /* Inner volumes are empty: no ray from the centre hits anything inside. */
-static void test_inner_volumes_are_empty(void **state) {
+static void test_inner_volumes_are_empty(UNUSED void **state) {
     static void (*const builders[])(struct scene *) = {build_mirror_box, build_street, build_room, build_hotel};
-    (void)state;
     size_t kinds[4] = {0};
     for (size_t b = 0; b < sizeof builders / sizeof *builders; b++) {
         struct glint_error err = {0};

@@ -60,8 +60,7 @@ static void test_a_mirror_shows_the_walls(void **state) {
     glint_capture_close(&capture);
 }
 
-static vec3 even_sky(vec3 direction) {
-    (void)direction;
+static vec3 even_sky(UNUSED vec3 direction) {
     return gray(1);
 }
 
@@ -86,8 +85,7 @@ static double quadrature(double roughness, double out) {
     return sum;
 }
 
-static void test_a_white_surface_under_an_even_sky(void **state) {
-    (void)state;
+static void test_a_white_surface_under_an_even_sky(UNUSED void **state) {
     struct glint_error err = {0};
     struct job job = {.total = 1, .threads = 2};
     for (int k = 0; k < 2; k++) {

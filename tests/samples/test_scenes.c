@@ -12,8 +12,7 @@ static struct glint_sample_options options(void) {
     return (struct glint_sample_options){.width = W, .height = H, .cube_size = 16, .light_samples = 4};
 }
 
-static void print_violation(void *user, const char *rule, const char *message) {
-    (void)user;
+static void print_violation(UNUSED void *user, const char *rule, const char *message) {
     print_error("%s: %s\n", rule, message);
 }
 
@@ -231,8 +230,7 @@ static void test_motion_of_what_moves(void **state) {
     glint_capture_close(&capture);
 }
 
-static bool stop_late(void *user, const char *what, double done) {
-    (void)what;
+static bool stop_late(void *user, UNUSED const char *what, double done) {
     return done < *(const double *)user;
 }
 

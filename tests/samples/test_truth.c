@@ -23,8 +23,7 @@ static double mean_half_cosine(vec3 (*lobe)(vec3, vec3, float, float, float), ve
     return sum / N;
 }
 
-static void test_blinn_phong_half_vectors_follow_the_power(void **state) {
-    (void)state;
+static void test_blinn_phong_half_vectors_follow_the_power(UNUSED void **state) {
     vec3 normal = unit(v3(0.2f, 0.9f, -0.3f));
     /* density ∝ cosⁿ per solid angle: mean cosine (n + 1)/(n + 2); at normal incidence no half-vector is rejected */
     for (int i = 1; i <= 4; i++) {
@@ -36,8 +35,7 @@ static void test_blinn_phong_half_vectors_follow_the_power(void **state) {
     }
 }
 
-static void test_slides_example_of_the_power(void **state) {
-    (void)state;
+static void test_slides_example_of_the_power(UNUSED void **state) {
     /* the power for roughness 0.5 is 30, and cos³⁰ falls to 0.1 at acos(0.1^(1/30)) = 0.3868: the fraction of half-vectors outside is
        0.1^(31/30) */
     vec3 normal = v3(0, 0, 1);
@@ -52,8 +50,7 @@ static void test_slides_example_of_the_power(void **state) {
     assert_true(fabs((double)outside / N - pow(0.1, 31.0 / 30)) < 5e-4); /* 0.3868 is rounded */
 }
 
-static void test_ggx_half_vectors_follow_the_distribution(void **state) {
-    (void)state;
+static void test_ggx_half_vectors_follow_the_distribution(UNUSED void **state) {
     /* At normal incidence visible normals have the density D(h) cos θ, D = α²/π/((α² - 1)cos²θ + 1)²: with x = cos²θ the inverse of the
        distribution function is x = (1 - u)/(1 + (α² - 1)u). The mean of √x by quadrature. */
     vec3 normal = unit(v3(-0.5f, 0.1f, 0.7f));
@@ -70,8 +67,7 @@ static void test_ggx_half_vectors_follow_the_distribution(void **state) {
 
 /* Visible normals from an oblique direction have a density proportional to D(h) max(0, v·h): compares the mean of v·h with
    brute-force integration. */
-static void test_ggx_aslant(void **state) {
-    (void)state;
+static void test_ggx_aslant(UNUSED void **state) {
     vec3 normal = v3(0, 0, 1), to_eye = unit(v3(0.8f, 0, 0.6f));
     const double alpha = 0.36;
     double weight = 0, moment = 0, drawn = 0;
@@ -94,8 +90,7 @@ static void test_ggx_aslant(void **state) {
     assert_true(fabs(drawn - moment / weight) < 1e-3);
 }
 
-static void test_smooth_lobes_are_mirrors(void **state) {
-    (void)state;
+static void test_smooth_lobes_are_mirrors(UNUSED void **state) {
     vec3 normal = unit(v3(0.1f, 1, 0.2f)), to_eye = unit(v3(0.7f, 0.3f, 0.4f)), mirror = reflected(to_eye, normal);
     for (uint32_t i = 0; i < 100; i++) {
         float u, v;
@@ -107,8 +102,7 @@ static void test_smooth_lobes_are_mirrors(void **state) {
 
 /* ---- Whole images of a scene that is built here: a floor under a sky ---- */
 
-static vec3 even_sky(vec3 d) {
-    (void)d;
+static vec3 even_sky(UNUSED vec3 d) {
     return v3(0.3f, 0.5f, 0.7f);
 }
 /* A sky that is linear in the direction: its mean over a lobe is the first moment of the lobe. */
@@ -153,8 +147,7 @@ static void drop(struct picture *p) {
     free(p->truth);
 }
 
-static void test_even_sky_reflects_evenly(void **state) {
-    (void)state;
+static void test_even_sky_reflects_evenly(UNUSED void **state) {
     for (int i = 0; i <= 4; i++) {
         struct picture p;
         take(&p, 0.25f * (float)i, even_sky, 16);
@@ -173,8 +166,7 @@ static void test_even_sky_reflects_evenly(void **state) {
     }
 }
 
-static void test_mirror_of_a_linear_sky(void **state) {
-    (void)state;
+static void test_mirror_of_a_linear_sky(UNUSED void **state) {
     struct picture p;
     take(&p, 0, linear_sky, 2);
     for (uint32_t k = 0; k < W * H; k++) {
@@ -187,8 +179,7 @@ static void test_mirror_of_a_linear_sky(void **state) {
 }
 
 /* The reported standard error must match the deviation of images with few samples from one with many. */
-static void test_noise_estimate_is_accurate(void **state) {
-    (void)state;
+static void test_noise_estimate_is_accurate(UNUSED void **state) {
     struct picture few, many;
     take(&few, 0.5f, linear_sky, 32);
     take(&many, 0.5f, linear_sky, 4096);
@@ -209,8 +200,7 @@ static void test_noise_estimate_is_accurate(void **state) {
     drop(&many);
 }
 
-static void test_a_mirrored_wall_is_lit_like_the_wall(void **state) {
-    (void)state;
+static void test_a_mirrored_wall_is_lit_like_the_wall(UNUSED void **state) {
     /* a lit wall behind a mirror floor: the truth is the radiance of the wall's point, including baked light */
     struct glint_error err = {0};
     struct job job = {.total = 1, .threads = 2};

@@ -1,20 +1,14 @@
 /* The references of the self-test, each compared with its inverse or with an independent computation. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
 
 #include "oracles/noise.h"
 #include "oracles/open_box.h"
 #include "oracles/plain_capture.h"
+#include "unit.h"
 
 /* Stored values decode to the depth within half a step; the last bit of a float, 6e-8, is negligible. */
-static void stored_depth_decodes_to_itself(void **state) {
+static void stored_depth_decodes_to_itself(UNUSED void **state) {
     static const uint32_t bits[] = {0, 24};
-    (void)state;
     for (int encoding = GLINT_DEPTH_VIEW_LINEAR; encoding <= GLINT_DEPTH_LOGARITHMIC_REVERSED; encoding++)
         for (size_t b = 0; b < (encoding == GLINT_DEPTH_VIEW_LINEAR ? 1 : 2); b++)
             for (double depth = 0.2; depth < 500; depth *= 1.7) {
@@ -36,10 +30,9 @@ static double cross_length(const double a[3], const double b[3]) {
 }
 
 /* A mirror ray starts at its pixel, and the camera's ray through the screen position of its end passes through that end. */
-static void mirror_rays_start_and_end_where_they_are_seen(void **state) {
+static void mirror_rays_start_and_end_where_they_are_seen(UNUSED void **state) {
     const struct open_box box = open_box_filled(&(struct open_box){0});
     size_t rays = 0;
-    (void)state;
     for (uint32_t i = 0; i < box.width * box.height; i++) {
         const double place[2] = {i % box.width + 0.5, i / box.width + 0.5};
         double seen[2], ray[3], eye[3] = {1.2, 1.7, 5.2}, to_end[3];
@@ -57,8 +50,7 @@ static void mirror_rays_start_and_end_where_they_are_seen(void **state) {
 }
 
 /* Directions of a face have unit length, and their largest component is along the axis of the face. */
-static void directions_lie_on_their_faces(void **state) {
-    (void)state;
+static void directions_lie_on_their_faces(UNUSED void **state) {
     for (uint32_t face = 0; face < 6; face++)
         for (uint32_t texel = 0; texel < 64; texel++) {
             double d[3], length = 0;
@@ -70,9 +62,8 @@ static void directions_lie_on_their_faces(void **state) {
 }
 
 /* 10^6 numbers: five standard deviations of a mean are 5/sqrt(12 10^6). */
-static void noise_is_even(void **state) {
+static void noise_is_even(UNUSED void **state) {
     double sum = 0;
-    (void)state;
     for (uint32_t i = 0; i < 1000000; i++) {
         const double value = noise(7, i);
         assert_true(value >= 0 && value < 1);

@@ -1,14 +1,9 @@
 /* The selection of cases, and which findings pass. cli_selftest tests the cases themselves. */
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
 #include <string.h>
 
-#include <cmocka.h>
-
 #include "glint/selftest.h"
+#include "unit.h"
 
 static size_t count_cases(const struct glint_selftest *selftest) {
     size_t count = 0;
@@ -26,9 +21,8 @@ static struct glint_selftest *select_cases(const char *first, const char *second
     return selftest;
 }
 
-static void every_case_says_what_it_claims(void **state) {
+static void every_case_says_what_it_claims(UNUSED void **state) {
     struct glint_selftest *selftest = select_cases(NULL, NULL);
-    (void)state;
     for (size_t g = 0; g < glint_selftest_group_count(selftest); g++) {
         const struct glint_selftest_group *group = glint_selftest_get_group(selftest, g);
         assert_true(group->count > 0 && group->seconds == 0);
@@ -45,10 +39,9 @@ static void every_case_says_what_it_claims(void **state) {
     glint_selftest_destroy(&selftest);
 }
 
-static void a_name_selects_its_case_and_a_group_all_of_its_own(void **state) {
+static void a_name_selects_its_case_and_a_group_all_of_its_own(UNUSED void **state) {
     struct glint_selftest *all = select_cases(NULL, NULL), *one = select_cases("cut through mafia3", NULL),
                           *group = select_cases("garbage", NULL), *both = select_cases("garbage", "cut through mafia3");
-    (void)state;
     assert_int_equal(count_cases(one), 1);
     assert_int_equal(count_cases(both), count_cases(group) + 1);
     assert_true(count_cases(group) > 1 && count_cases(both) < count_cases(all));
@@ -63,20 +56,18 @@ static void a_name_selects_its_case_and_a_group_all_of_its_own(void **state) {
     glint_selftest_destroy(&both);
 }
 
-static void a_text_that_no_case_has_is_a_usage_error(void **state) {
+static void a_text_that_no_case_has_is_a_usage_error(UNUSED void **state) {
     const char *const only[] = {"no such thing", NULL};
     struct glint_error err = {0};
-    (void)state;
     assert_null(glint_selftest_create(only, &err));
     assert_int_equal(err.code, GLINT_ERROR_USAGE);
     assert_non_null(strstr(err.message, "no such thing"));
 }
 
-static void only_compared_values_within_the_bound_pass(void **state) {
+static void only_compared_values_within_the_bound_pass(UNUSED void **state) {
     const struct glint_selftest_case c = {.bound = 0.5};
     const double worst[] = {0, 0.5, 0.6, INFINITY, NAN};
     const bool passes[] = {true, true, false, false, false};
-    (void)state;
     for (size_t i = 0; i < sizeof worst / sizeof *worst; i++) {
         struct glint_selftest_finding finding = {.worst = worst[i], .values = 1};
         assert_int_equal(glint_selftest_passes(&c, &finding), passes[i]);

@@ -2,7 +2,6 @@
 #include "cli.h"
 #include "need.h"
 
-#include <errno.h>
 #include <fcntl.h>
 #include <ftw.h>
 #include <jansson.h>
@@ -150,8 +149,7 @@ double number(const json_t *object, const char *key) {
     return json_number_value(value);
 }
 
-int make_folder(void **state) {
-    (void)state;
+int make_folder(UNUSED void **state) {
     return mkdtemp(folder) ? 0 : -1;
 }
 
@@ -160,8 +158,7 @@ static int remove_entry(const char *path, const struct stat *info, int type, str
     return remove(path);
 }
 
-int remove_folder(void **state) {
-    (void)state;
+int remove_folder(UNUSED void **state) {
     return nftw(folder, remove_entry, 8, FTW_DEPTH | FTW_PHYS);
 }
 

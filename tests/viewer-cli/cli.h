@@ -2,13 +2,9 @@
 #ifndef GLINT_TEST_CLI_H
 #define GLINT_TEST_CLI_H
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-/* cmocka needs these before its own header */
-#include <cmocka.h>
 #include <stdbool.h>
+
+#include "unit.h"
 
 struct outcome {
     int status; /* exit status, or 128 + the number of the signal */

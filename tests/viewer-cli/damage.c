@@ -2,12 +2,10 @@
 #include "damage_internal.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
+#include "unit.h"
 
 /* Changes each texel of the G-buffer's channels X Y Z of a kind. */
 static void each_normal(struct rewrite *r, void (*change)(const double *m, double n[3], double strength),
@@ -26,46 +24,32 @@ static void each_normal(struct rewrite *r, void (*change)(const double *m, doubl
 
 /* ---- Normals ---- */
 
-static void to_view(const double *m, double n[3], double strength) {
+static void to_view(const double *m, double n[3], UNUSED double strength) {
     double v[3];
-    (void)strength;
     for (int i = 0; i < 3; i++) v[i] = m[4 * i] * n[0] + m[4 * i + 1] * n[1] + m[4 * i + 2] * n[2];
     memcpy(n, v, sizeof v);
 }
-static void to_unorm(const double *m, double n[3], double strength) {
-    (void)m;
-    (void)strength;
+static void to_unorm(UNUSED const double *m, double n[3], UNUSED double strength) {
     for (int i = 0; i < 3; i++) n[i] = fmin(n[i] / 2 + 0.5, 1);
 }
-static void negate(const double *m, double n[3], double strength) {
-    (void)m;
-    (void)strength;
+static void negate(UNUSED const double *m, double n[3], UNUSED double strength) {
     for (int i = 0; i < 3; i++) n[i] = -n[i];
 }
-static void flip_x(const double *m, double n[3], double strength) {
-    (void)m;
-    (void)strength;
+static void flip_x(UNUSED const double *m, double n[3], UNUSED double strength) {
     n[0] = -n[0];
 }
-static void flip_y(const double *m, double n[3], double strength) {
-    (void)m;
-    (void)strength;
+static void flip_y(UNUSED const double *m, double n[3], UNUSED double strength) {
     n[1] = -n[1];
 }
-static void flip_z(const double *m, double n[3], double strength) {
-    (void)m;
-    (void)strength;
+static void flip_z(UNUSED const double *m, double n[3], UNUSED double strength) {
     n[2] = -n[2];
 }
-static void exchange_yz(const double *m, double n[3], double strength) {
+static void exchange_yz(UNUSED const double *m, double n[3], UNUSED double strength) {
     const double y = n[1];
-    (void)m;
-    (void)strength;
     n[1] = n[2];
     n[2] = y;
 }
-static void shorten(const double *m, double n[3], double strength) {
-    (void)m;
+static void shorten(UNUSED const double *m, double n[3], double strength) {
     for (int i = 0; i < 3; i++) n[i] *= 0.3 + 0.6 * strength;
 }
 
@@ -118,9 +102,8 @@ static bool each_depth(struct rewrite *r,
     }
     return any;
 }
-static double as_radial(const double *p, double x, double y, double z, double strength) {
+static double as_radial(const double *p, double x, double y, double z, UNUSED double strength) {
     const double u = (x - p[2] * p[14]) / p[0], v = (y - p[6] * p[14]) / p[5];
-    (void)strength;
     return z * sqrt(u * u + v * v + 1);
 }
 static double as_hundreds(const double *p, double x, double y, double z, double strength) {
@@ -160,8 +143,7 @@ static bool depth_through_12_bits(struct rewrite *r, double strength) {
     return each_depth(r, through_12_bits, strength);
 }
 /* Stored as the projection computes it, but not declared. */
-static bool depth_undeclared(struct rewrite *r, double strength) {
-    (void)strength;
+static bool depth_undeclared(struct rewrite *r, UNUSED double strength) {
     rewrite_remove_attribute(r, "gbuffer", "glint.depth");
     return true;
 }
@@ -182,9 +164,8 @@ static bool invert_camera(struct rewrite *r, const char *name) {
 }
 DAMAGE(camera_inverse_current, invert_camera(r, "glint.worldToView"))
 DAMAGE(camera_inverse, invert_camera(r, "glint.worldToView") && invert_camera(r, "glint.previousWorldToView"))
-static bool camera_mirrored(struct rewrite *r, double strength) {
+static bool camera_mirrored(struct rewrite *r, UNUSED double strength) {
     static const char *const names[] = {"glint.worldToView", "glint.previousWorldToView"};
-    (void)strength;
     for (int k = 0; k < 2; k++) {
         double v[16];
         memcpy(v, damage_matrix(r, names[k]), sizeof v);
@@ -208,8 +189,7 @@ static bool depth_infinite(struct rewrite *r, double strength) {
     damage_set_text(r, "glint.clipZ", "minus_one_to_one");
     return true;
 }
-static bool camera_clip_y(struct rewrite *r, double strength) {
-    (void)strength;
+static bool camera_clip_y(struct rewrite *r, UNUSED double strength) {
     damage_set_text(r, "glint.clipY", "down");
     return true;
 }
@@ -217,14 +197,12 @@ static bool camera_up(struct rewrite *r, double strength) {
     damage_set_text(r, "glint.up", strength < 0.5 ? "+z" : "+x");
     return true;
 }
-static bool previous_same(struct rewrite *r, double strength) {
-    (void)strength;
+static bool previous_same(struct rewrite *r, UNUSED double strength) {
     damage_set_matrix(r, "glint.previousWorldToView", damage_matrix(r, "glint.worldToView"));
     damage_set_matrix(r, "glint.previousViewToClip", damage_matrix(r, "glint.viewToClip"));
     return true;
 }
-static bool previous_missing(struct rewrite *r, double strength) {
-    (void)strength;
+static bool previous_missing(struct rewrite *r, UNUSED double strength) {
     for (size_t i = r->count; i-- > 0;)
         if (!strncmp(r->parts[i].name, "previous.", 9)) rewrite_remove_part(r, r->parts[i].name);
     rewrite_remove_attribute(r, "gbuffer", "glint.previousWorldToView");
@@ -233,8 +211,7 @@ static bool previous_missing(struct rewrite *r, double strength) {
 }
 
 /* Every screen image with its bottom row first, and motion with y up. */
-static bool bottom_first(struct rewrite *r, double strength) {
-    (void)strength;
+static bool bottom_first(struct rewrite *r, UNUSED double strength) {
     for (size_t i = 0; i < r->count; i++) {
         struct rewrite_part *p = &r->parts[i];
         const size_t w = p->part.width, h = p->part.height;
@@ -269,9 +246,8 @@ static bool each_motion(struct rewrite *r, double x_shift, double y_shift, doubl
 DAMAGE(motion_negated, each_motion(r, 0, 0, -1, -1))
 DAMAGE(motion_y, each_motion(r, 0, 0, 1, -1))
 DAMAGE(motion_ndc, each_motion(r, 0, 0, 2, -2))
-static bool motion_pixels(struct rewrite *r, double strength) {
+static bool motion_pixels(struct rewrite *r, UNUSED double strength) {
     const struct rewrite_part *g = rewrite_find(r, "gbuffer");
-    (void)strength;
     return each_motion(r, 0, 0, g->part.width, g->part.height);
 }
 DAMAGE(motion_zero, each_motion(r, 0, 0, 0, 0))
@@ -310,8 +286,7 @@ static bool lit_specular(struct rewrite *r, double strength) {
     }
     return metals > damage_texels_of(r, "gbuffer") / 100;
 }
-static bool lit_srgb(struct rewrite *r, double strength) {
-    (void)strength;
+static bool lit_srgb(struct rewrite *r, UNUSED double strength) {
     for (int c = 0; c < 3; c++) {
         float *v = damage_floats(r, "lit", rgb[c]);
         for (size_t i = 0; i < damage_texels_of(r, "lit"); i++)
@@ -319,10 +294,9 @@ static bool lit_srgb(struct rewrite *r, double strength) {
     }
     return true;
 }
-static bool lit_upside_down(struct rewrite *r, double strength) {
+static bool lit_upside_down(struct rewrite *r, UNUSED double strength) {
     const struct rewrite_part *p = rewrite_find(r, "lit");
     const uint32_t w = p->part.width, h = p->part.height;
-    (void)strength;
     for (int c = 0; c < 3; c++) {
         float *v = damage_floats(r, "lit", rgb[c]);
         for (uint32_t y = 0; y < h / 2; y++)
@@ -334,9 +308,8 @@ static bool lit_upside_down(struct rewrite *r, double strength) {
     }
     return true;
 }
-static bool lit_bgr(struct rewrite *r, double strength) {
+static bool lit_bgr(struct rewrite *r, UNUSED double strength) {
     float *red = damage_floats(r, "lit", "R"), *blue = damage_floats(r, "lit", "B");
-    (void)strength;
     for (size_t i = 0; i < damage_texels_of(r, "lit"); i++) {
         const float t = red[i];
         red[i] = blue[i];
@@ -365,9 +338,8 @@ static bool each_roughness(struct rewrite *r, bool invert) {
 }
 DAMAGE(roughness_squared, each_roughness(r, false))
 DAMAGE(roughness_inverted, each_roughness(r, true))
-static bool metres_per_unit(struct rewrite *r, double strength) {
+static bool metres_per_unit(struct rewrite *r, UNUSED double strength) {
     static double hundredth = 0.01;
-    (void)strength;
     rewrite_attribute(r, "gbuffer", "glint.metresPerUnit")->numbers = &hundredth;
     return true;
 }

@@ -1,13 +1,10 @@
 /* Access to the data that mistakes change. */
 #include "damage_internal.h"
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
+#include "unit.h"
 
 size_t damage_texels_of(struct rewrite *r, const char *part) {
     const struct rewrite_part *p = rewrite_find(r, part);

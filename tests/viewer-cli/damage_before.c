@@ -1,13 +1,9 @@
 /* Mistakes in a capture with the previous frame but without motion vectors and cube maps, so that nothing else shows them. */
 #include "damage_internal.h"
 
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
+#include "unit.h"
 
 static void leave_the_frame_before(struct rewrite *r) {
     static const char *const motion[] = {"motion.X", "motion.Y", "motion.Z"};
@@ -42,31 +38,27 @@ static bool exchanged(struct rewrite *r) {
     return true;
 }
 
-bool before_same(struct rewrite *r, double strength) {
-    (void)strength;
+bool before_same(struct rewrite *r, UNUSED double strength) {
     leave_the_frame_before(r);
     damage_set_matrix(r, "glint.previousWorldToView", damage_matrix(r, "glint.worldToView"));
     damage_set_matrix(r, "glint.previousViewToClip", damage_matrix(r, "glint.viewToClip"));
     return true;
 }
 
-bool before_exchanged(struct rewrite *r, double strength) {
-    (void)strength;
+bool before_exchanged(struct rewrite *r, UNUSED double strength) {
     leave_the_frame_before(r);
     return exchanged(r);
 }
 
 /* With the colours of the previous frame, but without its depth. */
-bool before_exchanged_lit(struct rewrite *r, double strength) {
-    (void)strength;
+bool before_exchanged_lit(struct rewrite *r, UNUSED double strength) {
     leave_the_frame_before(r);
     rewrite_remove_part(r, "previous.gbuffer");
     return exchanged(r);
 }
 
 /* Not a mistake. */
-bool before_right(struct rewrite *r, double strength) {
-    (void)strength;
+bool before_right(struct rewrite *r, UNUSED double strength) {
     leave_the_frame_before(r);
     return true;
 }
@@ -90,8 +82,7 @@ bool before_elsewhere(struct rewrite *r, double strength) {
 static double as_opengl(double v) {
     return (v + 1) / 2;
 }
-bool before_clip_z(struct rewrite *r, double strength) {
-    (void)strength;
+bool before_clip_z(struct rewrite *r, UNUSED double strength) {
     leave_the_frame_before(r);
     each_depth(r, as_opengl);
     return true;
@@ -100,17 +91,15 @@ bool before_clip_z(struct rewrite *r, double strength) {
 static double as_hundreds(double v) {
     return 100 * v;
 }
-bool before_hundreds(struct rewrite *r, double strength) {
-    (void)strength;
+bool before_hundreds(struct rewrite *r, UNUSED double strength) {
     leave_the_frame_before(r);
     each_depth(r, as_hundreds);
     return true;
 }
 
 /* The position of the eye in the engine's left-handed world, everything else in the right-handed one. */
-bool before_mirrored(struct rewrite *r, double strength) {
+bool before_mirrored(struct rewrite *r, UNUSED double strength) {
     static const char *const names[] = {"glint.worldToView", "glint.previousWorldToView"};
-    (void)strength;
     leave_the_frame_before(r);
     for (int k = 0; k < 2; k++) {
         double m[16];

@@ -2,12 +2,10 @@
 #include "damage_internal.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
+#include "unit.h"
 
 /* Every channel's faces: face f, texel x y, is taken from face from[f], rotated. */
 static bool each_face(struct rewrite *r, const int from[6], int turn) {
@@ -72,8 +70,7 @@ static bool each_center(struct rewrite *r, double factor) {
 }
 DAMAGE(center_negated, each_center(r, -1))
 DAMAGE(center_hundreds, each_center(r, 100))
-bool sky_inverted(struct rewrite *r, double strength) {
-    (void)strength;
+bool sky_inverted(struct rewrite *r, UNUSED double strength) {
     for (size_t i = 0; i < r->count; i++) {
         if (!damage_is_cube(&r->parts[i])) continue;
         float *a = damage_floats(r, r->parts[i].name, "A");
@@ -154,8 +151,7 @@ void remove_cubes(struct rewrite *r) {
 
 /* Not a mistake, but too little data: faces of two texels, with sky on all but the one that would show points far beyond the centre's
    mirror image. */
-bool cubes_tiny(struct rewrite *r, double strength) {
-    (void)strength;
+bool cubes_tiny(struct rewrite *r, UNUSED double strength) {
     for (size_t i = 0; i < r->count; i++) {
         if (!damage_is_cube(&r->parts[i])) continue;
         const double *center = rewrite_attribute(r, r->parts[i].name, "glint.center")->numbers;

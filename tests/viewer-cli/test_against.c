@@ -38,8 +38,7 @@ static void check_sets(const json_t *classes, double pixels, double mean) {
     }
 }
 
-static void classes_part_the_pixels(void **state) {
-    (void)state;
+static void classes_part_the_pixels(UNUSED void **state) {
     char *text = glint_ok("replay", CAPTURE, "--against=truth", "--json");
     json_t *json = parse_json(text);
     const json_t *image = image_of(json), *all = named(json_object_get(image, "surfaces"), "surfaces", "all");
@@ -59,8 +58,7 @@ static void classes_part_the_pixels(void **state) {
     free(text), free(again);
 }
 
-static void metrics_are_chosen(void **state) {
-    (void)state;
+static void metrics_are_chosen(UNUSED void **state) {
     char *text =
         glint_ok("replay", CAPTURE, "--against=truth", "--json", "--metrics=psnr,hdr_flip", "--ppd=20", "--peak=2");
     json_t *json = parse_json(text);
@@ -81,8 +79,7 @@ static void metrics_are_chosen(void **state) {
 }
 
 /* Presets without fog need not switch it off. */
-static void advice_of_help_works_in_every_preset(void **state) {
-    (void)state;
+static void advice_of_help_works_in_every_preset(UNUSED void **state) {
     static const char *const presets[] = {"mafia3", "mafia_de", "gtav", "kf2"};
     char *help = glint_ok("replay", "--help");
     assert_contains(help, "pipeline.fog=false");
@@ -92,8 +89,7 @@ static void advice_of_help_works_in_every_preset(void **state) {
 }
 
 /* End reasons of rays by those of the truth, and the sources of reflections in both. */
-static void ends_are_held_against_the_truth_and_the_reference(void **state) {
-    (void)state;
+static void ends_are_held_against_the_truth_and_the_reference(UNUSED void **state) {
     char *text = glint_ok("replay", CAPTURE, "--against=truth", "--json", "--set=downsample.jitter=false");
     json_t *json = parse_json(text);
     const json_t *rays =
@@ -115,8 +111,7 @@ static void ends_are_held_against_the_truth_and_the_reference(void **state) {
     free(text);
 }
 
-static void what_is_no_number_fails(void **state) {
-    (void)state;
+static void what_is_no_number_fails(UNUSED void **state) {
     FILE *file = fopen(in_folder("bad.comp"), "w");
     assert_non_null(file);
     fputs("#version 460\n#extension GL_GOOGLE_include_directive : require\n#include \"shared/bindings.glsl\"\n"

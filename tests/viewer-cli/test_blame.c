@@ -70,8 +70,7 @@ static double logged_ms(const char *name, int coalition) {
 }
 
 /* Catches: shares with a wrong sum, errors of wrong pipelines, a missing reference. */
-static void shares_add_up_to_the_error(void **state) {
-    (void)state;
+static void shares_add_up_to_the_error(UNUSED void **state) {
     free(glint_ok("sample", "room", "-o", in_folder("room.exr"), "--size=32x18", "--cube-size=8", "--truth=1"));
     char *text = glint_ok("blame", in_folder("room.exr"), "-o", in_folder("blame"), SMALL, "--use=upscale=best_match",
                           "--repeat=2");
@@ -108,8 +107,7 @@ static void shares_add_up_to_the_error(void **state) {
 }
 
 /* Stored results are reused for any options; after a kill, the same command resumes. */
-static void a_killed_blame_goes_on(void **state) {
-    (void)state;
+static void a_killed_blame_goes_on(UNUSED void **state) {
     char command[1024];
     static const char arguments[] = "--rays=16 --player-rays=2 --use=upscale=best_match --repeat=0";
     snprintf(command, sizeof command,
@@ -141,8 +139,7 @@ static void a_killed_blame_goes_on(void **state) {
 }
 
 /* Errors are complete on screen and in the folder without waiting for times, which can be added later. */
-static void answers_come_before_times(void **state) {
-    (void)state;
+static void answers_come_before_times(UNUSED void **state) {
     char command[1024];
     static const char arguments[] = "--rays=16 --player-rays=2 --use=upscale=best_match";
     snprintf(command, sizeof command,
@@ -177,8 +174,7 @@ static void answers_come_before_times(void **state) {
 }
 
 /* Permutations in the same folder: no pipeline runs again, and another error has shares as well. */
-static void permutations_have_intervals(void **state) {
-    (void)state;
+static void permutations_have_intervals(UNUSED void **state) {
     const int lines = count_lines("killed/log.jsonl");
     free(glint_ok("blame", in_folder("room.exr"), "-o", in_folder("killed"), SMALL, "--use=upscale=best_match",
                   "--repeat=0", "--exact=0", "--permutations=20", "--interval=50", "--metric=relative_mse"));
@@ -195,8 +191,7 @@ static void permutations_have_intervals(void **state) {
     json_decref(found);
 }
 
-static void several_captures_have_their_mean(void **state) {
-    (void)state;
+static void several_captures_have_their_mean(UNUSED void **state) {
     free(glint_ok("sample", "street", "-o", in_folder("street.exr"), "--size=32x18", "--cube-size=8"));
     free(glint_ok("blame", in_folder("room.exr"), in_folder("street.exr"), "-o", in_folder("two"), SMALL, "--repeat=0",
                   "--exact=0", "--permutations=2"));
@@ -230,8 +225,7 @@ static double share_of(const char *folder, const char *name) {
 }
 
 /* A pass with history has a larger share in a shot than in a single frame. */
-static void a_shot_has_a_history(void **state) {
-    (void)state;
+static void a_shot_has_a_history(UNUSED void **state) {
     static const char *const use = "--use=temporal=rough";
     char frames[3][600];
     free(glint_ok("sample", "room", "-o", in_folder("shot.exr"), "--frames=3", "--size=64x36", "--cube-size=8"));
@@ -248,8 +242,7 @@ static void a_shot_has_a_history(void **state) {
     glint_fails(2, "expected at least two frames", "blame", "--shot", frames[1]);
 }
 
-static void what_is_wrong_is_named(void **state) {
-    (void)state;
+static void what_is_wrong_is_named(UNUSED void **state) {
     char *room = strdup(in_folder("room.exr")), *street = strdup(in_folder("street.exr"));
     glint_fails(2, "no capture given", "blame");
     glint_fails(1, "no.exr", "blame", "no.exr");
@@ -289,8 +282,7 @@ static void what_is_wrong_is_named(void **state) {
 }
 
 /* The handbook contains the reference of each slot. */
-static void the_handbook_shows_references(void **state) {
-    (void)state;
+static void the_handbook_shows_references(UNUSED void **state) {
     char *text = glint_ok("passes", "cubemap_trace/exact");
     assert_contains(text, "The reference uses this variant, with skip=true, cubemap_mips.join=nearest");
     free(text);

@@ -3,7 +3,6 @@
 
 #include <jansson.h>
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -27,8 +26,7 @@ static double share_of_ends(const json_t *preset) {
 }
 
 /* The error of a preset with a reflection in every pixel equals that of `replay --against truth`. */
-static void errors_are_those_of_replay(void **state) {
-    (void)state;
+static void errors_are_those_of_replay(UNUSED void **state) {
     free(glint_ok("sample", "room", "-o", in_folder("room.exr"), "--size=96x54", "--cube-size=16", "--truth=1"));
     char *text = glint_ok("compare", in_folder("room.exr"), "--presets=mafia3,kf2", "--repeat=2", "--json");
     json_t *json = parse_json(text);
@@ -63,8 +61,7 @@ static void errors_are_those_of_replay(void **state) {
 }
 
 /* One table and one sheet of all captures; presets that a scene cannot run are skipped and listed. */
-static void several_captures_make_one_table_and_one_sheet(void **state) {
-    (void)state;
+static void several_captures_make_one_table_and_one_sheet(UNUSED void **state) {
     free(glint_ok("sample", "matte", "-o", in_folder("matte.exr"), "--size=32x18", "--cube-size=16", "--truth=1"));
     free(glint_ok("sample", "mirror_box", "-o", in_folder("box.exr"), "--size=48x27", "--cube-size=16"));
     char *text = glint_ok("compare", in_folder("box.exr"), in_folder("matte.exr"), "--presets=kf2,mafia3_shipped",
@@ -90,8 +87,7 @@ static void several_captures_make_one_table_and_one_sheet(void **state) {
 }
 
 /* Layers over opaque surfaces are compared in the final image; presets without them have larger errors. */
-static void water_is_compared_in_the_finished_picture(void **state) {
-    (void)state;
+static void water_is_compared_in_the_finished_picture(UNUSED void **state) {
     free(glint_ok("sample", "lake", "-o", in_folder("lake.exr"), "--size=48x27", "--cube-size=16", "--truth=1"));
     char *text = glint_ok("compare", in_folder("lake.exr"), "--presets=gtav,kf2", "--repeat=1", "--json");
     json_t *json = parse_json(text);
@@ -107,8 +103,7 @@ static void water_is_compared_in_the_finished_picture(void **state) {
 }
 
 /* The left half of the truth has no weight: errors are unknown there, and not drawn. */
-static void what_the_truth_does_not_know_is_neutral(void **state) {
-    (void)state;
+static void what_the_truth_does_not_know_is_neutral(UNUSED void **state) {
     static struct rewrite r;
     rewrite_load(&r, in_folder("room.exr"));
     const struct rewrite_part *truth = rewrite_find(&r, "truth.reflection.ggx");
@@ -134,8 +129,7 @@ static void what_the_truth_does_not_know_is_neutral(void **state) {
     free(error.rgb);
 }
 
-static void settings_reach_their_preset_alone(void **state) {
-    (void)state;
+static void settings_reach_their_preset_alone(UNUSED void **state) {
     char *text = glint_ok("compare", in_folder("box.exr"), "--presets=kf2,mafia3_shipped", "--repeat=1", "--json",
                           "--set=kf2:screen_trace.length_m=0.01");
     json_t *json = parse_json(text);

@@ -7,7 +7,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "glint/exr.h"
 
@@ -48,7 +47,7 @@ static double figure_of(const char *text, const char *name) {
 }
 
 /* Catches: options that are confused, counts of values instead of pixels, and limits that are inclusive. */
-static void verdicts_are_idiffs(void **state) {
+static void verdicts_are_idiffs(UNUSED void **state) {
     static const char *const limits[] = {
         "-fail 1e-6",
         "-fail 0.01",
@@ -71,7 +70,6 @@ static void verdicts_are_idiffs(void **state) {
         "-fail 0.01 -allowfailures 1 -hardfail 0.1",
     };
     char line[512];
-    (void)state;
     need_program("idiff"); /* the exit status of a shell is less specific */
     write_pair();
     for (size_t i = 0; i < sizeof limits / sizeof *limits; i++) {
@@ -86,8 +84,7 @@ static void verdicts_are_idiffs(void **state) {
     }
 }
 
-static void figures_are_idiffs(void **state) {
-    (void)state;
+static void figures_are_idiffs(UNUSED void **state) {
     struct outcome theirs = run_program("idiff", in_folder("a.exr"), in_folder("b.exr"), NULL);
     struct outcome ours = glint("diff", in_folder("a.exr"), in_folder("b.exr"), "--json", NULL);
     json_t *json = parse_json(ours.out);
@@ -120,8 +117,7 @@ static void status_is(int status, const char *first, const char *second, const c
 }
 
 /* The exit statuses that idiff defines, and cases in which idiff itself treats missing data as black. */
-static void what_cannot_be_compared_has_its_own_code(void **state) {
-    (void)state;
+static void what_cannot_be_compared_has_its_own_code(UNUSED void **state) {
     write_image("wide.exr", "a", 2 * WIDTH, 3, values);
     write_image("four.exr", "a", WIDTH, 4, values);
     write_image("nan.exr", "a", WIDTH, 3, values);
@@ -155,8 +151,7 @@ static json_t *diff_of(int status, const char *a, const char *b) {
     return json;
 }
 
-static void runs_name_what_differs_first(void **state) {
-    (void)state;
+static void runs_name_what_differs_first(UNUSED void **state) {
     free(glint_ok("sample", "mirror_box", "-o", in_folder("box.exr"), "--size=48x27", "--cube-size=16"));
     free(glint_ok("replay", in_folder("box.exr"), "-o", in_folder("one"), "--diagnostics"));
     free(glint_ok("replay", in_folder("box.exr"), "-o", in_folder("same"), "--diagnostics"));
@@ -187,8 +182,7 @@ static void runs_name_what_differs_first(void **state) {
 
 /* Catches: a plan reported as different because of what it skips, and one reported as equal although something else differs: a ray's
    end, the final image, an image missing for another reason. */
-static void a_plan_is_compared_in_what_both_have(void **state) {
-    (void)state;
+static void a_plan_is_compared_in_what_both_have(UNUSED void **state) {
     free(glint_ok("sample", "mirror_box", "-o", in_folder("part.exr"), "--size=48x27", "--cube-size=16",
                   "--reflecting=20"));
     free(glint_ok("replay", in_folder("part.exr"), "-o", in_folder("planned")));
@@ -229,12 +223,11 @@ static void a_plan_is_compared_in_what_both_have(void **state) {
 }
 
 /* The engine's own image under the name of its slot; intermediates that it did not dump are not missing. */
-static void a_run_is_compared_with_the_engine(void **state) {
+static void a_run_is_compared_with_the_engine(UNUSED void **state) {
     static const char *const rgba[] = {"R", "G", "B", "A"};
     static const float gbuffer[1];
     static float image[48 * 27 * 4];
     struct glint_error err = {0};
-    (void)state;
     struct outcome found = glint("diff", in_folder("one"), in_folder("box.exr"), NULL);
     assert_int_equal(found.status, 4);
     assert_contains(found.err, "engine.SLOT.IMAGE, found none");

@@ -56,8 +56,7 @@ static int make_captures(void **state) {
     return count > 3 ? 0 : -1;
 }
 
-static void info_finds_the_camera(void **state) {
-    (void)state;
+static void info_finds_the_camera(UNUSED void **state) {
     char *there_text = glint_ok("info", far, "--json"), *here_text = glint_ok("info", near, "--json");
     json_t *there = parse_json(there_text), *here = parse_json(here_text);
     const json_t *a = json_object_get(json_object_get(there, "camera"), "position"),
@@ -78,8 +77,7 @@ static void info_finds_the_camera(void **state) {
     free(here_text);
 }
 
-static void validate_says_what_is_left_open(void **state) {
-    (void)state;
+static void validate_says_what_is_left_open(UNUSED void **state) {
     char *text = glint_ok("validate", far), *json_text = glint_ok("validate", far, near, "--json");
     assert_contains(text, "note: gbuffer: glint.previousWorldToView: ");
     assert_contains(text, ": valid");
@@ -93,8 +91,7 @@ static void validate_says_what_is_left_open(void **state) {
     free(json_text);
 }
 
-static void motion_agrees_as_at_the_origin(void **state) {
-    (void)state;
+static void motion_agrees_as_at_the_origin(UNUSED void **state) {
     char *texts[2] = {glint_ok("lint", near, "--json"), glint_ok("lint", far, "--json")};
     double shares[2];
     for (int i = 0; i < 2; i++) {
@@ -108,8 +105,7 @@ static void motion_agrees_as_at_the_origin(void **state) {
     assert_true(shares[0] > 0.9 && fabs(shares[1] - shares[0]) < 0.01);
 }
 
-static void the_replay_says_so_too(void **state) {
-    (void)state;
+static void the_replay_says_so_too(UNUSED void **state) {
     char path[512];
     free(glint_ok("replay", far, "-o", in_folder("run"), "--passes", "downsample"));
     snprintf(path, sizeof path, "%s/run.json", in_folder("run"));

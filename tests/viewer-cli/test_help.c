@@ -9,8 +9,7 @@ static const char *const names[] = {"sample",  "info", "validate", "plan",    "r
                                     "compare", "view", "passes",   "devices", "selftest"};
 enum { COUNT = sizeof names / sizeof *names };
 
-static void help_lists_every_command(void **state) {
-    (void)state;
+static void help_lists_every_command(UNUSED void **state) {
     char *help = glint_ok("--help"), *same = glint_ok("help");
     assert_string_equal(help, same);
     for (size_t i = 0; i < COUNT; i++) {
@@ -22,8 +21,7 @@ static void help_lists_every_command(void **state) {
     free(same);
 }
 
-static void every_command_teaches_with_examples(void **state) {
-    (void)state;
+static void every_command_teaches_with_examples(UNUSED void **state) {
     for (size_t i = 0; i < COUNT; i++) {
         char *help = glint_ok(names[i], "--help"), *same = glint_ok("help", names[i]), usage[64];
         assert_string_equal(help, same);
@@ -37,8 +35,7 @@ static void every_command_teaches_with_examples(void **state) {
 }
 
 /* The long options in the help of a command and in the completion are equal, as both derive from one table. */
-static void help_man_and_completion_list_the_same_options(void **state) {
-    (void)state;
+static void help_man_and_completion_list_the_same_options(UNUSED void **state) {
     char *completion = glint_ok("--completion"), *man = glint_ok("--man");
     for (size_t i = 0; i < COUNT; i++) {
         char head[64], *help = glint_ok(names[i], "--help");
@@ -64,8 +61,7 @@ static void help_man_and_completion_list_the_same_options(void **state) {
     free(man);
 }
 
-static void run_time_values_are_in_help(void **state) {
-    (void)state;
+static void run_time_values_are_in_help(UNUSED void **state) {
     char *help = glint_ok("sample", "--help"), *view = glint_ok("view", "--help");
     assert_contains(help, "reversed_infinite");
     assert_contains(help, "octahedral");
@@ -74,8 +70,7 @@ static void run_time_values_are_in_help(void **state) {
     free(view);
 }
 
-static void man_page_has_no_lint(void **state) {
-    (void)state;
+static void man_page_has_no_lint(UNUSED void **state) {
     char *man = glint_ok("--man");
     FILE *file = fopen(in_folder("glint.1"), "w");
     assert_non_null(file);
@@ -91,8 +86,7 @@ static void man_page_has_no_lint(void **state) {
     free(man);
 }
 
-static void completion_is_valid_bash(void **state) {
-    (void)state;
+static void completion_is_valid_bash(UNUSED void **state) {
     char *completion = glint_ok("--completion");
     FILE *file = fopen(in_folder("completion"), "w");
     assert_non_null(file);
@@ -104,8 +98,7 @@ static void completion_is_valid_bash(void **state) {
     free(completion);
 }
 
-static void wrong_words_are_usage_errors_with_a_hint(void **state) {
-    (void)state;
+static void wrong_words_are_usage_errors_with_a_hint(UNUSED void **state) {
     glint_fails(2, "did you mean replay?", "repaly");
     glint_fails(2, "did you mean view?", "help", "veiw");
     glint_fails(2, "unknown option --jsno", "--jsno");
@@ -122,8 +115,7 @@ static void wrong_words_are_usage_errors_with_a_hint(void **state) {
     outcome_free(&bare);
 }
 
-static void version_is_one_line(void **state) {
-    (void)state;
+static void version_is_one_line(UNUSED void **state) {
     char *version = glint_ok("--version");
     assert_string_equal(version, "glint " GLINT_VERSION "\n");
     free(version);

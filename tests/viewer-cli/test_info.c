@@ -19,8 +19,7 @@ static int make_capture(void **state) {
 }
 
 /* Floats represent a distance of 10 m to 2^-20 m; D24 with near at 0.1 m to 10² / 0.1 / (2²⁴ − 1), in the table and in JSON. */
-static void info_tells_what_depth_resolves(void **state) {
-    (void)state;
+static void info_tells_what_depth_resolves(UNUSED void **state) {
     const char *path = in_folder("device.exr");
     free(glint_ok("sample", "mirror_box", "-o", path, "--size=32x18", "--cube-size", "8", "--depth", "device"));
     const struct {
@@ -44,8 +43,7 @@ static void info_tells_what_depth_resolves(void **state) {
     free(text);
 }
 
-static void info_tells_the_camera_and_the_ranges(void **state) {
-    (void)state;
+static void info_tells_the_camera_and_the_ranges(UNUSED void **state) {
     char *text = glint_ok("info", capture), *json_text = glint_ok("info", capture, "--json");
     json_t *json = parse_json(json_text);
     const json_t *camera = json_object_get(json, "camera"), *position = json_object_get(camera, "position");
@@ -88,8 +86,7 @@ static void info_tells_the_camera_and_the_ranges(void **state) {
 }
 
 /* oiiotool reads the same file independently. */
-static void ranges_equal_those_of_oiiotool(void **state) {
-    (void)state;
+static void ranges_equal_those_of_oiiotool(UNUSED void **state) {
     char *text = glint_ok("info", capture, "--json");
     json_t *json = parse_json(text);
     const json_t *lit = named(json_object_get(json, "parts"), "name", "lit");
@@ -128,8 +125,7 @@ static float *channel_of(struct glint_exr *exr, const char *name, size_t pixels)
 }
 
 /* The sample scenes write 0 at sky, where roughness is undefined; no surface of the street is as smooth. */
-static void ranges_are_of_surfaces_alone(void **state) {
-    (void)state;
+static void ranges_are_of_surfaces_alone(UNUSED void **state) {
     enum { PIXELS = 96 * 54 };
     struct glint_error err = {0};
     const char *path = in_folder("street.exr");

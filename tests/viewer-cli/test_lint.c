@@ -162,8 +162,7 @@ static const char *first_finding(const json_t *json) {
                                      : "nothing";
 }
 
-static void nothing_is_found_where_nothing_is_wrong(void **state) {
-    (void)state;
+static void nothing_is_found_where_nothing_is_wrong(UNUSED void **state) {
     for (int s = 0; s < SCENES; s++)
         for (int b = 0; b < (seeds ? BASE_COUNT : 1); b++) {
             json_t *json = lint(base(s, (enum damage_base)b));
@@ -207,8 +206,7 @@ static void nothing_is_found_in(const char *scene, const char *const *kind) {
 }
 
 /* With an argument every scene and every kind, which is 80 captures; else each kind on some scene. */
-static void nothing_is_found_in_any_right_capture(void **state) {
-    (void)state;
+static void nothing_is_found_in_any_right_capture(UNUSED void **state) {
     char *text = glint_ok("sample", "--list", "--json");
     json_t *list = parse_json(text), *scene;
     size_t i, tried = 0;
@@ -225,8 +223,7 @@ static void nothing_is_found_in_any_right_capture(void **state) {
 }
 
 /* Cube maps that show moving objects, and volumes that are empty of static ones: a car is in one of them. */
-static void a_volume_that_something_drives_through_is_named(void **state) {
-    (void)state;
+static void a_volume_that_something_drives_through_is_named(UNUSED void **state) {
     free(glint_ok("sample", "street", "-o", in_folder("car.exr"), "--size", "128x128", "--cube-size", "64", "--light",
                   "4", "--probes", "perfect"));
     json_t *json = lint(in_folder("car.exr"));
@@ -261,10 +258,9 @@ static void try_damage(const struct damage *damage, int scene, double strength, 
     json_decref(json);
 }
 
-static void mistakes_are_found_and_named(void **state) {
+static void mistakes_are_found_and_named(UNUSED void **state) {
     struct score detectable = {0, 0}, undetectable = {0, 0};
     uint32_t random = 12345;
-    (void)state;
     for (size_t d = 0; d < damage_count; d++)
         for (int s = 0; s < SCENES; s++)
             for (int k = 0; k < (seeds ? seeds : (int)d % SCENES == s); k++) {
@@ -278,8 +274,7 @@ static void mistakes_are_found_and_named(void **state) {
     assert_true(undetectable.tried >= (seeds ? 15 * seeds : 5) && undetectable.right == undetectable.tried);
 }
 
-static void undecidable_mistakes_are_listed(void **state) {
-    (void)state;
+static void undecidable_mistakes_are_listed(UNUSED void **state) {
     json_t *json = lint(base(1, BASE_PLAIN));
     char *text = json_dumps(json_object_get(json, "undecided"), 0);
     assert_contains(text, "roughness is squared");
@@ -321,24 +316,21 @@ static void check_fix(const char *id, bool pixels) {
     free(r);
 }
 
-static void fix_declares_and_leaves_every_pixel(void **state) {
+static void fix_declares_and_leaves_every_pixel(UNUSED void **state) {
     static const char *const ids[] = {"normal.view_space", "depth.reversed", "camera.inverse", "camera.inverse_current",
                                       "motion.pixels"};
-    (void)state;
     for (size_t i = 0; i < sizeof ids / sizeof *ids; i++) check_fix(ids[i], false);
 }
 
-static void fix_writes_what_stands_under_sky(void **state) {
+static void fix_writes_what_stands_under_sky(UNUSED void **state) {
     static const char *const ids[] = {"cubemap.sky_color", "cubemap.sky_alpha", "cubemap.sky_distance"};
-    (void)state;
     for (size_t i = 0; i < sizeof ids / sizeof *ids; i++) check_fix(ids[i], true);
 }
 
 /* A finding that no declaration fixes; and a declaration that would be right for the G-buffer of this frame and wrong for that of the
    previous one, which then violates a rule. */
-static void fix_leaves_what_it_would_make_worse(void **state) {
+static void fix_leaves_what_it_would_make_worse(UNUSED void **state) {
     struct rewrite *r = malloc(sizeof *r);
-    (void)state;
     assert_non_null(r);
     damage_and_fix(r, "depth.coarse", 0);
     assert_true(same_pixels());
@@ -353,24 +345,21 @@ static void fix_leaves_what_it_would_make_worse(void **state) {
     free(r);
 }
 
-static void what_can_be_found_is_listed(void **state) {
-    (void)state;
+static void what_can_be_found_is_listed(UNUSED void **state) {
     char *text = glint_ok("lint", "--list");
     for (size_t d = 0; d < damage_count; d++)
         if (damages[d].finding) assert_contains(text, damages[d].finding);
     free(text);
 }
 
-static void the_storage_of_depth_is_printed(void **state) {
-    (void)state;
+static void the_storage_of_depth_is_printed(UNUSED void **state) {
     char *text = glint_ok("lint", base(1, BASE_DEVICE));
     /* near 0.1 m: 10² / 0.1 / (2²⁴ − 1) */
     assert_contains(text, "depth stored as D24, device: steps of 0.6 µm at 1 m, 60 µm at 10 m, 6 mm at 100 m");
     free(text);
 }
 
-static void wrong_use_is_refused(void **state) {
-    (void)state;
+static void wrong_use_is_refused(UNUSED void **state) {
     glint_fails(2, "no capture given", "lint");
     glint_fails(2, "--fix and -o", "lint", base(0, BASE_PLAIN), "--fix");
     glint_fails(1, "nowhere.exr", "lint", "nowhere.exr");

@@ -27,8 +27,7 @@ static int make_run(void **state) {
     return 0;
 }
 
-static void validate_accepts_it_and_refuses_a_damaged_one(void **state) {
-    (void)state;
+static void validate_accepts_it_and_refuses_a_damaged_one(UNUSED void **state) {
     char *text = glint_ok("validate", capture), *bytes = NULL;
     assert_contains(text, ": valid\n");
     free(text);
@@ -62,8 +61,7 @@ static void validate_accepts_it_and_refuses_a_damaged_one(void **state) {
     outcome_free(&plain);
 }
 
-static void plan_lists_every_pass_with_a_reason(void **state) {
-    (void)state;
+static void plan_lists_every_pass_with_a_reason(UNUSED void **state) {
     char *text = glint_ok("plan", capture, "--json"), *dot = glint_ok("plan", capture, "--dot");
     json_t *json = parse_json(text);
     for (size_t i = 0; i < SLOTS; i++) {
@@ -86,8 +84,7 @@ static void plan_lists_every_pass_with_a_reason(void **state) {
 }
 
 /* A preset for water on a scene without water. */
-static void plan_says_what_the_scene_has_nothing_for(void **state) {
-    (void)state;
+static void plan_says_what_the_scene_has_nothing_for(UNUSED void **state) {
     char *text = glint_ok("plan", capture, "--preset=gtav", "--json");
     json_t *json = parse_json(text), *passes = json_object_get(json, "passes");
     const json_t *water = named(passes, "slot", "water"), *planar = named(passes, "slot", "planar");
@@ -99,8 +96,7 @@ static void plan_says_what_the_scene_has_nothing_for(void **state) {
     free(text);
 }
 
-static void replay_reports_times_and_leaves_a_run(void **state) {
-    (void)state;
+static void replay_reports_times_and_leaves_a_run(UNUSED void **state) {
     char *text = glint_ok("replay", capture, "-o", in_folder("timed"), "--repeat=3", "--json");
     json_t *json = parse_json(text);
     const json_t *one = json_array_get(json_object_get(json, "runs"), 0);
@@ -125,8 +121,7 @@ static void replay_reports_times_and_leaves_a_run(void **state) {
 }
 
 /* Catches: a folder that the next call does not use, and one that is used without being requested. */
-static void replay_finds_cube_map_work_of_an_earlier_call(void **state) {
-    (void)state;
+static void replay_finds_cube_map_work_of_an_earlier_call(UNUSED void **state) {
     char option[300], again[256];
     snprintf(option, sizeof option, "--cache=%s", in_folder("cache"));
     snprintf(again, sizeof again, "%s", in_folder("again"));
@@ -144,8 +139,7 @@ static void replay_finds_cube_map_work_of_an_earlier_call(void **state) {
 }
 
 /* In the closed box with a mirror floor nearly every ray that starts on screen ends where the path tracer's does. */
-static void replay_compares_with_the_truth(void **state) {
-    (void)state;
+static void replay_compares_with_the_truth(UNUSED void **state) {
     free(glint_ok("sample", "mirror_box", "-o", in_folder("truth.exr"), "--size=160x90", "--cube-size=64",
                   "--probes=perfect", "--truth=2"));
     char *text =
@@ -165,8 +159,7 @@ static void replay_compares_with_the_truth(void **state) {
     glint_fails(2, "an empty name", "replay", capture, "--passes=");
 }
 
-static void several_captures_get_a_folder_each(void **state) {
-    (void)state;
+static void several_captures_get_a_folder_each(UNUSED void **state) {
     free(glint_ok("sample", "mirror_box", "-o", in_folder("s.exr"), "--size=32x18", "--cube-size=16", "--frames=2"));
     free(glint_ok("replay", in_folder("s.0001.exr"), in_folder("s.0002.exr"), "-o", in_folder("runs")));
     assert_true(file_exists(in_folder("runs/s.0001/run.json")));
@@ -180,8 +173,7 @@ static void several_captures_get_a_folder_each(void **state) {
     outcome_free(&some);
 }
 
-static void info_shows_a_run(void **state) {
-    (void)state;
+static void info_shows_a_run(UNUSED void **state) {
     char *text = glint_ok("info", run), *json_text = glint_ok("info", run, "--json");
     json_t *json = parse_json(json_text);
     named(json_object_get(json, "passes"), "slot", "screen_trace");
@@ -193,8 +185,7 @@ static void info_shows_a_run(void **state) {
     free(text);
 }
 
-static void a_machine_without_a_driver_is_told_so(void **state) {
-    (void)state;
+static void a_machine_without_a_driver_is_told_so(UNUSED void **state) {
     setenv("VK_ICD_FILENAMES", "/nowhere.json", 1);
     setenv("VK_DRIVER_FILES", "/nowhere.json", 1);
     glint_fails(1, "Vulkan", "devices");
@@ -207,8 +198,7 @@ static void a_machine_without_a_driver_is_told_so(void **state) {
     glint_fails(2, "no device matches 'nothing like it'", "replay", capture, "--device", "nothing like it");
 }
 
-static void unknown_names_are_refused_with_the_nearest(void **state) {
-    (void)state;
+static void unknown_names_are_refused_with_the_nearest(UNUSED void **state) {
     glint_fails(2, "did you mean screen_trace?", "replay", capture, "--use", "screen_trac=linear");
     glint_fails(2, "did you mean linear?", "replay", capture, "--use", "screen_trace=liner");
     glint_fails(2, "did you mean cells?", "replay", capture, "--set", "screen_trace.cell=4");
@@ -229,8 +219,7 @@ static void unknown_names_are_refused_with_the_nearest(void **state) {
     assert_false(file_exists(in_folder("x.exr")));
 }
 
-static void passes_describe_what_replay_accepts(void **state) {
-    (void)state;
+static void passes_describe_what_replay_accepts(UNUSED void **state) {
     char *text = glint_ok("passes", "--json"), *one = glint_ok("passes", "screen_trace/linear");
     json_t *json = parse_json(text);
     for (size_t i = 0; i < SLOTS; i++) named(json_object_get(json, "passes"), "slot", slots[i]);
@@ -271,8 +260,7 @@ static void passes_describe_what_replay_accepts(void **state) {
 }
 
 /* The default image of a run is its last colour image, at the size of the capture; indices and reasons have legends. */
-static void view_shows_every_image_of_the_run(void **state) {
-    (void)state;
+static void view_shows_every_image_of_the_run(UNUSED void **state) {
     char spec[300];
     free(glint_ok("view", run, "-o", in_folder("default.png")));
     free(glint_ok("view", run, "--image", "composed", "-o", in_folder("composed.png")));
@@ -299,8 +287,7 @@ static void view_shows_every_image_of_the_run(void **state) {
 }
 
 /* Each cell shows the image as if it were drawn alone, here at three times the size. */
-static void sheet_shows_images_side_by_side(void **state) {
-    (void)state;
+static void sheet_shows_images_side_by_side(UNUSED void **state) {
     static const char *const images[] = {"composed", "reflection"};
     free(glint_ok("view", run, "--sheet", "--image=composed,reflection", "-o", in_folder("sheet.png")));
     struct pixels sheet = read_png(in_folder("sheet.png"));
@@ -319,8 +306,7 @@ static void sheet_shows_images_side_by_side(void **state) {
 }
 
 /* A column for each run with one scale per row, so that colours of a run depend on the others. */
-static void sheet_compares_runs(void **state) {
-    (void)state;
+static void sheet_compares_runs(UNUSED void **state) {
     free(glint_ok("replay", capture, "-o", in_folder("other"), "--set=cubemap_trace.length_m=2"));
     free(glint_ok("view", run, run, "--sheet", "--image=travelled,composed", "-o", in_folder("same.png")));
     free(
@@ -340,8 +326,7 @@ static void sheet_compares_runs(void **state) {
     glint_fails(2, "several runs need --sheet", "view", run, run, "-o", "x.png");
 }
 
-static void encodings_show_the_same_picture(void **state) {
-    (void)state;
+static void encodings_show_the_same_picture(UNUSED void **state) {
     free(glint_ok("sample", "mirror_box", "-o", in_folder("e.exr"), "--size=160x90", "--cube-size=64",
                   "--probes=perfect", "--encoding", "depth=reversed,normal=octahedral", "--roughness=gloss"));
     static const char *const layers[] = {"depth", "normal", "material.roughness"};
@@ -358,8 +343,7 @@ static void encodings_show_the_same_picture(void **state) {
     }
 }
 
-static void sample_writes_to_stdout_and_lists_its_scenes(void **state) {
-    (void)state;
+static void sample_writes_to_stdout_and_lists_its_scenes(UNUSED void **state) {
     char *exr = glint_ok("sample", "matte", "--size=16x9", "--cube-size=8", "-o", "-");
     assert_memory_equal(exr, "\x76\x2f\x31\x01", 4);
     free(exr);
@@ -373,8 +357,7 @@ static void sample_writes_to_stdout_and_lists_its_scenes(void **state) {
 }
 
 /* The child is given time to begin, then interrupted once; it must end without leaving files. */
-static void ctrl_c_leaves_no_half_file(void **state) {
-    (void)state;
+static void ctrl_c_leaves_no_half_file(UNUSED void **state) {
     extern char **environ;
     char *out = strdup(in_folder("big.exr"));
     const char *const argv[] = {getenv("GLINT"),   "sample",     "mirror_box",  "-o", out,

@@ -48,8 +48,7 @@ static const json_t *last_step(const json_t *pass, const char *kind) {
 }
 
 /* Pixels of all kinds: each one's last step equals the run's file, and no record is dropped. */
-static void a_trace_agrees_with_the_run(void **state) {
-    (void)state;
+static void a_trace_agrees_with_the_run(UNUSED void **state) {
     size_t width = 0, height = 0, hits = 0, skies = 0;
     make_capture();
     free(glint_ok("replay", CAPTURE, "-o", in_folder("run"), "--diagnostics"));
@@ -99,8 +98,7 @@ static char *read_text(const char *path) {
 }
 
 /* A mark for each step with a position, a legend of decisions, and the hit of the reference. */
-static void a_drawing_has_every_step(void **state) {
-    (void)state;
+static void a_drawing_has_every_step(UNUSED void **state) {
     make_capture();
     char *text = glint_ok("probe", CAPTURE, "40,45", "--use=screen_trace=dda", "-o", in_folder("ray.svg"), "--json");
     json_t *json = parse_json(text);
@@ -124,8 +122,7 @@ static void a_drawing_has_every_step(void **state) {
 }
 
 /* Records of averages with each weight: samples at the end of the ray, and the reflection composed over the image. */
-static void mixtures_are_printed_and_drawn(void **state) {
-    (void)state;
+static void mixtures_are_printed_and_drawn(UNUSED void **state) {
     make_capture();
     char *text = glint_ok("probe", CAPTURE, "40,45", "--preset=kf2", "--alone", "-o", in_folder("kf2.svg"));
     assert_contains(text, "adds a sample of the picture");
@@ -152,8 +149,7 @@ static void mixtures_are_printed_and_drawn(void **state) {
     free(text);
 }
 
-static void the_text_tells_it_all(void **state) {
-    (void)state;
+static void the_text_tells_it_all(UNUSED void **state) {
     make_capture();
     char *text = glint_ok("probe", CAPTURE, "40,45", "--set=screen_trace.length_m=0");
     assert_contains(text, "capture  G-buffer at the pixel");
@@ -173,8 +169,7 @@ static void the_text_tells_it_all(void **state) {
     free(text);
 }
 
-static void what_is_asked_wrong_is_said(void **state) {
-    (void)state;
+static void what_is_asked_wrong_is_said(UNUSED void **state) {
     make_capture();
     glint_fails(2, "no capture given", "probe");
     glint_fails(2, "no pixel of", "probe", CAPTURE);

@@ -23,8 +23,7 @@ static double rmse(const json_t *run, const char *answer, const char *which) {
     return number(named(rows, "surfaces", "all"), which);
 }
 
-static void it_is_kept_and_goes_on(void **state) {
-    (void)state;
+static void it_is_kept_and_goes_on(UNUSED void **state) {
     free(glint_ok("sample", "room", "-o", in_folder("room.exr"), "--size=32x18", "--cube-size=16", "--truth=16"));
     char *text = glint_ok("reference", in_folder("room.exr"), "-o", in_folder("kept"), "--rays=16", "--json");
     json_t *json = parse_json(text);
@@ -55,8 +54,7 @@ static void it_is_kept_and_goes_on(void **state) {
 }
 
 /* Also without a terminal. */
-static void progress_is_printed_on_request(void **state) {
-    (void)state;
+static void progress_is_printed_on_request(UNUSED void **state) {
     struct outcome silent = glint("reference", in_folder("room.exr"), "--rays=16", NULL),
                    progress = glint("reference", in_folder("room.exr"), "--rays=16", "--progress", NULL);
     assert_int_equal(silent.status, 0);
@@ -68,8 +66,7 @@ static void progress_is_printed_on_request(void **state) {
 }
 
 /* Compared with itself there is no error; against both gives the same figures as against each. */
-static void runs_are_compared_with_it(void **state) {
-    (void)state;
+static void runs_are_compared_with_it(UNUSED void **state) {
     json_t *whole[3];
     char *option = reference_option("reference", "kept"), *both = reference_option("both", "kept");
     char *texts[3] = {
@@ -97,8 +94,7 @@ static void runs_are_compared_with_it(void **state) {
     free(both);
 }
 
-static void another_captures_reference_is_told(void **state) {
-    (void)state;
+static void another_captures_reference_is_told(UNUSED void **state) {
     json_t *whole;
     char *option = reference_option("reference", "kept");
     char *text = glint_ok("replay", in_folder("room.exr"), option);
@@ -116,8 +112,7 @@ static void another_captures_reference_is_told(void **state) {
     free(option);
 }
 
-static void what_cannot_be_is_said(void **state) {
-    (void)state;
+static void what_cannot_be_is_said(UNUSED void **state) {
     free(glint_ok("sample", "matte", "-o", in_folder("matte.exr"), "--size=32x18", "--cube-size=16"));
     free(glint_ok("replay", in_folder("room.exr"), "-o", in_folder("run")));
     glint_fails(1, "nothing in it reflects", "reference", in_folder("matte.exr"));

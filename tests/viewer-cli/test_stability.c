@@ -28,8 +28,7 @@ static double largest_of(const char *file, const char *part, const char *channel
 }
 
 /* Catches: layers of one image under the name of another, a forecast that differs from the image's values. */
-static void layers_match_the_figures(void **state) {
-    (void)state;
+static void layers_match_the_figures(UNUSED void **state) {
     free(glint_ok("sample", "room", "-o", in_folder("room.exr"), "--size=64x36", "--cube-size=16"));
     char *text =
         glint_ok("stability", in_folder("room.exr"), "--seeds=2", "-o", in_folder("stable"), "--json", "--bound=5");
@@ -68,8 +67,7 @@ static void layers_match_the_figures(void **state) {
     free(sheet.rgb);
 }
 
-static void checks_end_with_their_status(void **state) {
-    (void)state;
+static void checks_end_with_their_status(UNUSED void **state) {
     free(glint_ok("stability", in_folder("room.exr"), "--seeds=1", "--fail-above=1e30"));
     struct outcome found = glint("stability", in_folder("room.exr"), "--seeds=1", "--fail-above=0.001", NULL);
     assert_int_equal(found.status, 1);
@@ -83,8 +81,7 @@ static void checks_end_with_their_status(void **state) {
 }
 
 /* Perturbing albedo changes nothing, because rays do not depend on it. */
-static void what_is_not_read_moves_nothing(void **state) {
-    (void)state;
+static void what_is_not_read_moves_nothing(UNUSED void **state) {
     char *text = glint_ok("stability", in_folder("room.exr"), "--seeds=2", "--perturb=gbuffer:albedo", "--json");
     json_t *json = parse_json(text);
     const json_t *images = json_object_get(json, "images");

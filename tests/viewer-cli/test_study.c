@@ -4,13 +4,11 @@
 #include <jansson.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 /* The reference must be far more accurate than the presets that are measured with it. */
-static void reference_is_near_the_truth_and_others_are_compared_with_it(void **state) {
-    (void)state;
+static void reference_is_near_the_truth_and_others_are_compared_with_it(UNUSED void **state) {
     free(glint_ok("sample", "mirror_box", "-o", in_folder("fine.exr"), "--size=96x54", "--cube-size=128",
                   "--probes=perfect", "--truth=1"));
     char *text = glint_ok("replay", in_folder("fine.exr"), "--preset=reference", "--set=pipeline.rays=1",
@@ -69,8 +67,7 @@ static bool newer(const char *path, const struct stat *before) {
 
 #define SHOT in_folder("s.0001.exr"), in_folder("s.0002.exr"), in_folder("s.0003.exr"), "-o", in_folder("shot")
 
-static void an_interrupted_shot_is_completed(void **state) {
-    (void)state;
+static void an_interrupted_shot_is_completed(UNUSED void **state) {
     struct stat first, last;
     free(glint_ok("sample", "mirror_box", "-o", in_folder("s.exr"), "--size=32x18", "--cube-size=16", "--frames=3"));
     free(glint_ok("replay", SHOT));

@@ -57,8 +57,7 @@ static void check_front(const json_t *swept, const char *name, const char *cost,
 }
 
 /* Catches: points with wrong values, errors of another image, and passes that run although nothing changed. */
-static void points_are_the_pipelines_they_name(void **state) {
-    (void)state;
+static void points_are_the_pipelines_they_name(UNUSED void **state) {
     free(glint_ok("sample", "room", "-o", in_folder("room.exr"), "--size=64x36", "--cube-size=16", "--truth=1"));
     free(glint_ok("reference", in_folder("room.exr"), "-o", in_folder("reference"), "--rays=16"));
     char *text = glint_ok("sweep", in_folder("room.exr"), "-o", in_folder("grid"), PLAIN, "--repeat=2", "--reference",
@@ -132,8 +131,7 @@ static void assert_same_findings(const char *a, const char *b) {
 }
 
 /* Killed with half a line at the end of the log: the same command resumes and gives the same results as an uninterrupted one. */
-static void a_killed_sweep_goes_on(void **state) {
-    (void)state;
+static void a_killed_sweep_goes_on(UNUSED void **state) {
     char command[1024];
     static const char arguments[] =
         "--repeat=2 --reference=truth --no-pictures --sample=lhs:12 --seed=3 --vary=screen_trace.thickness=0.01..0.1 "
@@ -162,8 +160,7 @@ static void a_killed_sweep_goes_on(void **state) {
     assert_same_findings("killed/points.json", "whole/points.json");
 }
 
-static void several_captures_have_a_mean_and_a_worst_case(void **state) {
-    (void)state;
+static void several_captures_have_a_mean_and_a_worst_case(UNUSED void **state) {
     free(glint_ok("sample", "street", "-o", in_folder("street.exr"), "--size=64x36", "--cube-size=16"));
     free(glint_ok("sweep", in_folder("room.exr"), in_folder("street.exr"), "-o", in_folder("two"), PLAIN, "--rays=16",
                   "--repeat=0", "--vary=screen_trace=linear,dda", "--vary=screen_trace.steps=4,64", "--no-pictures",
@@ -186,8 +183,7 @@ static void several_captures_have_a_mean_and_a_worst_case(void **state) {
     outcome_free(&csv);
 }
 
-static void what_is_wrong_is_named(void **state) {
-    (void)state;
+static void what_is_wrong_is_named(UNUSED void **state) {
     char *room = strdup(in_folder("room.exr")),
          *out = strdup(in_folder("bad")); /* copies, because in_folder's results are overwritten */
     glint_fails(2, "no capture given", "sweep", "-o", out, "--vary=screen_trace.cells=8,16");

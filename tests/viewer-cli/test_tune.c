@@ -51,8 +51,7 @@ static double fetches_of(struct counts counts) {
 }
 
 /* Catches: a budget that is exceeded, a preset that differs from the measured point, and figures of other pipelines. */
-static void the_preset_is_what_was_found(void **state) {
-    (void)state;
+static void the_preset_is_what_was_found(UNUSED void **state) {
     char *text = glint_ok("tune", in_folder("room.exr"), "-o", in_folder("found.json"), PLAIN, "--budget-fetches=60%",
                           "--reference=truth", "--tries=24", "--repeat=2", "--baseline=scale", AXES, "--json");
     json_t *tuned = parse_json(text), *preset = load_json("found.json");
@@ -111,8 +110,7 @@ static void the_preset_is_what_was_found(void **state) {
 }
 
 /* The deterministic part of the results, which is equal for the same seed; a second run finds all of it in the folder. */
-static void a_seed_gives_the_same_preset_again(void **state) {
-    (void)state;
+static void a_seed_gives_the_same_preset_again(UNUSED void **state) {
     json_t *sets[3], *moved[3];
     for (int i = 0; i < 3; i++) {
         const char *out = in_folder(i == 1 ? "b.json" : "a.json");
@@ -134,8 +132,7 @@ static void a_seed_gives_the_same_preset_again(void **state) {
 }
 
 /* Interrupted with half a line at the end: the best point so far is stored, and the same command ends like an uninterrupted one. */
-static void an_interrupted_search_goes_on(void **state) {
-    (void)state;
+static void an_interrupted_search_goes_on(UNUSED void **state) {
     char command[1200];
     static const char arguments[] = "--budget-fetches=60% --reference=truth --tries=18 --repeat=0 --seed=5 "
                                     "--vary=screen_trace.steps=2..64 --vary=cubemap_trace.steps_hq=4..64 "
@@ -170,8 +167,7 @@ static void an_interrupted_search_goes_on(void **state) {
 
 /* With ample time: whatever the noisy times of the search are, the point with the smallest error is chosen, and the search continues
    with the remaining time. */
-static void time_that_is_left_is_used(void **state) {
-    (void)state;
+static void time_that_is_left_is_used(UNUSED void **state) {
     char *text = glint_ok("tune", in_folder("room.exr"), "-o", in_folder("e.json"), PLAIN, "--budget-ms=3000%",
                           "--reference=truth", "--tries=4", "--rounds=1", "--repeat=2", AXES, "--json"),
          line[4096];
@@ -202,8 +198,7 @@ static bool says(const json_t *left, const char *name, const char *why) {
 }
 
 /* All declared parameters that can matter; two captures, one held out, in the least time for an error. */
-static void what_cannot_matter_is_left_alone(void **state) {
-    (void)state;
+static void what_cannot_matter_is_left_alone(UNUSED void **state) {
     char *text = glint_ok("tune", in_folder("room.exr"), "--held-out", in_folder("street.exr"), "-o",
                           in_folder("d.json"), PLAIN, "--error=120%", "--tries=2", "--rounds=1", "--repeat=1",
                           "--rays=4", "--json", "--use=cubemap_mips=plain");
@@ -221,8 +216,7 @@ static void what_cannot_matter_is_left_alone(void **state) {
     json_decref(tuned);
 }
 
-static void what_is_wrong_is_named(void **state) {
-    (void)state;
+static void what_is_wrong_is_named(UNUSED void **state) {
     char *room = strdup(in_folder("room.exr")), *out = strdup(in_folder("bad.json"));
     const char *budget = "--budget-ms=50%";
     glint_fails(2, "no capture given", "tune", "-o", out, budget);

@@ -53,8 +53,7 @@ static double srgb(double v) {
     return v <= 0.0031308 ? 12.92 * v : 1.055 * pow(v, 1 / 2.4) - 0.055;
 }
 
-static void colour_without_tone_mapping_is_the_srgb_curve(void **state) {
-    (void)state;
+static void colour_without_tone_mapping_is_the_srgb_curve(UNUSED void **state) {
     const float v[] = {0, 0, 0, 0.18F, 0.18F, 0.18F, 1, 1, 1, 0.002F, 0.002F, 0.002F, 7, 7, 7, NAN, 0, 0};
     struct pixels p;
     write_exr(in_folder("c.exr"), "color", 6, 1, "R G B", v, GLINT_STORED_FLOAT, "radiance");
@@ -79,8 +78,7 @@ static void colour_without_tone_mapping_is_the_srgb_curve(void **state) {
 }
 
 /* The same configuration and view through another program; both use OpenColorIO and round separately. */
-static void colour_equals_oiiotool(void **state) {
-    (void)state;
+static void colour_equals_oiiotool(UNUSED void **state) {
     enum { W = 32, H = 24 };
     static float v[W * H * 3];
     for (int i = 0; i < W * H; i++) {
@@ -115,8 +113,7 @@ static void colour_equals_oiiotool(void **state) {
 }
 
 /* matplotlib's table at its ends and in the middle; 4: the polynomial's error at the dark end is 3/255. */
-static void distance_is_viridis_between_the_ends_of_the_range(void **state) {
-    (void)state;
+static void distance_is_viridis_between_the_ends_of_the_range(UNUSED void **state) {
     const float v[] = {2, 6, 10, INFINITY, NAN, 0, 99};
     write_exr(in_folder("d.exr"), "travelled", 7, 1, "Z", v, GLINT_STORED_FLOAT, "m");
     free(glint_ok("view", in_folder("d.exr"), "--range=2,10", "--no-legend", "-o", in_folder("d.png")));
@@ -140,8 +137,7 @@ static void distance_is_viridis_between_the_ends_of_the_range(void **state) {
 }
 
 /* Lengths from 0.1 to 10 have a logarithmic scale by default; other quantities do not. */
-static void wide_lengths_are_shown_logarithmically(void **state) {
-    (void)state;
+static void wide_lengths_are_shown_logarithmically(UNUSED void **state) {
     const float v[] = {0.1F, 1, 10, 0};
     static const char *const units[] = {"m", "steps"};
     for (size_t k = 0; k < 2; k++) {
@@ -156,8 +152,7 @@ static void wide_lengths_are_shown_logarithmically(void **state) {
     }
 }
 
-static void range_is_the_percentiles_without_the_outliers(void **state) {
-    (void)state;
+static void range_is_the_percentiles_without_the_outliers(UNUSED void **state) {
     static float v[1000];
     for (int i = 0; i < 1000; i++) v[i] = (float)i / 999;
     v[500] = 1e9F;
@@ -170,8 +165,7 @@ static void range_is_the_percentiles_without_the_outliers(void **state) {
     free(s.rgb);
 }
 
-static void legend_stands_below_the_picture(void **state) {
-    (void)state;
+static void legend_stands_below_the_picture(UNUSED void **state) {
     static float v[400 * 10];
     for (int i = 0; i < 4000; i++) v[i] = (float)(i % 400);
     write_exr(in_folder("l.exr"), "travelled", 400, 10, "Z", v, GLINT_STORED_FLOAT, "m");
@@ -205,9 +199,8 @@ static int ticks_of(const char *path, const char *range) {
 }
 
 /* 360 pixels fit five short numbers, and three long ones. */
-static void a_legend_has_as_many_ticks_as_its_labels_leave_room_for(void **state) {
+static void a_legend_has_as_many_ticks_as_its_labels_leave_room_for(UNUSED void **state) {
     const float v[] = {0, 1};
-    (void)state;
     write_exr(in_folder("t.exr"), "travelled", 2, 1, "Z", v, GLINT_STORED_FLOAT, "m");
     char *path = strdup(in_folder("t.exr"));
     assert_int_equal(ticks_of(path, "--range=0,1"), 5);
@@ -215,8 +208,7 @@ static void a_legend_has_as_many_ticks_as_its_labels_leave_room_for(void **state
     free(path);
 }
 
-static void normals_are_half_and_offset(void **state) {
-    (void)state;
+static void normals_are_half_and_offset(UNUSED void **state) {
     const float v[] = {1, 0, 0, 0, -1, 0, 0, 0, 1};
     write_exr(in_folder("n.exr"), "normal_half", 3, 1, "X Y Z", v, GLINT_STORED_FLOAT, "1");
     free(glint_ok("view", in_folder("n.exr"), "--no-legend", "-o", in_folder("n.png")));
@@ -227,8 +219,7 @@ static void normals_are_half_and_offset(void **state) {
     free(p.rgb);
 }
 
-static void indices_and_reasons_have_colours_of_their_own(void **state) {
-    (void)state;
+static void indices_and_reasons_have_colours_of_their_own(UNUSED void **state) {
     uint32_t v[11];
     for (uint32_t i = 0; i < 11; i++) v[i] = i;
     static const char *const kinds[][2] = {{"index", "index"}, {"end reason", "reason"}};
@@ -242,8 +233,7 @@ static void indices_and_reasons_have_colours_of_their_own(void **state) {
     }
 }
 
-static void crop_and_zoom(void **state) {
-    (void)state;
+static void crop_and_zoom(UNUSED void **state) {
     float v[4 * 3 * 3];
     for (int i = 0; i < 12; i++) v[3 * i] = v[3 * i + 1] = v[3 * i + 2] = (float)i / 16;
     write_exr(in_folder("z.exr"), "color", 4, 3, "R G B", v, GLINT_STORED_FLOAT, "radiance");
@@ -268,8 +258,7 @@ static void crop_and_zoom(void **state) {
 
 /* Neighbouring faces of the cross agree at their common edge: the colour of every texel is its direction, computed here from Vulkan's
    table of major axes, so that colours are nearly equal across each inner edge. */
-static void cube_map_is_a_seamless_cross(void **state) {
-    (void)state;
+static void cube_map_is_a_seamless_cross(UNUSED void **state) {
     enum { N = 32 };
     static const float axis[6][3][3] = {
         /* major axis, s direction, t direction */
@@ -305,8 +294,7 @@ static void cube_map_is_a_seamless_cross(void **state) {
     free(p.rgb);
 }
 
-static void layers_are_named_after_a_colon(void **state) {
-    (void)state;
+static void layers_are_named_after_a_colon(UNUSED void **state) {
     const float v[] = {0.25F, 0.5F, 0.75F};
     write_exr(in_folder("g.exr"), "surface", 1, 1, "albedo.R albedo.G albedo.B", v, GLINT_STORED_FLOAT, NULL);
     char *path = strdup(in_folder("g.exr")), spec[300];
@@ -325,8 +313,7 @@ static void layers_are_named_after_a_colon(void **state) {
     free(path);
 }
 
-static void wrong_use_and_bad_files(void **state) {
-    (void)state;
+static void wrong_use_and_bad_files(UNUSED void **state) {
     const float v[] = {1, 1, 1};
     char *path = strdup(in_folder("w.exr"));
     write_exr(path, "color", 1, 1, "R G B", v, GLINT_STORED_FLOAT, NULL);
@@ -350,9 +337,8 @@ static void wrong_use_and_bad_files(void **state) {
 }
 
 /* Six times as high as wide, like the faces of a cube map below each other. */
-static void a_narrow_picture_is_no_cube_map(void **state) {
+static void a_narrow_picture_is_no_cube_map(UNUSED void **state) {
     char *capture = strdup(in_folder("narrow.exr")), *run = strdup(in_folder("narrow"));
-    (void)state;
     free(glint_ok("sample", "matte", "-o", capture, "--size", "8x48", "--cube-size", "8", "--light", "1"));
     free(glint_ok("replay", capture, "-o", run));
     for (int k = 0; k < 2; k++) {
@@ -366,8 +352,7 @@ static void a_narrow_picture_is_no_cube_map(void **state) {
 }
 
 /* A terminal would interpret control characters in names from untrusted files. */
-static void control_characters_in_names_do_not_reach_the_terminal(void **state) {
-    (void)state;
+static void control_characters_in_names_do_not_reach_the_terminal(UNUSED void **state) {
     const float v[] = {1, 1, 1};
     write_exr(in_folder("e.exr"), "a\033[31mb\302\233c", 1, 1, "R G B", v, GLINT_STORED_FLOAT, "\033]0;title");
     char *info = glint_ok("info", in_folder("e.exr"));
@@ -380,8 +365,7 @@ static void control_characters_in_names_do_not_reach_the_terminal(void **state) 
     free(info);
 }
 
-static void a_dash_is_stdout(void **state) {
-    (void)state;
+static void a_dash_is_stdout(UNUSED void **state) {
     const float v[] = {1, 1, 1};
     write_exr(in_folder("w.exr"), "color", 1, 1, "R G B", v, GLINT_STORED_FLOAT, NULL);
     char *png = glint_ok("view", "-o", "-", in_folder("w.exr"));

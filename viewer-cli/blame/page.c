@@ -1,6 +1,5 @@
 /* The page of glint blame: the error by slot, and the error that replacements remove per millisecond. */
 #include <math.h>
-#include <string.h>
 
 #include "blame/blame.h"
 #include "draw/page/page.h"

@@ -22,10 +22,6 @@ static bool report(void *user, const char *what, double done) {
                            ((double)work->done + done) / (double)(work->total ? work->total : 1));
 }
 
-static const char *base_name(const char *path) {
-    return strrchr(path, '/') ? strrchr(path, '/') + 1 : path;
-}
-
 static bool place_line(const struct work *work, uint32_t coalition, json_t *line, struct glint_error *err) {
     if (!line) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     json_object_set_new(line, "capture", json_integer((json_int_t)work->capture));

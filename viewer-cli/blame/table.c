@@ -1,7 +1,6 @@
 /* The results of glint blame as printed tables and as JSON. */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "blame/blame.h"
 #include "io/table.h"

@@ -1,6 +1,5 @@
 /* Comparison of presets as a page: error against time, errors by surface, why rays ended, pictures. */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "compare/compare.h"

@@ -7,10 +7,6 @@
 #include "io/table.h"
 #include "io/text_file.h"
 
-static const char *base_name(const char *path) {
-    return strrchr(path, '/') ? strrchr(path, '/') + 1 : path;
-}
-
 static double coverage_of(const struct showing *s, int k) {
     return s->reflecting[k] ? (double)s->given[k] / (double)s->reflecting[k] : 0;
 }

@@ -40,6 +40,8 @@ struct diff_side {
    are listed under the names of the run's images. */
 bool diff_sides_open(struct diff_side sides[2], const char *const paths[2], struct glint_error *err);
 void diff_side_finish(struct diff_side *side);
+/* The image of this name, or NULL. */
+const struct diff_image *diff_side_image(const struct diff_side *side, const char *name);
 /* Reads some channels, interleaved: as uint32_t if they are integers, else as float. */
 bool diff_side_read(struct diff_side *side, const struct diff_image *image, const char *const *channels, size_t count,
                     bool integers, void *out, struct glint_error *err);

@@ -7,72 +7,36 @@ struct diff_args diff_args_default(void) {
     return (struct diff_args){.options = {.limits = glint_difference_limits()}};
 }
 
-static error_t parse_limit(int key, char *arg, struct argp_state *state, struct glint_difference_limits *limits) {
+static error_t parse_limit(const char *arg, struct argp_state *state, double *limit) {
     double value;
     arg_numbers("limit", arg, &value, 1, state);
     if (!(value >= 0)) argp_error(state, "%s: expected a number that is not negative", arg);
-    switch (key) {
-    case KEY_FAIL:
-        limits->fail.absolute = value;
-        return 0;
-    case KEY_FAIL_RELATIVE:
-        limits->fail.relative = value;
-        return 0;
-    case KEY_FAIL_PERCENT:
-        limits->fail.percent = value;
-        return 0;
-    case KEY_HARD_FAIL:
-        limits->fail.hard = value;
-        return 0;
-    case KEY_WARN:
-        limits->warn.absolute = value;
-        return 0;
-    case KEY_WARN_RELATIVE:
-        limits->warn.relative = value;
-        return 0;
-    case KEY_WARN_PERCENT:
-        limits->warn.percent = value;
-        return 0;
-    case KEY_HARD_WARN:
-        limits->warn.hard = value;
-        return 0;
-    }
-    return ARGP_ERR_UNKNOWN;
+    *limit = value;
+    return 0;
 }
 
 error_t diff_args_parse(int key, char *arg, struct argp_state *state, struct diff_args *a) {
+    struct glint_difference_limits *limits = &a->options.limits;
     switch (key) {
-    case 'o':
-        a->heat = arg;
-        return 0;
-    case KEY_BESIDE:
-        a->beside = arg;
-        return 0;
-    case KEY_FLICKER:
-        a->flicker = arg;
-        return 0;
-    case KEY_HTML:
-        a->html = arg;
-        return 0;
-    case KEY_ONLY_DIFFERENT:
-        a->only_different = true;
-        return 0;
-    case KEY_ALLOW:
-        a->options.limits.allow_failures = arg_uint("allowfailures", arg, 0, UINT32_MAX, state);
-        return 0;
+    case KEY_FAIL:
+        return parse_limit(arg, state, &limits->fail.absolute);
+    case KEY_FAIL_RELATIVE:
+        return parse_limit(arg, state, &limits->fail.relative);
+    case KEY_FAIL_PERCENT:
+        return parse_limit(arg, state, &limits->fail.percent);
+    case KEY_HARD_FAIL:
+        return parse_limit(arg, state, &limits->fail.hard);
+    case KEY_WARN:
+        return parse_limit(arg, state, &limits->warn.absolute);
+    case KEY_WARN_RELATIVE:
+        return parse_limit(arg, state, &limits->warn.relative);
+    case KEY_WARN_PERCENT:
+        return parse_limit(arg, state, &limits->warn.percent);
+    case KEY_HARD_WARN:
+        return parse_limit(arg, state, &limits->warn.hard);
     case 'a':
         return 0;
-    case 'v':
-        a->verbose = true;
-        return 0;
-    case 'q':
-        a->quiet = true;
-        return 0;
-    case 'j':
-        a->json = true;
-        return 0;
     }
-    if (key >= KEY_FAIL && key <= KEY_HARD_WARN) return parse_limit(key, arg, state, &a->options.limits);
     return metric_args_parse(key, arg, state, &a->options.metrics);
 }
 

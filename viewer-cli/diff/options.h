@@ -50,11 +50,22 @@ enum {
     {"verbose",       'v',               NULL, 0, "Also list images that are equal", 0}, \
     {"quiet",         'q',               NULL, 0, "Print nothing; only set the exit status", 0}, \
     {"json",          'j',               NULL, 0, "Print JSON", 0}
+/* Where those go that need no more than parsing: `args` is the struct diff_args in the command's arguments of this type. */
+#define DIFF_TARGETS(type, args) \
+    STORED('o', type, args.heat), \
+    STORED(KEY_BESIDE, type, args.beside), \
+    STORED(KEY_FLICKER, type, args.flicker), \
+    STORED(KEY_HTML, type, args.html), \
+    STORED(KEY_ONLY_DIFFERENT, type, args.only_different), \
+    STORED_NUMBER(KEY_ALLOW, type, args.options.limits.allow_failures, 0, UINT32_MAX), \
+    STORED('v', type, args.verbose), \
+    STORED('q', type, args.quiet), \
+    STORED('j', type, args.json)
 /* clang-format on */
 
 /* The limits of idiff. */
 struct diff_args diff_args_default(void);
-/* Reads one of DIFF_OPTIONS; ARGP_ERR_UNKNOWN for any other key. */
+/* Parses the others; ARGP_ERR_UNKNOWN for any other key. */
 error_t diff_args_parse(int key, char *arg, struct argp_state *state, struct diff_args *args);
 
 /* Compares two sides, and writes the requested pictures and page. Release `diff` even if this fails. */

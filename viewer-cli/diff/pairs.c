@@ -8,12 +8,6 @@ const struct diff_image *diff_pair_image(const struct diff_pair *pair) {
     return pair->a ? pair->a : pair->b;
 }
 
-static const struct diff_image *find_image(const struct diff_side *side, const char *name) {
-    for (size_t i = 0; i < side->count; i++)
-        if (!strcmp(side->images[i].name, name)) return &side->images[i];
-    return NULL;
-}
-
 static bool is_engines(const struct diff_side *side, const struct diff_side *other) {
     return side->is_capture && other->run;
 }
@@ -29,7 +23,7 @@ static void add_others(struct diff *diff, int first, const char *slot) {
         const struct diff_image *image = &other->images[i];
         bool known = false;
         for (size_t k = 0; k < one->count; k++) known |= !strcmp(one->images[k].slot, image->slot);
-        if (!find_image(one, image->name) && (slot ? !strcmp(slot, image->slot) : !known))
+        if (!diff_side_image(one, image->name) && (slot ? !strcmp(slot, image->slot) : !known))
             add_pair(diff, first, NULL, image);
     }
 }
@@ -46,7 +40,7 @@ bool diff_pair_up(struct diff *diff, struct glint_error *err) {
         return true;
     }
     for (size_t i = 0; i < one->count; i++) {
-        const struct diff_image *image = &one->images[i], *same = find_image(other, image->name);
+        const struct diff_image *image = &one->images[i], *same = diff_side_image(other, image->name);
         if (same || !is_engines(other, one)) add_pair(diff, first, image, same);
         if (i + 1 == one->count || strcmp(one->images[i + 1].slot, image->slot) != 0)
             add_others(diff, first, image->slot);

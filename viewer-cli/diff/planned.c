@@ -27,12 +27,6 @@ static const struct glint_row *row_of(const struct diff_image *image) {
     return NULL;
 }
 
-static const struct diff_image *image_of(const struct diff_side *side, const char *name) {
-    for (size_t i = 0; i < side->count; i++)
-        if (!strcmp(side->images[i].name, name)) return &side->images[i];
-    return NULL;
-}
-
 /* A plan skips passes and unused outputs of other passes; a run of all passes processes no tile lists. */
 bool diff_is_planned_out(const struct diff *diff, const struct diff_pair *pair) {
     if (diff->planned < 0 || (pair->a && pair->b)) return false;
@@ -55,7 +49,8 @@ static const struct diff_image *find_ray_normals(const struct diff_side *side) {
     for (size_t p = 0; p < count; p++)
         for (size_t r = 0; r < passes[p].row_count; r++) {
             const struct glint_row *row = &passes[p].rows[r];
-            const struct diff_image *normals = row->kind == GLINT_ROW_ALONG_RAYS ? image_of(side, row->image) : NULL;
+            const struct diff_image *normals =
+                row->kind == GLINT_ROW_ALONG_RAYS ? diff_side_image(side, row->image) : NULL;
             if (normals && normals->channel_count >= 3) return normals;
         }
     return NULL;
@@ -82,7 +77,8 @@ bool diff_planned_begin(struct diff *diff, struct glint_error *err) {
     diff->planned = planned_side(diff);
     if (diff->planned < 0) return true;
     struct diff_side *sides[2] = {&diff->sides[diff->planned], &diff->sides[1 - diff->planned]};
-    const struct diff_image *own = find_ray_normals(sides[0]), *other = own ? image_of(sides[1], own->name) : NULL;
+    const struct diff_image *own = find_ray_normals(sides[0]),
+                            *other = own ? diff_side_image(sides[1], own->name) : NULL;
     if (!other || own->width != other->width || own->height != other->height) return true;
     const size_t texels = (size_t)own->width * own->height;
     float *normals[2] = {read_normals(sides[0], own, err), NULL};

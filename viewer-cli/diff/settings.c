@@ -1,6 +1,4 @@
 /* The settings in which two runs differ: capture, device, preset, passes and their parameters. */
-#include <string.h>
-
 #include "diff/diff.h"
 #include "report/report.h"
 

@@ -1,5 +1,4 @@
 /* The images of one side of a comparison: of a file, of a run, or the engine's intermediates in a capture. */
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -165,6 +164,12 @@ static bool read_run(struct diff_side *side, const struct diff_image *image, con
     }
     free(all);
     return ok;
+}
+
+const struct diff_image *diff_side_image(const struct diff_side *side, const char *name) {
+    for (size_t i = 0; i < side->count; i++)
+        if (!strcmp(side->images[i].name, name)) return &side->images[i];
+    return NULL;
 }
 
 bool diff_side_read(struct diff_side *side, const struct diff_image *image, const char *const *channels, size_t count,

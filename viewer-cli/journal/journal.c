@@ -15,10 +15,6 @@ bool journal_path(const char *folder, const char *name, char path[4096], struct 
            glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
 }
 
-static bool no_memory(struct glint_error *err) {
-    return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-}
-
 static bool same_definition(const struct journal *journal, const json_t *theirs, const json_t *ours,
                             struct glint_error *err) {
     const char *key;
@@ -64,7 +60,7 @@ static bool read_log(struct journal *journal, const char *path, struct glint_err
 
 static bool write_definition(const json_t *definition, const char *path, struct glint_error *err) {
     char *text = json_dumps(definition, JSON_INDENT(1));
-    const bool ok = text ? text_file_write(path, text, err) : no_memory(err);
+    const bool ok = text ? text_file_write(path, text, err) : fail_memory(err);
     free(text);
     return ok;
 }
@@ -100,7 +96,7 @@ bool journal_open(struct journal *journal, const json_t *definition, struct glin
 bool journal_append(struct journal *journal, json_t *line, struct glint_error *err) {
     char *text = line ? json_dumps(line, JSON_COMPACT) : NULL;
     const size_t length = text ? strlen(text) : 0;
-    bool ok = text || no_memory(err);
+    bool ok = text || fail_memory(err);
     if (ok) text[length] = '\n'; /* one write of a whole line */
     if (ok && journal->log > 0 && write(journal->log, text, length + 1) != (ssize_t)(length + 1))
         ok = glint_fail(err, GLINT_ERROR_IO, "%s/log.jsonl: %s", journal->folder, strerror(errno));

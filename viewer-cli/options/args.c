@@ -45,6 +45,43 @@ uint32_t arg_uint(const char *option, const char *text, uint32_t lowest, uint32_
     return (uint32_t)value;
 }
 
+static uint32_t number_of(const struct command *command, const struct arg_target *target, const char *text,
+                          struct argp_state *state) {
+    return arg_uint(command_option(command, target->key)->name, text, target->lowest, target->highest, state);
+}
+
+bool args_store(const struct command *command, int key, char *arg, struct argp_state *state, void *arguments) {
+    const struct arg_target *target = command->targets;
+    while (target && target->kind && target->key != key) target++;
+    if (!target || !target->kind) return false;
+    void *field = (char *)arguments + target->offset;
+    switch (target->kind) {
+    case STORES_NOTHING:
+        break;
+    case STORES_FLAG:
+        *(bool *)field = true;
+        break;
+    case STORES_TEXT:
+        if (key == ARGP_KEY_ARG && *(const char **)field)
+            argp_error(state, "expected one %s, found %s and %s", command->operand, *(const char **)field, arg);
+        *(const char **)field = arg;
+        break;
+    case STORES_ITEM:
+        list_add(field, arg, state);
+        break;
+    case STORES_NAMES:
+        list_split(field, arg, state);
+        break;
+    case STORES_UINT32:
+        *(uint32_t *)field = number_of(command, target, arg, state);
+        break;
+    case STORES_UINT64:
+        *(uint64_t *)field = number_of(command, target, arg, state);
+        break;
+    }
+    return true;
+}
+
 void arg_numbers(const char *option, const char *text, double *out, size_t count, struct argp_state *state) {
     const char *p = text;
     for (size_t i = 0; i < count; i++) {
@@ -91,6 +128,15 @@ int arg_choice(const char *option, const char *text, const char *const *names, s
     return -1;
 }
 
+const char *base_name(const char *path) {
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+bool fail_memory(struct glint_error *err) {
+    return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+}
+
 enum status print_json(json_t *json) {
     int failed = !json || json_dumpf(json, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(9));
     json_decref(json);
@@ -101,4 +147,10 @@ enum status print_json(json_t *json) {
 
 json_t *json_number(double value) {
     return isfinite(value) ? json_real(value) : json_null();
+}
+
+json_t *json_numbers(const double *values, size_t count) {
+    json_t *list = json_array();
+    for (size_t i = 0; i < count; i++) json_array_append_new(list, json_number(values[i]));
+    return list;
 }

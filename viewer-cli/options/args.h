@@ -4,7 +4,6 @@
 
 #include <argp.h>
 #include <jansson.h>
-#include <stdbool.h>
 #include <stdint.h>
 
 #include "command.h"
@@ -21,6 +20,27 @@ void list_free(struct list *list);
 /* NULL for an empty list, as the libraries expect. */
 const char *const *list_or_null(const struct list *list);
 
+/* Where the argument of an option goes that needs no more than parsing. The type of the field decides how it is parsed: a bool is set, a
+   text is kept, a list grows. ARGP_KEY_ARG stands for arguments that are no options, of
+   which a text keeps one, the command's operand. */
+struct arg_target {
+    int key;
+    enum { STORES_NOTHING, STORES_FLAG, STORES_TEXT, STORES_ITEM, STORES_NAMES, STORES_UINT32, STORES_UINT64 } kind;
+    size_t offset;
+    uint32_t lowest, highest; /* of a number */
+};
+/* clang-format off */
+#define STORED(key, type, field) \
+    {key, _Generic(((type *)NULL)->field, bool: STORES_FLAG, const char *: STORES_TEXT, struct list: STORES_ITEM), offsetof(type, field), 0, 0}
+/* A list to which the items of "a,b,c" are added. */
+#define STORED_NAMES(key, type, field) \
+    {key, _Generic(((type *)NULL)->field, struct list: STORES_NAMES), offsetof(type, field), 0, 0}
+#define STORED_NUMBER(key, type, field, lowest, highest) \
+    {key, _Generic(((type *)NULL)->field, uint32_t: STORES_UINT32, uint64_t: STORES_UINT64), offsetof(type, field), lowest, highest}
+/* clang-format on */
+/* Stores the argument where the command's targets say; false if they do not contain the key. */
+bool args_store(const struct command *command, int key, char *arg, struct argp_state *state, void *arguments);
+
 uint32_t arg_uint(const char *option, const char *text, uint32_t lowest, uint32_t highest, struct argp_state *state);
 /* Parses exactly `count` numbers that are separated by commas. */
 void arg_numbers(const char *option, const char *text, double *out, size_t count, struct argp_state *state);
@@ -30,9 +50,15 @@ int arg_choice(const char *option, const char *text, const char *const *names, s
 /* "a, b, c", malloc'd. */
 char *join_names(const char *before, const char *const *names);
 
+/* The last component of a path. */
+const char *base_name(const char *path);
+/* Sets the error and returns false. */
+bool fail_memory(struct glint_error *err);
+
 /* Prints indented JSON to stdout and releases it. */
 enum status print_json(json_t *json);
 /* A JSON number; null if it is not finite. */
 json_t *json_number(double value);
+json_t *json_numbers(const double *values, size_t count);
 
 #endif

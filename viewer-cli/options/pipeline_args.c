@@ -3,48 +3,6 @@
 
 #include "options/pass_names.h"
 
-error_t pipeline_args_parse(int key, char *arg, struct argp_state *state, struct pipeline_args *args) {
-    switch (key) {
-    case 'p':
-        args->preset = arg;
-        return 0;
-    case 'd':
-        args->device = arg;
-        return 0;
-    case KEY_INPUTS:
-        args->replay.inputs = arg;
-        return 0;
-    case KEY_HISTORY:
-        args->replay.history = arg;
-        return 0;
-    case KEY_ALL:
-        args->replay.all = true;
-        return 0;
-    case KEY_USE:
-        list_add(&args->use, arg, state);
-        return 0;
-    case KEY_SET:
-        list_add(&args->set, arg, state);
-        return 0;
-    case KEY_SHADER:
-        list_add(&args->shader, arg, state);
-        return 0;
-    case KEY_PASSES:
-        list_split(&args->passes, arg, state);
-        return 0;
-    case KEY_OUTPUTS:
-        list_split(&args->outputs, arg, state);
-        return 0;
-    case KEY_SKIP:
-        list_split(&args->skip, arg, state);
-        return 0;
-    case KEY_FORCE:
-        list_split(&args->force, arg, state);
-        return 0;
-    }
-    return ARGP_ERR_UNKNOWN;
-}
-
 void pipeline_args_finish(struct pipeline_args *args) {
     list_free(&args->use);
     list_free(&args->set);

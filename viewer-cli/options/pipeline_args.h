@@ -51,10 +51,22 @@ enum {
     {"outputs", KEY_OUTPUTS, "IMAGE,...",      0, "Write only these images, and run only the passes that they need; --diagnostics adds its own images (default: all)", 0}, \
     SKIP_OPTION, \
     {"force",   KEY_FORCE,   "SLOT,...",       0, "Run these passes even if the plan finds that they are not needed", 0}
+/* Where they go: `args` is the struct pipeline_args in the command's arguments of this type. */
+#define PIPELINE_TARGETS(type, args) \
+    STORED('p', type, args.preset), \
+    STORED('d', type, args.device), \
+    STORED(KEY_USE, type, args.use), \
+    STORED(KEY_SET, type, args.set), \
+    STORED(KEY_SHADER, type, args.shader), \
+    STORED_NAMES(KEY_PASSES, type, args.passes), \
+    STORED_NAMES(KEY_OUTPUTS, type, args.outputs), \
+    STORED_NAMES(KEY_SKIP, type, args.skip), \
+    STORED_NAMES(KEY_FORCE, type, args.force), \
+    STORED(KEY_INPUTS, type, args.replay.inputs), \
+    STORED(KEY_HISTORY, type, args.replay.history), \
+    STORED(KEY_ALL, type, args.replay.all)
 /* clang-format on */
 
-/* Parses one of these; ARGP_ERR_UNKNOWN for any other key. */
-error_t pipeline_args_parse(int key, char *arg, struct argp_state *state, struct pipeline_args *args);
 void pipeline_args_finish(struct pipeline_args *args);
 /* Creates the pipeline of the arguments. Unknown names are errors with the nearest known name. */
 struct glint_pipeline *pipeline_args_create(const struct pipeline_args *args, struct glint_error *err);

@@ -4,12 +4,6 @@
 #include "options/args.h"
 #include "probe/probe.h"
 
-static json_t *numbers(const double *values, size_t count) {
-    json_t *list = json_array();
-    for (size_t i = 0; i < count; i++) json_array_append_new(list, json_number(values[i]));
-    return list;
-}
-
 /* The position along the ray, by the last record of its origin and direction. */
 static json_t *position(const struct glint_probe_record *ray, const struct glint_probe_record *step) {
     static const char *const from[] = {"x", "y", "z"}, *const along[] = {"direction_x", "direction_y", "direction_z"};
@@ -17,7 +11,7 @@ static json_t *position(const struct glint_probe_record *ray, const struct glint
     const double t = (double)glint_probe_value(step, "travelled_m");
     for (int k = 0; k < 3; k++)
         at[k] = (double)glint_probe_value(ray, from[k]) + t * (double)glint_probe_value(ray, along[k]);
-    return numbers(at, 3);
+    return json_numbers(at, 3);
 }
 
 static json_t *record_json(const struct probe_side *side, const struct glint_probe_record *record,
@@ -45,7 +39,7 @@ static json_t *images_json(const struct probe_side *side, const struct glint_pas
         if (value->pass != pass) continue;
         json_t *object = json_pack("{ssss}", "name", value->row->name, "unit", value->row->unit);
         if (value->row->channels) json_object_set_new(object, "channels", json_string(value->row->channels));
-        json_object_set_new(object, "values", numbers(value->values, value->count));
+        json_object_set_new(object, "values", json_numbers(value->values, value->count));
         json_array_append_new(list, object);
     }
     return list;

@@ -2,7 +2,6 @@
 #include "stability/stability.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "options/args.h"
 #include "io/table.h"

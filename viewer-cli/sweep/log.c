@@ -1,19 +1,10 @@
 /* The definition and results of a sweep on disk, from which an interrupted sweep resumes. */
 #include "sweep/sweep.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "io/text_file.h"
-
-static bool no_memory(struct glint_error *err) {
-    return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-}
 
 /* Everything that the results depend on. */
 static json_t *define(const struct sweep *sweep, const char *const *axes, const char *sample,
@@ -31,7 +22,7 @@ static json_t *define(const struct sweep *sweep, const char *const *axes, const 
         "reference_runs", strings_json(sweep->against.references.items), "reference_rays",
         (json_int_t)sweep->against.rays, "repeat", (json_int_t)sweep->rounds, "whole", sweep->whole, "all", sweep->all,
         "metrics", (json_int_t)sweep->metrics, "device", device->name, device->driver_version);
-    if (!json) no_memory(err);
+    if (!json) fail_memory(err);
     return json;
 }
 
@@ -57,8 +48,8 @@ static bool make_rows(struct sweep *sweep, struct glint_error *err) {
     const size_t rows = sweep->captures.count * sweep->points;
     sweep->rows = calloc(rows + 1, sizeof *sweep->rows);
     for (size_t i = 0; sweep->rows && i < rows; i++)
-        if (!(sweep->rows[i].rounds = calloc(sweep->rounds + 1, sizeof(json_t *)))) return no_memory(err);
-    return sweep->rows || no_memory(err);
+        if (!(sweep->rows[i].rounds = calloc(sweep->rounds + 1, sizeof(json_t *)))) return fail_memory(err);
+    return sweep->rows || fail_memory(err);
 }
 
 bool sweep_path(const struct sweep *sweep, const char *name, char path[4096], struct glint_error *err) {

@@ -1,15 +1,10 @@
 /* The page of a sweep: the Pareto fronts as charts, whose points show their values and pictures, and as tables. */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "draw/page/page.h"
 #include "sweep/sweep.h"
-
-static const char *base_name(const char *path) {
-    return strrchr(path, '/') ? strrchr(path, '/') + 1 : path;
-}
 
 static void add_picture(const struct sweep *sweep, json_t *pictures, const char *name, const char *caption) {
     char path[4096];

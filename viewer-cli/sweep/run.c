@@ -2,7 +2,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "draw/view/pixels.h"
@@ -23,10 +22,6 @@ static bool report(void *user, const char *what, double done) {
     (void)what;
     return progress_report(work->sweep->progress, work->label,
                            work->total ? ((double)work->done + done) / (double)work->total : 0);
-}
-
-static const char *base_name(const char *path) {
-    return strrchr(path, '/') ? strrchr(path, '/') + 1 : path;
 }
 
 static void label(struct work *work, const char *what, size_t i) {

@@ -1,7 +1,6 @@
 /* Sums up the rows of a sweep over rounds and captures, and finds the Pareto fronts. */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "glint/sort.h"
 #include "sweep/sweep.h"

@@ -1,7 +1,6 @@
 /* The results of a sweep as printed tables, JSON and CSV. */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "sweep/sweep.h"
 #include "io/table.h"

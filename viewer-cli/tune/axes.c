@@ -6,10 +6,6 @@
 #include "options/pass_names.h"
 #include "tune/tune.h"
 
-static bool no_memory(struct glint_error *err) {
-    return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-}
-
 void tune_value_text(const struct tune_axis *axis, double value, char text[TUNE_TEXT]) {
     if (axis->texts) snprintf(text, TUNE_TEXT, "%s", axis->texts[(size_t)value]);
     else snprintf(text, TUNE_TEXT, "%.9g", value);
@@ -166,7 +162,7 @@ static void number_axis(struct tune_axis *axis, double lowest, double highest, d
 
 static bool add_text(struct tune_axis *axis, const char *text, size_t length, struct glint_error *err) {
     void *larger = realloc(axis->texts, (axis->axis.choices + 1) * sizeof *axis->texts);
-    if (!larger) return no_memory(err);
+    if (!larger) return fail_memory(err);
     axis->texts = larger;
     snprintf(axis->texts[axis->axis.choices++], TUNE_TEXT, "%.*s", (int)length, text);
     return true;
@@ -329,7 +325,7 @@ bool tune_make_axes(struct tune *tune, struct glint_error *err) {
         room += glint_pipeline_pass(tune->base, i)->row_count;
     tune->axes = calloc(room, sizeof *tune->axes);
     tune->left = calloc(room, sizeof *tune->left);
-    if (!tune->axes || !tune->left) return no_memory(err);
+    if (!tune->axes || !tune->left) return fail_memory(err);
     if (!tune->vary.count) return add_all(tune, err);
     for (size_t i = 0; i < 2 * tune->vary.count; i++) { /* variants first */
         const char *text = tune->vary.items[i % tune->vary.count];

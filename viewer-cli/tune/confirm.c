@@ -7,10 +7,6 @@
 
 const char *const tune_contenders[TUNE_CONTENDERS] = {"start", "tuned", "scaled"};
 
-static bool no_memory(struct glint_error *err) {
-    return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-}
-
 /* Times a point and returns the part of its limit that it takes: with a baseline, the largest upper bound over the captures of its time
    relative to the baseline; else its mean time relative to the budget. parts[capture]: time relative to the baseline; may be NULL. */
 static bool time_point(struct tune *tune, struct glint_pipeline *scaled, size_t point, double *part, double *parts,
@@ -81,7 +77,7 @@ static bool correct(struct tune *tune, struct glint_pipeline *scaled, struct gli
     enum { TIMES = 3 };
     static const double used = 0.98; /* part of the budget */
     double *parts = calloc(tune->captures.count, sizeof *parts), part = 0;
-    bool ok = parts || no_memory(err);
+    bool ok = parts || fail_memory(err);
     for (int i = 0; ok && i < TIMES && !is_baseline(tune, tune->chosen); i++) {
         ok = time_point(tune, scaled, tune->chosen, &part, parts, err);
         if (!ok || (part <= 1 && part >= used)) break;
@@ -99,7 +95,7 @@ bool tune_choose(struct tune *tune, struct glint_error *err) {
     if (tune->fetches || tune->by_error || !tune->repeat || !tune->found.feasible) return true;
     if (tune->scaled_within) ok = (scaled = tune_pipeline(tune, tune->scaling, err)) != NULL;
     ok = ok && correct(tune, scaled, err) &&
-         ((measured = calloc(tune->found.count, sizeof *measured)) != NULL || no_memory(err));
+         ((measured = calloc(tune->found.count, sizeof *measured)) != NULL || fail_memory(err));
     ok = ok && choose_point(tune, scaled, measured, err);
     if (scaled) glint_pipeline_destroy(&scaled);
     free(measured);
@@ -150,7 +146,7 @@ static bool measure_subject(struct tune *tune, size_t s, struct glint_error *err
 
 bool tune_confirm(struct tune *tune, struct glint_error *err) {
     tune->measured = calloc(tune->subject_count * TUNE_CONTENDERS + 1, sizeof *tune->measured);
-    if (!tune->measured) return no_memory(err);
+    if (!tune->measured) return fail_memory(err);
     if (!make_contenders(tune, err)) return false;
     for (size_t s = 0; s < tune->subject_count; s++) {
         tune_unload_subject(tune, s);

@@ -6,10 +6,6 @@
 #include "draw/page/page.h"
 #include "tune/tune.h"
 
-static const char *base_name(const char *path) {
-    return strrchr(path, '/') ? strrchr(path, '/') + 1 : path;
-}
-
 static void values_of(const struct tune *tune, const double *values, json_t *list) {
     for (size_t a = 0; a < tune->axis_count; a++) {
         char text[TUNE_TEXT], from[TUNE_TEXT];

@@ -143,7 +143,7 @@ static json_t *provenance_json(const struct tune *tune) {
         "captures", captures_list(tune), "over", tune->worst ? "worst" : "mean", "device", device->name,
         device->driver_version, "seed", (json_int_t)tune->seed, "points", (json_int_t)tune->found.count, "limit",
         limit_json(tune), "against", references_json(tune), "metric", glint_metric(tune->metric)->name, "shaders",
-        strings_json(tune->shaders.items), "error", tune->by_error ? found->constraint : found->objective, "cost",
+        strings_json(tune->shaders->items), "error", tune->by_error ? found->constraint : found->objective, "cost",
         tune->by_error ? found->objective : found->constraint, "confirmed", tune->confirmed, "moved", moved_json(tune));
 }
 

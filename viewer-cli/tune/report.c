@@ -9,10 +9,6 @@ const char *tune_cost_unit(const struct tune *tune) {
     return tune->fetches ? "fetches/px" : "ms";
 }
 
-static const char *base_name(const char *path) {
-    return strrchr(path, '/') ? strrchr(path, '/') + 1 : path;
-}
-
 static void print_moved(const struct tune *tune) {
     const double *values = tune->found.points[tune->chosen].values;
     struct table *table = table_create((const char *const[]){"<changed", ">from", ">to", "<unit", NULL});

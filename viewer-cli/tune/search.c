@@ -1,12 +1,7 @@
 /* Runs the search from the start and the baseline. */
 #include <stdlib.h>
-#include <string.h>
 
 #include "tune/tune.h"
-
-static bool no_memory(struct glint_error *err) {
-    return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-}
 
 static struct glint_search_figures as_searched(const struct tune *tune, struct tune_figures found) {
     return (struct glint_search_figures){tune->by_error ? found.cost : found.error,
@@ -41,7 +36,7 @@ static bool search(struct tune *tune, uint32_t tries, const double *known, size_
                                                  .initial = known,
                                                  .initial_count = count};
     struct glint_search_axis *axes = calloc(tune->axis_count + 1, sizeof *axes);
-    if (!axes) return no_memory(err);
+    if (!axes) return fail_memory(err);
     for (size_t a = 0; a < tune->axis_count; a++) {
         axes[a] = tune->axes[a].axis;
         axes[a].keep = tune->axes[a].other;
@@ -58,7 +53,7 @@ bool tune_search(struct tune *tune, struct glint_error *err) {
     for (size_t a = 0; start && a < tune->axis_count; a++) start[a] = tune->axes[a].axis.start;
     const bool ok =
         start ? begin_search(tune, start, err) && search(tune, tune->tries, tune->scaling, tune->baseline, err)
-              : no_memory(err);
+              : fail_memory(err);
     free(start);
     return ok;
 }

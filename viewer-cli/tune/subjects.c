@@ -1,14 +1,9 @@
 /* Loads the captures, runs the start once on each, and times pipelines on them. */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "glint/sort.h"
 #include "tune/tune.h"
-
-static bool no_memory(struct glint_error *err) {
-    return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-}
 
 bool tune_report(void *user, const char *what, double done) {
     struct tune *tune = user;
@@ -42,7 +37,7 @@ bool tune_load_subject(struct tune *tune, size_t s, uint32_t resamples, struct g
 bool tune_load(struct tune *tune, struct glint_error *err) {
     tune->subject_count = tune->captures.count + tune->held_out.count;
     tune->subjects = calloc(tune->subject_count + 1, sizeof *tune->subjects);
-    if (!tune->subjects) return no_memory(err);
+    if (!tune->subjects) return fail_memory(err);
     for (size_t s = 0; s < tune->subject_count; s++) {
         struct tune_subject *subject = &tune->subjects[s];
         subject->held_out = s >= tune->captures.count;
@@ -92,7 +87,7 @@ bool tune_time_in_turns(struct tune *tune, struct tune_subject *subject, struct 
     const size_t rounds = tune->repeat;
     double *values = calloc((TUNE_CONTENDERS + 1) * rounds + 1, sizeof *values),
            *parts = values + TUNE_CONTENDERS * rounds;
-    bool ok = values || no_memory(err);
+    bool ok = values || fail_memory(err);
     for (uint32_t r = 0; ok && r < rounds; r++) {
         snprintf(tune->label, sizeof tune->label, "final timing, round %u", r + 1);
         glint_judge_next_round(subject->judge);

@@ -5,10 +5,6 @@
 
 #include "tune/tune.h"
 
-static bool no_memory(struct glint_error *err) {
-    return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-}
-
 /* ---- The journal ---- */
 
 static json_t *axes_json(const struct tune *tune) {
@@ -48,7 +44,7 @@ static bool keep_tune_line(void *user, json_t *line) {
 bool tune_open(struct tune *tune, struct glint_error *err) {
     const struct glint_device_info *device = glint_device_get_info(tune->device);
     json_t *captures = captures_json(&tune->captures, err),
-           *sources = captures ? shaders_json(&tune->shaders, err) : NULL;
+           *sources = captures ? shaders_json(tune->shaders, err) : NULL;
     if (!sources) {
         json_decref(captures);
         return false;
@@ -66,7 +62,7 @@ bool tune_open(struct tune *tune, struct glint_error *err) {
     tune->journal.kind = "tuning";
     tune->journal.keep = keep_tune_line;
     tune->journal.user = tune;
-    const bool ok = (definition && tune->lines) ? journal_open(&tune->journal, definition, err) : no_memory(err);
+    const bool ok = (definition && tune->lines) ? journal_open(&tune->journal, definition, err) : fail_memory(err);
     json_decref(definition);
     return ok;
 }
@@ -79,7 +75,7 @@ static bool time_beside_start(struct tune *tune, struct tune_subject *subject, c
                               double *ms, struct glint_error *err) {
     double *ratios = calloc(2 * tune->rounds + 1, sizeof *ratios), *starts = ratios + tune->rounds;
     const bool whole = !glint_device_get_info(tune->device)->is_cpu;
-    bool ok = ratios || no_memory(err);
+    bool ok = ratios || fail_memory(err);
     for (uint32_t r = 0; ok && r < tune->rounds; r++) {
         double own = 0;
         glint_judge_next_round(subject->judge);
@@ -161,7 +157,7 @@ static bool add_line(struct tune *tune, const struct glint_pipeline *pipeline, j
                      struct glint_error *err) {
     const bool first = !tune->fetches && tune->subjects[0].start_ms == 0;
     json_t *line = json_pack("{s:o, s:[]}", "values", values, "captures");
-    if (!line) return no_memory(err);
+    if (!line) return fail_memory(err);
     bool ok = true;
     for (size_t s = 0; ok && s < tune->captures.count; s++)
         ok = evaluate_on(tune, &tune->subjects[s], pipeline, line, err);
@@ -234,5 +230,5 @@ bool tune_all_tried(const struct tune *tune, double **values, size_t *count, str
     *values = calloc(tune->axis_count * *count + 1, sizeof **values);
     for (size_t i = 0; *values && i < *count; i++)
         values_of(tune, json_array_get(tune->lines, i), *values + tune->axis_count * i);
-    return *values || no_memory(err);
+    return *values || fail_memory(err);
 }

@@ -53,7 +53,8 @@ struct tune_measured {
 
 struct tune {
     const char *out, *folder; /* file of the preset; folder for everything else */
-    struct list captures, held_out, vary, slots, shaders;
+    struct list captures, held_out, vary, slots;
+    const struct list *shaders; /* of --shader */
     struct answer_args against;
     const char *command_line;
     bool all, fetches, by_error, baseline, worst;

@@ -1,7 +1,6 @@
 /* Replays each version of a watched preset or shader. */
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include <time.h>
 
 #include "diff/diff.h"

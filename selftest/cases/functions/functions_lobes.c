@@ -1,6 +1,4 @@
 /* Cases of sampling.glsl, brdf.glsl and reuse.glsl. */
-#include <float.h>
-
 #include "cases/functions/function_case.h"
 
 static const double threshold = 0.1;

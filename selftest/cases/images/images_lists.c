@@ -2,7 +2,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "cases/images/image_case_lists.h"
 #include "harness/image_case.h"

@@ -1,6 +1,5 @@
 /* The group "geometry": numerically difficult rays against closed forms and references in double precision. The group "sizes": very small, very
    large and odd pictures and cube maps. */
-#include "cases/groups.h"
 #include "cases/rays/rays_lists.h"
 
 REPLAY_CASE_GROUP(geometry, "rays in numerically difficult directions", &geometry_surfaces, &geometry_screen,

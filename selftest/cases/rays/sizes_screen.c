@@ -2,7 +2,6 @@
    floor before a wall. */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "cases/rays/rays_lists.h"
 #include "cases/rays/screen_rays.h"

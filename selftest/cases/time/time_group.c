@@ -1,9 +1,7 @@
 /* The group "time": history of passes. Colours and surfaces are prescribed; a model in double precision states which texels of the previous frame each
    pixel uses, with which weights, and the number of samples that they count for. */
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "cases/groups.h"
 #include "cases/time/history_case.h"

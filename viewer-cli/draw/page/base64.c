@@ -1,7 +1,6 @@
 /* Encodes bytes as JSON strings. */
 #include "draw/page/base64.h"
 
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,7 +1,6 @@
 /* Draws the ray on the pipeline's final image, as a whole and enlarged around its steps. */
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "draw/page/page.h"
 #include "draw/probe/panels.h"

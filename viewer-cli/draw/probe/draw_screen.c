@@ -1,6 +1,5 @@
 /* The panel of a ray in screen space: its depth, and the depth of the surfaces that it passes. */
 #include <math.h>
-#include <string.h>
 
 #include "draw/probe/panels.h"
 
