@@ -285,6 +285,8 @@ const struct glint_part_info *glint_capture_part(const struct glint_capture *cap
 const struct glint_part_info *glint_capture_find(const struct glint_capture *capture, const char *name);
 /* Whether glint_capture_read can return the channel: one that is stored, or the reconstructed Z of a normal. */
 bool glint_part_has_channel(const struct glint_part_info *part, const char *channel);
+/* Whether the format requires this channel of this part. */
+bool glint_part_needs_channel(const struct glint_part_info *part, const char *channel);
 /* The XXH3-128 of the file's bytes as 32 hexadecimal digits and a NUL. Reads the whole file. */
 bool glint_capture_hash(struct glint_capture *capture, char hex[33], struct glint_error *err);
 
