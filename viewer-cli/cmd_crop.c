@@ -79,6 +79,7 @@ const struct command cmd_crop = {
         "outside the rectangle is off screen in the copy, and the truth's mirror rays say so. All other pixels keep "
         "every bit.",
     .options = options,
+    .numbers = true,
     .parse = cmd_crop_parse,
     .examples = examples,
     .run = cmd_crop_run,
