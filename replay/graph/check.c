@@ -57,6 +57,9 @@ static void check_row(const struct glint_pass *pass, const struct glint_row *row
         expect(own && (own->size == GLINT_SIZE_FULL || own->size == GLINT_SIZE_HALF) &&
                    !glint_format_is_uint(own->format) && glint_pass_row(pass, GLINT_ROW_PER_RAY, NULL),
                pass, "ACCUMULATE", row->name, "a plain float image that the pass writes, and PER_RAY", faults);
+    else if (row->kind == GLINT_ROW_WITHOUT)
+        expect(reads && capture_row(row->name), pass, "WITHOUT", row->name,
+               "an image of the capture that the pass reads", faults);
     else if (row->kind == GLINT_ROW_ASSUMED)
         expect(spec || glint_pass_row(pass, GLINT_ROW_PUSH, row->name), pass, "ASSUMED", row->name,
                "a numeric parameter of the pass", faults);

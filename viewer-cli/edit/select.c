@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "capture/missing.h"
 #include "glint/capture.h"
 #include "io/table.h"
 #include "options/nearest.h"
@@ -104,21 +105,38 @@ static uint64_t stored_bytes(const struct glint_part_info *part, const struct gl
     return (uint64_t)part->width * part->height * (channel->stored == GLINT_STORED_HALF ? 2 : 4);
 }
 
+/* Costs that were said of another part. */
+struct said {
+    const char *costs[32];
+    size_t count;
+};
+
+static void add_cost(char *text, size_t size, struct said *said, const char *cost) {
+    const size_t used = strlen(text);
+    for (size_t i = 0; i < said->count; i++)
+        if (said->costs[i] == cost) return;
+    if (!cost || said->count == sizeof said->costs / sizeof *said->costs) return;
+    said->costs[said->count++] = cost;
+    snprintf(text + used, size - used, "%s%s", used ? "; " : "", cost);
+}
+
+/* `costs`: what a replay loses, or "". */
 static void say_left_out(const struct command *command, const struct glint_part_info *part, const char *channels,
-                         uint64_t bytes) {
-    command_note(command, "left out: %s%s%s, %s of pixels", part->name, *channels ? ": " : "", channels,
-                 bytes_text(bytes));
+                         uint64_t bytes, const char *costs) {
+    command_note(command, "left out: %s%s%s, %s of pixels%s%s", part->name, *channels ? ": " : "", channels,
+                 bytes_text(bytes), *costs ? ": " : "", costs);
 }
 
 static bool select_part(struct glint_edit *edit, const struct glint_part_info *part, const struct selection *s,
-                        const struct command *command, struct glint_error *err) {
+                        const struct command *command, struct said *said, struct glint_error *err) {
     const size_t i = glint_edit_find(edit, part->name);
-    char names[400] = "";
+    char names[400] = "", costs[600] = "";
     uint64_t bytes = 0;
     if (!part_stays(s, part)) {
         glint_edit_drop_part(edit, i);
         for (size_t c = 0; c < part->channel_count; c++) bytes += stored_bytes(part, &part->channels[c]);
-        say_left_out(command, part, "", bytes);
+        add_cost(costs, sizeof costs, said, missing_cost(part->name, NULL));
+        say_left_out(command, part, "", bytes, costs);
         return true;
     }
     for (size_t c = 0; c < part->channel_count; c++) {
@@ -126,9 +144,10 @@ static bool select_part(struct glint_edit *edit, const struct glint_part_info *p
         if (channel_stays(s, part, channel->name)) continue;
         if (!glint_edit_drop_channel(edit, i, channel->name, err)) return false;
         bytes += stored_bytes(part, channel);
+        add_cost(costs, sizeof costs, said, missing_cost(part->name, channel->name));
         snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", *names ? " " : "", channel->name);
     }
-    if (bytes) say_left_out(command, part, names, bytes);
+    if (bytes) say_left_out(command, part, names, bytes, costs);
     return true;
 }
 
@@ -136,13 +155,14 @@ bool edit_select(struct glint_edit *edit, const char *path, const struct selecti
                  const struct command *command, struct glint_error *err) {
     const struct list *items = selection->keep->count ? selection->keep : selection->drop;
     struct glint_capture *capture = glint_capture_open(path, NULL, err);
+    struct said said = {.count = 0};
     bool ok = capture != NULL;
     const size_t count = ok ? glint_capture_part_count(capture) : 0;
     for (size_t i = 0; ok && i < items->count; i++)
         ok = is_known(capture, items->items[i]) || refuse_unknown(capture, items->items[i], err);
     for (size_t p = 0; ok && p < count; p++) ok = check_required(selection, glint_capture_part(capture, p), err);
     for (size_t p = 0; ok && p < count; p++)
-        ok = select_part(edit, glint_capture_part(capture, p), selection, command, err);
+        ok = select_part(edit, glint_capture_part(capture, p), selection, command, &said, err);
     glint_capture_close(&capture);
     return ok;
 }
