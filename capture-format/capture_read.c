@@ -1,5 +1,6 @@
 /* Reads channels of a part, decoded block by block in the threads that decompress them. */
 #include <Imath/half.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -13,6 +14,7 @@ struct output {
     enum glint_normal_encoding normal;
     int axis;     /* X, Y, Z: 0, 1, 2 */
     int plane[3]; /* of the file's requested channels; a normal has X, Y, Z, the others one; -1 for none */
+    float absent; /* without a plane: the value of every pixel */
 };
 
 struct job {
@@ -80,7 +82,8 @@ static bool plan_output(struct job *job, const struct glint_part_info *part, con
     to->axis = axis_of(name);
     if (to->decoding == NORMAL) return plan_normal(job, part, file, row, to);
     to->plane[0] = want_channel(job, file, name);
-    return to->plane[0] >= 0;
+    if (row && !isnan(row->absent)) to->absent = (float)row->absent;
+    return to->plane[0] >= 0 || (row && !isnan(row->absent));
 }
 
 /* ---- blocks ---- */
@@ -95,12 +98,18 @@ static void store_values(const struct job *job, const float *values, size_t coun
     for (size_t i = 0; i < count; i++) memcpy(out + 2 * i * job->count, &half[i], 2);
 }
 
+static void put_absent(const struct job *job, const struct output *from, size_t count, uint8_t *out) {
+    const uint16_t half = imath_float_to_half(from->absent);
+    const size_t bytes = job->type == GLINT_F16 ? 2 : 4;
+    for (size_t i = 0; i < count; i++)
+        memcpy(out + bytes * i * job->count, bytes == 2 ? (const void *)&half : &from->absent, bytes);
+}
+
 /* Values that are not decoded keep every bit if the types agree. */
 static bool put_as_stored(const struct job *job, const struct output *from, const uint8_t *in, size_t count,
                           uint8_t *out) {
     if (from->plane[0] < 0) {
-        const size_t bytes = job->type == GLINT_F16 ? 2 : 4;
-        for (size_t i = 0; i < count; i++) memset(out + bytes * i * job->count, 0, bytes);
+        put_absent(job, from, count, out);
         return true;
     }
     const bool half = job->stored[from->plane[0]] == GLINT_STORED_HALF;
@@ -272,8 +281,10 @@ bool glint_capture_read(struct glint_capture *capture, const struct glint_part_i
             return glint_fail(err, GLINT_ERROR_USAGE, "%s: part %s: %s: expected half or float, found uint",
                               capture->exr->path, part->name, channels[i]);
     }
-    if (!job.planes) { /* only zeros are requested */
-        memset(out, 0, (size_t)part->width * part->height * count * (type == GLINT_F16 ? 2 : 4));
+    if (!job.planes) { /* nothing is stored of what is requested */
+        for (size_t i = 0; i < count; i++)
+            put_absent(&job, &job.outputs[i], (size_t)part->width * part->height,
+                       job.out + i * (type == GLINT_F16 ? 2 : 4));
         return true;
     }
     plan_perturbation(capture, part, file, &job);

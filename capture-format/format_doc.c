@@ -1,6 +1,7 @@
 /* Keeps FORMAT.md's tables those of the registry.
    usage: format_doc FORMAT.md          rewrites the tables
           format_doc --check FORMAT.md  exit 1 when they differ */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -37,8 +38,11 @@ static void write_channels(FILE *out) {
     for (size_t i = 0; i < count; i++)
         for (size_t c = 0; c < all[i].channel_count; c++) {
             const struct glint_role_channel *row = &all[i].channels[c];
+            char need[40] = "no";
+            if (row->required) snprintf(need, sizeof need, "yes");
+            else if (!isnan(row->absent)) snprintf(need, sizeof need, "no, read as %g", row->absent);
             fprintf(out, "| %s%s%s | `%s` | %s | %s | %s | %s |\n", c ? "" : "`", c ? "" : all[i].name, c ? "" : "`",
-                    row->name, row->required ? "yes" : "no", row->unit, or_dash(row->encoding), or_dash(row->meaning));
+                    row->name, need, row->unit, or_dash(row->encoding), or_dash(row->meaning));
         }
 }
 

@@ -136,6 +136,16 @@ static bool is_required(const struct glint_part_info *out, const struct glint_ro
     return row->required && (!out->previous || strcmp(out->role->name, "gbuffer") || !strcmp(row->encoding, "depth"));
 }
 
+bool glint_part_can_read(const struct glint_part_info *part, const char *channel) {
+    const struct glint_role_channel *row = glint_role_channel_find(part->role, channel);
+    return glint_part_has_channel(part, channel) || (row && !isnan(row->absent));
+}
+
+bool glint_part_needs_channel(const struct glint_part_info *part, const char *channel) {
+    const struct glint_role_channel *row = glint_role_channel_find(part->role, channel);
+    return row && is_required(part, row);
+}
+
 static bool check_required(struct glint_check *check, const struct glint_part_info *out) {
     for (size_t i = 0; i < out->role->channel_count; i++) {
         const struct glint_role_channel *row = &out->role->channels[i];

@@ -11,6 +11,7 @@
 enum {
 #define ROLE(id, ...) ROLE_FIRST_##id, ROLE_BEFORE_##id = ROLE_FIRST_##id - 1,
 #define CHANNEL(...) CAT(ROLE_ROW_, __LINE__),
+#define CHANNEL_OR(...) CAT(ROLE_ROW_, __LINE__),
 #define END(id) ROLE_END_##id, ROLE_LAST_##id = ROLE_END_##id - 1,
 #include "rows/roles.h"
     ROLE_CHANNELS
@@ -18,7 +19,8 @@ enum {
 
 static const struct glint_role_channel role_channels[] = {
 #define ROLE(...)
-#define CHANNEL(name, required, unit, encoding, meaning) {name, required, unit, encoding, meaning},
+#define CHANNEL(name, required, unit, encoding, meaning) {name, required, unit, encoding, meaning, (double)NAN},
+#define CHANNEL_OR(name, value, unit, encoding, meaning) {name, false, unit, encoding, meaning, value},
 #define END(id)
 #include "rows/roles.h"
 };
@@ -35,6 +37,7 @@ static const struct glint_role roles[] = {
      ROLE_END_##id - ROLE_FIRST_##id,                                                                                  \
      meaning},
 #define CHANNEL(...)
+#define CHANNEL_OR(...)
 #define END(id)
 #include "rows/roles.h"
 };

@@ -156,6 +156,9 @@ KINDS = [
     Kind('NEEDS', 'fact', 'The pass is needed only when this fact holds for the capture.', row='.name = #$fact'),
     Kind('NEEDS_BY', 'fact, parameter', 'NEEDS of a fact about a parameter of the pass.',
          row='.name = #$fact, .image = #$parameter', as_kind='NEEDS'),
+    Kind('WITHOUT', 'image, what', 'What the pass does where the capture does not have this image, which it reads. The plan says so. Passes that read the image without '
+         'such a row do not depend on it, if others have one.',
+         row='.name = #$image, .help = $what'),
     Kind('READS_LEVELS', 'image, parameter',
          'The pass reads this image only where the parameter is not 0, and then even if no ray has a cone.',
          row='.name = #$parameter, .image = #$image'),

@@ -21,6 +21,23 @@ const struct glint_row *glint_capture_images(size_t *count) {
     return capture_rows;
 }
 
+const struct glint_absence *glint_absences(size_t *count) {
+    static const struct glint_absence absences[] = {
+#define ABSENCE(role, channels, cost) {role, channels, cost},
+#include "absences.h"
+    };
+    *count = sizeof absences / sizeof absences[0];
+    return absences;
+}
+
+bool glint_absence_concerns(const struct glint_absence *absence, const struct glint_row *image) {
+    const size_t length = strlen(absence->channels);
+    if (image->kind != GLINT_ROW_CAPTURE || strcmp(image->role, absence->role) != 0) return false;
+    for (const char *at = image->source; at; at = strchr(at, ' ') ? strchr(at, ' ') + 1 : NULL)
+        if (strncmp(at, absence->channels, length) == 0) return true;
+    return false;
+}
+
 const char *glint_pass_text(const char *path) {
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++)
         if (strcmp(texts[i].path, path) == 0) return texts[i].text;

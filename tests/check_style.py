@@ -76,7 +76,7 @@ for h in (f for f in files if "/include/glint/" in f and f.endswith(".h")):
             faults.append(f"{h}: does not compile alone with {command[0]}:\n{run.stderr}")
 # libglint-capture exports exactly what its headers declare.
 declared = set()
-for name in ("common", "capture", "exr"):
+for name in ("common", "capture", "edit", "exr"):
     with open(f"capture-format/include/glint/{name}.h", encoding="utf-8") as text:
         declared.update(re.findall(r"\b(glint_\w+)\s*\(", re.sub(r"/\*.*?\*/", "", text.read(), flags=re.S)))
 with open("capture-format/exports.map", encoding="utf-8") as text:

@@ -5,6 +5,7 @@
 
 #include "options/args.h"
 #include "capture/camera_facts.h"
+#include "capture/missing.h"
 #include "capture/depth_facts.h"
 #include "capture/info_tables.h"
 #include "io/pipe.h"
@@ -98,15 +99,16 @@ static enum status print_capture(const struct arguments *a, struct glint_capture
     const struct glint_frame *frame = glint_capture_frame(capture);
     if (a->json) {
         const struct depth_facts depth = depth_facts(capture);
-        json_t *parts = json_array();
+        json_t *parts = json_array(), *carries = survey ? carries_json(capture, NULL) : NULL;
         for (size_t i = 0; i < glint_capture_part_count(capture); i++)
             json_array_append_new(parts, part_json(glint_capture_part(capture, i), all));
-        return print_json(json_pack(
-            "{s:s, s:b, s:I, s:o, s:o, s:o, s:b, s:b, s:o, s:f, s:o, s:o*}", "file", a->path, "capture", 1, "frame",
-            (json_int_t)frame->number, "camera", camera_json(frame), "depth", depth_facts_json(&depth), "parts", parts,
-            "has_previous", frame->has_previous, "fog", frame->has_fog, "jitter_px", json_numbers(frame->jitter_px, 2),
-            "metres_per_unit", frame->metres_per_unit > 0 ? frame->metres_per_unit : 1.0, "notes",
-            frame_notes_json(frame), "survey", survey ? survey_json(survey) : NULL));
+        return print_json(
+            json_pack("{s:s, s:b, s:I, s:o, s:o, s:o, s:b, s:b, s:o, s:f, s:o, s:o*, s:o*}", "file", a->path, "capture",
+                      1, "frame", (json_int_t)frame->number, "camera", camera_json(frame), "depth",
+                      depth_facts_json(&depth), "parts", parts, "has_previous", frame->has_previous, "fog",
+                      frame->has_fog, "jitter_px", json_numbers(frame->jitter_px, 2), "metres_per_unit",
+                      frame->metres_per_unit > 0 ? frame->metres_per_unit : 1.0, "notes", frame_notes_json(frame),
+                      "survey", survey ? survey_json(survey) : NULL, "presets", carries));
     }
     struct stat file = {0};
     stat(glint_capture_path(capture), &file);
@@ -119,7 +121,8 @@ static enum status print_capture(const struct arguments *a, struct glint_capture
     info_print_channels(all);
     info_print_depth(capture);
     info_print_cubemaps(capture);
-    return STATUS_DONE;
+    struct glint_error err = {0};
+    return !survey || carries_print(capture, &err) ? STATUS_DONE : command_fail(&cmd_info, &err);
 }
 
 static enum status print_exr(const struct arguments *a, const struct glint_exr *exr, const struct channel_table *all) {
@@ -242,7 +245,9 @@ const struct command cmd_info = {
     .summary = "show the contents of a capture, a run or any EXR file",
     .description =
         "Prints the camera of a capture, the survey of its pixels (sky, reflecting pixels, roughness), its parts, "
-        "its channels with type, encoding, unit and range, and its cube maps. Where depth marks sky or no surface, "
+        "its channels with type, encoding, unit and range, and its cube maps; then what each preset can do with it, "
+        "what "
+        "it lacks, and which preset that would help. Where depth marks sky or no surface, "
         "other channels of the part may contain anything, so their ranges cover surfaces only. Any other EXR file is "
         "listed with its parts.",
     .options = options,

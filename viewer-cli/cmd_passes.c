@@ -161,6 +161,18 @@ static void print_reference(const struct glint_pass *pass) {
     if (is) fputs("\n", stdout);
 }
 
+/* Prints what the pass does without images that captures need not have. */
+static void print_without(const struct glint_pass *pass, bool markdown) {
+    bool any = false;
+    for (size_t i = 0; i < pass->row_count; i++) {
+        const struct glint_row *row = &pass->rows[i];
+        if (row->kind != GLINT_ROW_WITHOUT) continue;
+        printf(markdown ? "Without `%s`: %s.\n" : "Without %s: %s.\n", row->name, row->help);
+        any = true;
+    }
+    if (any) putchar('\n');
+}
+
 static void print_pass(const struct glint_pass *pass, const char *previous_slot, bool markdown) {
     if (!previous_slot || strcmp(previous_slot, pass->slot) != 0)
         printf(markdown ? "### `%s`\n\n%s.\n\n" : "%s: %s\n\n", pass->slot, slot_title(pass));
@@ -177,6 +189,7 @@ static void print_pass(const struct glint_pass *pass, const char *previous_slot,
         if (pass->rows[i].kind == GLINT_ROW_ALIAS)
             printf("; otherwise %s is %s", pass->rows[i].image, pass->rows[i].name);
     if (any) fputs(markdown ? ".\n\n" : "\n\n", stdout);
+    print_without(pass, markdown);
     print_reference(pass);
     print_inputs(pass, markdown);
     print_outputs(pass, markdown);

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "capture/missing.h"
 #include "glint/savings.h"
 #include "options/pass_names.h"
 #include "io/pipe.h"
@@ -48,6 +49,7 @@ struct answer {
     size_t count;
     struct glint_savings savings;
     const struct glint_cube_faces *faces;
+    struct missing missing;
 };
 
 static double milliseconds(uint64_t ns) {
@@ -127,6 +129,7 @@ static enum status print_plan_json(const char *capture, const struct glint_pipel
         json_pack("{s:s, s:s, s:o, s:{s:[II], s:[II]}}", "capture", capture, "preset", glint_pipeline_name(pipeline),
                   "passes", list, "cube_faces", "uploaded", (json_int_t)faces->uploaded, (json_int_t)faces->uploaded_of,
                   "filtered", (json_int_t)faces->filtered, (json_int_t)faces->filtered_of);
+    json_object_set_new(root, "missing", missing_json(&answer->missing));
     if (savings->passes)
         json_object_set_new(root, "measured",
                             json_pack("{s:i, s:f, s:o, s:o}", "rounds", (int)savings->rounds, "survey_ms",
@@ -174,9 +177,11 @@ static enum status plan(const struct arguments *a, struct glint_pipeline *pipeli
     if ((a->rounds && !measure_plan(a, pipeline, replay, &answer, &err)) ||
         !glint_replay_plan(replay, pipeline, &options, &answer.entries, &answer.count, &err))
         status = command_fail(&cmd_plan, &err);
-    else if (a->json) status = print_plan_json(a->capture, pipeline, &answer);
-    else if (a->dot) print_dot(answer.entries, answer.count);
-    else print_plan(&answer);
+    missing_add(&answer.missing, replay);
+    if (status == STATUS_DONE && a->json) status = print_plan_json(a->capture, pipeline, &answer);
+    else if (status == STATUS_DONE && a->dot) print_dot(answer.entries, answer.count);
+    else if (status == STATUS_DONE) print_plan(&answer);
+    if (status == STATUS_DONE) missing_note(&cmd_plan, &answer.missing, 0);
     glint_savings_finish(&answer.savings);
     return status;
 }

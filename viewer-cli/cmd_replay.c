@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "capture/missing.h"
 #include "replay/against.h"
 #include "options/pass_names.h"
 #include "io/pipe.h"
@@ -107,7 +108,8 @@ struct job {
     struct glint_replay *replay;
     struct glint_pipeline *pipeline;
     struct against *against;
-    json_t *runs; /* NULL: print tables */
+    struct missing *missing; /* what was warned of */
+    json_t *runs;            /* NULL: print tables */
 };
 
 static const char *const phases[] = {"read", "upload", "passes", "readback", "write"};
@@ -281,13 +283,17 @@ static bool replay_one(const struct job *job, const char *path, const char *fold
     job->against->all = options.all;
     struct found found = {0};
     bool ok = glint_replay_load(job->replay, capture, err) &&
-              glint_replay_run(job->replay, job->pipeline, &options, progress_report, &progress, err) &&
-              (!folder || (report_keep_errors(folder, NULL, err) &&
-                           glint_replay_write(job->replay, folder, progress_report, &progress, err))) &&
-              glint_replay_bad_values(job->replay, &found.bad, &found.count, err) &&
-              (!compared || against_compare(job->against, job->replay, capture, job->pipeline, compared, err)) &&
-              (!compared || !folder || report_keep_errors(folder, compared, err));
+              glint_replay_run(job->replay, job->pipeline, &options, progress_report, &progress, err);
+    const size_t known = job->missing->count;
+    missing_add(job->missing, job->replay); /* before other pipelines are run to compare with */
+    ok = ok &&
+         (!folder || (report_keep_errors(folder, NULL, err) &&
+                      glint_replay_write(job->replay, folder, progress_report, &progress, err))) &&
+         glint_replay_bad_values(job->replay, &found.bad, &found.count, err) &&
+         (!compared || against_compare(job->against, job->replay, capture, job->pipeline, compared, err)) &&
+         (!compared || !folder || report_keep_errors(folder, compared, err));
     progress_end(&progress);
+    missing_note(&cmd_replay, job->missing, known);
     if (ok && job->runs)
         json_array_append_new(
             job->runs, run_json(path, folder, compared, &found, job->replay, glint_device_get_info(job->device)));
@@ -365,7 +371,8 @@ static enum status cmd_replay_run(int argc, char **argv) {
     command_parse(&cmd_replay, argc, argv, &a);
     char *cache = cache_folder(a.cache);
     a.pipeline.replay.cache = cache;
-    struct job job = {.a = &a, .against = &a.against};
+    struct missing missing = {.count = 0};
+    struct job job = {.a = &a, .against = &a.against, .missing = &missing};
     struct glint_error err = {0};
     enum status status;
     job.pipeline = a.watch ? NULL : pipeline_args_create(&a.pipeline, &err);

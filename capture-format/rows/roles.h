@@ -1,6 +1,7 @@
 /* Roles and their channels: the rows from which writer, reader, validate, info and FORMAT.md's tables derive.
    ROLE(id, name, shape, required, numbered, may_be_previous, reserved, meaning)
    CHANNEL(name, required, unit after decoding, encoding, meaning): of the role above it; END(id) closes a role.
+   CHANNEL_OR(name, value, unit, encoding, meaning): one that need not be there, and is read as this value then.
    A channel in metres without an encoding is stored in engine units and scaled by metresPerUnit. */
 /* clang-format off */
 ROLE(gbuffer, "gbuffer", FRAME, true, false, true, false, "the opaque surface seen through each pixel, at full resolution; under sky the channels other than depth may hold anything")
@@ -9,12 +10,12 @@ ROLE(gbuffer, "gbuffer", FRAME, true, false, true, false, "the opaque surface se
     CHANNEL("normal.Y",           true,  "1",  "normal",        "")
     CHANNEL("normal.Z",           true,  "1",  "normal",        "absent when the encoding is octahedral or view_xy")
     CHANNEL("material.roughness", true,  "1",  "roughness",     "perceptual roughness r in [0, 1]; GGX alpha = r²")
-    CHANNEL("material.metalness", true,  "1",  "",              "0 dielectric, 1 metal")
-    CHANNEL("material.specular",  true,  "1",  "",              "dielectric reflectance at normal incidence / 0.08, in [0, 1]; 0 reflects nothing")
-    CHANNEL("material.fresnel",   false, "1",  "",              "factor in [0, 1] on the rise of the reflectance towards grazing angles; 1, also where absent, is the full rise")
-    CHANNEL("albedo.R",           true,  "1",  "",              "linear base colour, Rec. 709 primaries, in [0, 1]")
-    CHANNEL("albedo.G",           true,  "1",  "",              "")
-    CHANNEL("albedo.B",           true,  "1",  "",              "")
+    CHANNEL_OR("material.metalness", 0,  "1",  "",              "0 dielectric, 1 metal")
+    CHANNEL_OR("material.specular", 0.5, "1",  "",              "dielectric reflectance at normal incidence / 0.08, in [0, 1]; 0 reflects nothing")
+    CHANNEL_OR("material.fresnel", 1,    "1",  "",              "factor in [0, 1] on the rise of the reflectance towards grazing angles; 1 is the full rise")
+    CHANNEL_OR("albedo.R", 0.8,          "1",  "",              "linear base colour, Rec. 709 primaries, in [0, 1]")
+    CHANNEL_OR("albedo.G", 0.8,          "1",  "",              "")
+    CHANNEL_OR("albedo.B", 0.8,          "1",  "",              "")
     CHANNEL("motion.X",           false, "uv", "motion",        "position of the same surface point in the previous frame minus its position now, each with the jitter of its own frame; uv is (0, 0) top left, (1, 1) bottom right")
     CHANNEL("motion.Y",           false, "uv", "motion",        "")
     CHANNEL("motion.Z",           false, "m",  "motion_depth",  "view-linear depth of that point in the previous frame minus its depth now")
@@ -96,4 +97,5 @@ ROLE(curvature, "curvature", ANY, false, false, false, true, "surface curvature"
 /* clang-format on */
 #undef ROLE
 #undef CHANNEL
+#undef CHANNEL_OR
 #undef END

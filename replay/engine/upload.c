@@ -54,7 +54,7 @@ static bool upload_part(struct run *run, const struct glint_part_info *part, con
         offset += ((VkDeviceSize)width * rows * format_bytes(desc->format) + 15) & ~(VkDeviceSize)15;
     }
     for (size_t c = 0; !channels->data && c < channels->count; c++) /* optional channels that this part does not have */
-        if (!glint_part_has_channel(part, channels->names[c])) {
+        if (!glint_part_can_read(part, channels->names[c])) {
             free((char *)channels->names[c]);
             channels->names[c--] = channels->names[--channels->count];
         }

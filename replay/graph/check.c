@@ -59,6 +59,9 @@ static void check_row(const struct glint_pass *pass, const struct glint_row *row
     else if (row->kind == GLINT_ROW_TRACER)
         expect(own && own->kind == GLINT_ROW_DIAGNOSTIC && own->format == GLINT_FORMAT_R8UI, pass, "TRACER", row->image,
                "a diagnostic image of the pass in R8UI", faults);
+    else if (row->kind == GLINT_ROW_WITHOUT)
+        expect(reads && capture_row(row->name), pass, "WITHOUT", row->name,
+               "an image of the capture that the pass reads", faults);
     else if (row->kind == GLINT_ROW_ASSUMED)
         expect(spec || glint_pass_row(pass, GLINT_ROW_PUSH, row->name), pass, "ASSUMED", row->name,
                "a numeric parameter of the pass", faults);

@@ -151,6 +151,18 @@ static bool decide_passes(struct graph *graph, const struct graph_inputs *inputs
     return true;
 }
 
+/* Adds to the reason of a pass that runs what it does without images of the capture. */
+static void add_without(struct graph_pass *pass, const struct glint_capture *capture) {
+    char text[200];
+    for (size_t r = 0; capture && pass->runs && r < pass->pass->row_count; r++) {
+        const struct glint_row *row = &pass->pass->rows[r];
+        const struct glint_row *image = row->kind == GLINT_ROW_WITHOUT ? capture_row(row->name) : NULL;
+        if (!image || graph_capture_has(capture, image)) continue;
+        snprintf(text, sizeof text, "without %s: %s", row->name, row->help);
+        text_list(pass->reason, sizeof pass->reason, text);
+    }
+}
+
 /* Drops passes that no requested image depends on. */
 static void cull_passes(struct graph *graph, const struct glint_replay_options *options, struct faults *faults) {
     if (!options->outputs) return;
@@ -206,5 +218,6 @@ bool graph_decide(struct graph *graph, const struct graph_inputs *inputs, struct
     check_slots(graph, "force", options->force, faults);
     if (!decide_passes(graph, inputs, faults, err)) return false;
     cull_passes(graph, options, faults);
+    for (size_t i = 0; i < graph->pass_count; i++) add_without(&graph->passes[i], inputs->capture);
     return true;
 }

@@ -45,7 +45,7 @@ struct graph_pass {
         *alias;           /* its row ALIAS, if the pass was dropped and its image is one of the capture's; or NULL */
     uint32_t false_facts; /* a bit for each row FACT in order, set if the fact does not hold */
     bool cached_work;     /* depends on cube maps and on nothing that changes with every frame */
-    char reason[192];
+    char reason[400];
 };
 
 struct graph {
@@ -95,6 +95,8 @@ bool graph_link(struct graph *graph, const struct graph_inputs *inputs, struct g
 bool graph_copy(struct graph *copy, const struct graph *graph, struct glint_error *err);
 void graph_finish(struct graph *graph);
 
+/* Whether the capture has an image: its parts, with a channel that can be read. All cube maps must have it. */
+bool graph_capture_has(const struct glint_capture *capture, const struct glint_row *image);
 struct graph_image *graph_find(const struct graph *graph, const char *name);
 /* The image that is bound for a row. */
 struct graph_image *graph_bound(const struct graph *graph, const struct glint_row *binding);

@@ -6,16 +6,31 @@
 
 #include "faults.h"
 
-static bool capture_has(struct glint_capture *capture, const struct glint_row *row) {
-    char part[64];
-    if (!capture) return false;
-    if (!size_is_array(row->size)) return glint_capture_find(capture, row->role) != NULL;
-    for (size_t i = 0; i < glint_capture_part_count(capture); i++) {
-        const struct glint_part_info *info = glint_capture_part(capture, i);
-        snprintf(part, sizeof part, "%s.", row->role);
-        if (strncmp(info->name, part, strlen(part)) == 0) return true;
+/* Whether the part has any of the channels of an image. */
+static bool part_has(const struct glint_part_info *part, const struct glint_row *row) {
+    char channel[64];
+    for (const char *at = row->source; part && *at;) {
+        const size_t length = strcspn(at, " ");
+        snprintf(channel, sizeof channel, "%.*s", (int)length, at);
+        if (glint_part_can_read(part, channel)) return true;
+        at += length + (at[length] == ' ');
     }
     return false;
+}
+
+bool graph_capture_has(const struct glint_capture *capture, const struct glint_row *row) {
+    size_t found = 0, wanted = 0;
+    char part[64];
+    if (!capture) return false;
+    if (!size_is_array(row->size)) return part_has(glint_capture_find(capture, row->role), row);
+    snprintf(part, sizeof part, "%s.", row->role);
+    for (size_t i = 0; i < glint_capture_part_count(capture); i++) {
+        const struct glint_part_info *info = glint_capture_part(capture, i);
+        if (strncmp(info->name, part, strlen(part)) != 0) continue;
+        wanted++;
+        found += part_has(info, row);
+    }
+    return wanted > 0 && found == wanted;
 }
 
 /* "a, b": the variants of a slot that write an image. */
@@ -69,7 +84,7 @@ static void link_read(struct graph *graph, size_t reader, const char *name, cons
     if (!fresh.row && optional) fresh.row = optional, fresh.source = SOURCE_FALLBACK;
     else if (!fresh.row) complain_missing(&graph->passes[reader], name, NULL, false, inputs->options, faults);
     else if (!fresh.pass) {
-        fresh.source = capture_has(inputs->capture, fresh.row) ? SOURCE_CAPTURE : SOURCE_FALLBACK;
+        fresh.source = graph_capture_has(inputs->capture, fresh.row) ? SOURCE_CAPTURE : SOURCE_FALLBACK;
         if (fresh.source == SOURCE_FALLBACK && fresh.row->required)
             faults_add(faults, GLINT_ERROR_FORMAT, "%s: part %s: missing, but %s/%s reads its channels %s",
                        inputs->capture ? glint_capture_path(inputs->capture) : "no capture", fresh.row->role,

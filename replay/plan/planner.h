@@ -18,6 +18,10 @@ void planner_load(struct planner *planner);
 bool plan_frame(struct frame_plan *plan, struct planner *planner, const struct glint_pipeline *pipeline,
                 const struct glint_replay_options *options, bool run, struct glint_error *err);
 
+/* missing.c: what the passes of a linked plan would read and the capture does not have. */
+enum { MISSING_MAX = 64 };
+size_t plan_missing(const struct frame_plan *plan, const struct glint_absence *missing[MISSING_MAX]);
+
 /* survey_device.c: counts the figures of the loaded frame unless they are known, with `whole` also those that no plan depends on. */
 bool planner_survey(struct planner *planner, const struct glint_pipeline *pipeline,
                     const struct glint_replay_options *options, bool whole, struct glint_error *err);

@@ -156,7 +156,7 @@ static bool read_gbuffer(struct planner *planner, const struct glint_pipeline *p
         const size_t before = gbuffer->count;
         if (read && !glint_format_is_uint(rows[i].format) && !channels_add_row(gbuffer, &rows[i], err)) return false;
         for (size_t c = before; c < gbuffer->count; c++) /* it is optional, or linking reports that it is missing */
-            if (!glint_part_has_channel(gbuffer->part, gbuffer->names[c])) channels_keep(gbuffer, before);
+            if (!glint_part_can_read(gbuffer->part, gbuffer->names[c])) channels_keep(gbuffer, before);
     }
     return channels_read(gbuffer, capture, err);
 }

@@ -69,14 +69,26 @@ static bool makes_diagnostics(const struct run *run) {
     return false;
 }
 
-static json_t *warnings_record(const struct run *run) {
-    json_t *list = json_array();
+/* What the capture does not have and what that costs; images of which nothing is known hold their fallback value. */
+static void warn_of_missing(const struct glint_replay *replay, const struct run *run, json_t *list) {
+    size_t count;
+    const struct glint_absence *all = glint_absences(&count), *missing;
+    for (size_t i = 0; (missing = glint_replay_missing(replay, i)) != NULL; i++)
+        json_array_append_new(list, json_sprintf("the capture has no %s%s%s: %s", missing->role,
+                                                 missing->channels[0] ? ":" : "", missing->channels, missing->cost));
     for (size_t i = 0; i < run->graph->image_count; i++) {
         const struct graph_image *image = &run->graph->images[i];
-        if (image->source == SOURCE_FALLBACK && image->row->kind == GLINT_ROW_CAPTURE)
+        bool known = false;
+        for (size_t k = 0; k < count; k++) known |= glint_absence_concerns(&all[k], image->row);
+        if (image->source == SOURCE_FALLBACK && image->row->kind == GLINT_ROW_CAPTURE && !known)
             json_array_append_new(list, json_sprintf("the capture has no %s: %s holds its fallback value, %g",
                                                      image->row->role, image->name, image->row->fallback));
     }
+}
+
+static json_t *warnings_record(const struct glint_replay *replay, const struct run *run) {
+    json_t *list = json_array();
+    warn_of_missing(replay, run, list);
     if (run->options->diagnostics && !makes_diagnostics(run))
         json_array_append_new(list, json_string("diagnostics were requested, but no pass that runs writes any"));
     if (run->plan->inputs && !inputs_match(run))
@@ -119,5 +131,5 @@ json_t *run_record(const struct glint_replay *replay, const struct run *run) {
         options->diagnostics, "inputs", text_or_null(options->inputs), "history", text_or_null(options->history),
         "active_cubemaps", (json_int_t)run->sizes->active, "cube_faces", faces_record(&run->plan->faces), "all",
         options->all, "survey", surveyed ? survey_record(&replay->planner.survey, frame) : json_null(), "passes",
-        passes, "warnings", warnings_record(run));
+        passes, "warnings", warnings_record(replay, run));
 }

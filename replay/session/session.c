@@ -86,6 +86,7 @@ bool glint_replay_plan(struct glint_replay *replay, const struct glint_pipeline 
         replay->plan = calloc(plan.graph.pass_count + 1, sizeof *replay->plan);
         ok = replay->plan || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
         replay->results.faces = plan.faces;
+        replay->missing_count = plan_missing(&plan, replay->missing);
     }
     for (size_t i = 0; ok && i < plan.graph.pass_count; i++) {
         replay->plan[i] = (struct glint_plan_entry){.pass = plan.graph.passes[i].pass,
@@ -100,6 +101,10 @@ bool glint_replay_plan(struct glint_replay *replay, const struct glint_pipeline 
     return ok;
 }
 
+const struct glint_absence *glint_replay_missing(const struct glint_replay *replay, size_t i) {
+    return i < replay->missing_count ? replay->missing[i] : NULL;
+}
+
 bool glint_replay_run(struct glint_replay *replay, const struct glint_pipeline *pipeline,
                       const struct glint_replay_options *options, glint_progress progress, void *user,
                       struct glint_error *err) {
@@ -109,8 +114,9 @@ bool glint_replay_run(struct glint_replay *replay, const struct glint_pipeline *
     results_forget(replay);
     replay->pool.runs++;
     if (!replay->device) return glint_fail(err, GLINT_ERROR_USAGE, "a replay without a device can only plan");
-    const bool ok = plan_frame(&plan, &replay->planner, pipeline, options ? options : &defaults, true, err) &&
-                    engine_run(&run, &replay->engine, &plan, progress, user, err) && results_store(replay, &run, err);
+    bool ok = plan_frame(&plan, &replay->planner, pipeline, options ? options : &defaults, true, err);
+    replay->missing_count = ok ? plan_missing(&plan, replay->missing) : 0;
+    ok = ok && engine_run(&run, &replay->engine, &plan, progress, user, err) && results_store(replay, &run, err);
     frame_source_release(&replay->source);
     if (!ok) results_forget(replay);
     engine_release(&run);

@@ -24,6 +24,8 @@ struct glint_replay {
     struct planner planner;
     struct results results;        /* of the last run */
     struct glint_plan_entry *plan; /* of the last glint_replay_plan */
+    const struct glint_absence *missing[MISSING_MAX]; /* of the last plan or run */
+    size_t missing_count;
 };
 
 /* results.c */

@@ -364,6 +364,9 @@ static void rays_come_near_no_other_face(struct glint_survey *s) {
 static void there_are_no_cubemaps(struct glint_survey *s) {
     s->cubemaps = 0;
 }
+static void there_are_no_distances(struct glint_survey *s) {
+    s->distances = 0;
+}
 static void there_are_no_volumes(struct glint_survey *s) {
     s->volumes = 0;
 }
@@ -400,6 +403,7 @@ static void a_wrong_rule_is_found(void **state) {
                  {"faces that rays come to", NULL, "mafia3", rays_come_to_no_face},
                  {"faces beside those", NULL, "mafia3", rays_come_near_no_other_face},
                  {"cubemaps", "room", "mafia3", there_are_no_cubemaps},
+                 {"distances", NULL, "mafia3", there_are_no_distances},
                  {"volumes", "room", "mafia3_shipped", there_are_no_volumes},
                  {"water", "lake", "gtav", there_is_no_water},
                  {"planar", "lake", "gtav", there_is_no_planar_map},

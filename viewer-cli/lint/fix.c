@@ -6,19 +6,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "glint/exr.h"
+#include "glint/edit.h"
 #include "lint.h"
-
-struct copy {
-    struct glint_exr_part part;
-    struct glint_exr_attribute *attributes;
-    struct glint_exr_channel *channels;
-    void **data;
-};
-
-static bool no_memory(struct glint_error *err) {
-    return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-}
 
 /* The name of the finding's attribute if it belongs on this part ("ROLE:NAME", or NAME for the G-buffer), else NULL. */
 static const char *attribute_on(const struct lint_finding *f, const char *part) {
@@ -31,127 +20,102 @@ static const char *attribute_on(const struct lint_finding *f, const char *part) 
     return !strncmp(part, f->attribute, length) && (part[length] == '\0' || part[length] == '.') ? colon + 1 : NULL;
 }
 
-/* Finds the attribute of the part, or appends a new one. */
-static struct glint_exr_attribute *attribute_named(struct copy *copy, const char *name) {
-    size_t i = 0;
-    while (i < copy->part.attribute_count && strcmp(copy->attributes[i].name, name)) i++;
-    copy->part.attribute_count += i == copy->part.attribute_count;
-    return &copy->attributes[i];
+static bool set_matrix(struct glint_edit *edit, size_t part, const char *name, const double m[16],
+                       struct glint_error *err) {
+    return glint_edit_set(
+        edit, part, &(struct glint_exr_attribute){.name = name, .type = GLINT_EXR_M44D, .numbers = m, .count = 16},
+        err);
 }
 
-static void set_matrix(struct copy *copy, const char *name, const double m[16]) {
-    *attribute_named(copy, name) = (struct glint_exr_attribute){
-        .name = name, .type = GLINT_EXR_M44D, .type_name = "m44d", .numbers = m, .count = 16};
-}
-
-static void set_attribute(struct copy *copy, const char *name, const struct lint_finding *f) {
-    if (f->has_matrix) set_matrix(copy, name, f->matrix);
-    if (f->has_previous) set_matrix(copy, "glint.previousWorldToView", f->previous);
-    if (!f->has_matrix)
-        *attribute_named(copy, name) = (struct glint_exr_attribute){
-            .name = name, .type = GLINT_EXR_STRING, .type_name = "string", .string = f->value};
+static bool set_attribute(struct glint_edit *edit, size_t part, const char *name, const struct lint_finding *f,
+                          struct glint_error *err) {
+    const struct glint_exr_attribute text = {.name = name, .type = GLINT_EXR_STRING, .string = f->value};
+    if (f->has_matrix && !set_matrix(edit, part, name, f->matrix, err)) return false;
+    if (f->has_previous && !set_matrix(edit, part, "glint.previousWorldToView", f->previous, err)) return false;
+    return f->has_matrix || glint_edit_set(edit, part, &text, err);
 }
 
 /* ---- Sky texels ---- */
 
-static bool has_value(const struct copy *copy, size_t channel, size_t at, float value) {
+struct texels {
+    struct glint_edit_pixels channels[5];
+};
+enum { RED, GREEN, BLUE, ALPHA, DISTANCE, CHANNELS };
+
+static uint8_t *texel_at(const struct glint_edit_pixels *pixels, uint32_t x, uint32_t y) {
+    return pixels->data + y * pixels->y_stride_bytes + x * pixels->x_stride_bytes;
+}
+
+static bool has_value(const struct glint_edit_pixels *pixels, uint32_t x, uint32_t y, float value) {
     uint16_t half;
     float number;
-    if (copy->channels[channel].stored == GLINT_STORED_HALF) {
-        memcpy(&half, (const char *)copy->data[channel] + 2 * at, sizeof half);
+    if (pixels->stored == GLINT_STORED_HALF) {
+        memcpy(&half, texel_at(pixels, x, y), sizeof half);
         return value == 0 ? (half & 0x7fff) == 0 : half == 0x7c00;
     }
-    memcpy(&number, (const char *)copy->data[channel] + 4 * at, sizeof number);
+    memcpy(&number, texel_at(pixels, x, y), sizeof number);
     return number == value;
 }
 
 /* Writes 0 or +inf, which both types can represent. */
-static void set_value(struct copy *copy, size_t channel, size_t at, float value) {
+static void set_value(const struct glint_edit_pixels *pixels, uint32_t x, uint32_t y, float value) {
     const uint16_t half = value == 0 ? 0 : 0x7c00;
-    if (copy->channels[channel].stored == GLINT_STORED_HALF)
-        memcpy((char *)copy->data[channel] + 2 * at, &half, sizeof half);
-    else memcpy((char *)copy->data[channel] + 4 * at, &value, sizeof value);
+    if (pixels->stored == GLINT_STORED_HALF) memcpy(texel_at(pixels, x, y), &half, sizeof half);
+    else memcpy(texel_at(pixels, x, y), &value, sizeof value);
 }
 
-static size_t channel_of(const struct copy *copy, const char *name) {
-    size_t c = 0;
-    while (c < copy->part.channel_count && strcmp(copy->channels[c].name, name) != 0) c++;
-    return c;
-}
-
-static void fix_sky(struct copy *copy, enum lint_pixels pixels) {
-    const size_t alpha = channel_of(copy, "A"), distance = channel_of(copy, "distance.Z"),
-                 count = copy->part.channel_count, texels = (size_t)copy->part.width * copy->part.height;
+static void fix_texel(const struct texels *t, enum lint_pixels pixels, uint32_t x, uint32_t y) {
     const bool by_distance = pixels == LINT_CLEAR_INFINITE;
-    if (alpha == count || (distance == count && pixels != LINT_BLACK_SKY)) return;
-    for (size_t i = 0; i < texels; i++) {
-        if (by_distance ? !has_value(copy, distance, i, INFINITY) : !has_value(copy, alpha, i, 0)) continue;
-        if (pixels == LINT_FAR_SKY) set_value(copy, distance, i, INFINITY);
-        for (size_t c = 0; c < count && pixels != LINT_FAR_SKY; c++)
-            if (c != distance && (c != alpha || by_distance)) set_value(copy, c, i, 0);
+    if (by_distance ? !has_value(&t->channels[DISTANCE], x, y, INFINITY) : !has_value(&t->channels[ALPHA], x, y, 0))
+        return;
+    if (pixels == LINT_FAR_SKY) set_value(&t->channels[DISTANCE], x, y, INFINITY);
+    else
+        for (int c = RED; c <= (by_distance ? ALPHA : BLUE); c++) set_value(&t->channels[c], x, y, 0);
+}
+
+static bool has_distance(const struct glint_edit *edit, size_t part) {
+    const struct glint_exr_part_info *info = glint_edit_part(edit, part);
+    for (size_t c = 0; c < info->channel_count; c++)
+        if (!strcmp(info->channels[c].name, "distance.Z")) return true;
+    return false;
+}
+
+static bool fix_sky(struct glint_edit *edit, size_t part, enum lint_pixels pixels, struct glint_error *err) {
+    static const char *const names[CHANNELS] = {"R", "G", "B", "A", "distance.Z"};
+    struct texels texels = {0};
+    for (int c = RED; c <= ALPHA; c++)
+        if (!glint_edit_pixels(edit, part, names[c], &texels.channels[c], err)) return false;
+    if (pixels != LINT_BLACK_SKY) { /* which is not about distances, which a cube map need not have */
+        if (!has_distance(edit, part)) return true;
+        if (!glint_edit_pixels(edit, part, names[DISTANCE], &texels.channels[DISTANCE], err)) return false;
     }
+    for (uint32_t y = 0; y < texels.channels[ALPHA].height; y++)
+        for (uint32_t x = 0; x < texels.channels[ALPHA].width; x++) fix_texel(&texels, pixels, x, y);
+    return true;
 }
 
 /* ---- The copy ---- */
 
-static bool copy_part(struct copy *copy, struct glint_exr *exr, size_t i, const struct lint_findings *findings,
-                      struct glint_error *err) {
-    static const enum glint_type types[] = {GLINT_F16, GLINT_F32, GLINT_U32};
-    const struct glint_exr_part_info *from = glint_exr_part(exr, i);
-    const size_t texels = (size_t)from->width * from->height;
-    copy->attributes = calloc(from->attribute_count + 2 * LINT_FINDINGS, sizeof *copy->attributes);
-    copy->channels = calloc(from->channel_count + 1, sizeof *copy->channels);
-    copy->data = calloc(from->channel_count + 1, sizeof *copy->data);
-    if (!copy->attributes || !copy->channels || !copy->data) return no_memory(err);
-    memcpy(copy->attributes, from->attributes, from->attribute_count * sizeof *from->attributes);
-    copy->part = (struct glint_exr_part){.name = from->name,
-                                         .width = from->width,
-                                         .height = from->height,
-                                         .channels = copy->channels,
-                                         .channel_count = from->channel_count,
-                                         .attributes = copy->attributes,
-                                         .attribute_count = from->attribute_count};
-    for (size_t c = 0; c < from->channel_count; c++) {
-        const char *name = from->channels[c].name;
-        copy->data[c] = malloc(texels * 4 + 1);
-        if (!copy->data[c]) return no_memory(err);
-        copy->channels[c] =
-            (struct glint_exr_channel){.name = name, .stored = from->channels[c].stored, .data = copy->data[c]};
-        if (!glint_exr_read(exr, i, &name, 1, types[from->channels[c].stored], copy->data[c], 0, err)) return false;
-    }
+static bool fix_part(struct glint_edit *edit, size_t part, const struct lint_findings *findings,
+                     struct glint_error *err) {
     for (size_t k = 0; k < findings->count; k++) {
         const struct lint_finding *f = &findings->items[k];
-        const char *name = attribute_on(f, from->name);
+        const char *part_name = glint_edit_part(edit, part)->name, *name = attribute_on(f, part_name);
         if (f->left_out) continue;
-        if (name) set_attribute(copy, name, f);
-        if (f->pixels != LINT_NO_PIXELS && !strncmp(from->name, "cubemap.", 8)) fix_sky(copy, f->pixels);
+        if (name && !set_attribute(edit, part, name, f, err)) return false;
+        if (f->pixels == LINT_NO_PIXELS || strncmp(part_name, "cubemap.", 8) != 0) continue;
+        if (!fix_sky(edit, part, f->pixels, err)) return false;
     }
     return true;
 }
 
-static void finish(struct copy *copy) {
-    for (size_t c = 0; copy->data && c < copy->part.channel_count; c++) free(copy->data[c]);
-    free(copy->data);
-    free(copy->channels);
-    free(copy->attributes);
-}
-
 static bool write_copy(const char *from, const char *to, const struct lint_findings *findings,
                        struct glint_error *err) {
-    struct glint_exr *exr = glint_exr_open(from, NULL, err);
-    const size_t count = exr ? glint_exr_part_count(exr) : 0;
-    struct copy *copies = calloc(count + 1, sizeof *copies);
-    struct glint_exr_part *parts = calloc(count + 1, sizeof *parts);
-    bool ok = exr && ((copies && parts) || no_memory(err));
-    for (size_t i = 0; ok && i < count; i++) {
-        ok = copy_part(&copies[i], exr, i, findings, err);
-        parts[i] = copies[i].part;
-    }
-    ok = ok && glint_exr_write(to, parts, count, 0, err);
-    for (size_t i = 0; copies && i < count; i++) finish(&copies[i]);
-    free(parts);
-    free(copies);
-    glint_exr_close(&exr);
+    struct glint_edit *edit = glint_edit_open(from, NULL, NULL, NULL, err);
+    bool ok = edit != NULL;
+    for (size_t i = 0; ok && glint_edit_part(edit, i); i++) ok = fix_part(edit, i, findings, err);
+    ok = ok && glint_edit_write(edit, to, err);
+    glint_edit_close(&edit);
     return ok;
 }
 
@@ -245,7 +209,7 @@ bool lint_fix(const char *from, const char *to, struct lint_findings *findings, 
               struct glint_error *err) {
     const size_t length = strlen(to) + 32;
     char *trial = malloc(length);
-    if (!trial) return no_memory(err);
+    if (!trial) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     snprintf(trial, length, "%s.trial-%ld", to, (long)getpid());
     bool ok = choose_fixes(from, trial, findings, err);
     if (ok && rename(trial, to) != 0) ok = glint_fail(err, GLINT_ERROR_IO, "%s: cannot be written", to);

@@ -283,14 +283,19 @@ size_t glint_capture_part_count(const struct glint_capture *capture);
 const struct glint_part_info *glint_capture_part(const struct glint_capture *capture, size_t i);
 /* The part of this name ("gbuffer", "cubemap.003"), or NULL. */
 const struct glint_part_info *glint_capture_find(const struct glint_capture *capture, const char *name);
-/* Whether glint_capture_read can return the channel: one that is stored, or the reconstructed Z of a normal. */
+/* Whether the part has the channel: one that is stored, or the reconstructed Z of a normal. */
 bool glint_part_has_channel(const struct glint_part_info *part, const char *channel);
+/* The same, or one that is read as a fixed value because the part does not have it. */
+bool glint_part_can_read(const struct glint_part_info *part, const char *channel);
+/* Whether the format requires this channel of this part. */
+bool glint_part_needs_channel(const struct glint_part_info *part, const char *channel);
 /* The XXH3-128 of the file's bytes as 32 hexadecimal digits and a NUL. Reads the whole file. */
 bool glint_capture_hash(struct glint_capture *capture, char hex[33], struct glint_error *err);
 
 /* Reads channels of one part, decoded to canonical values and interleaved: out[(y·width + x)·count + i] is channels[i]. Reads and
    decompresses only this part, on `threads` threads (0: all cores). `type` is GLINT_F16, GLINT_F32 or, for uint channels,
-   GLINT_U8/U16/U32. A channel name of NULL yields 0; a channel that the part does not have is an error. Canonical values are view depth in
+   GLINT_U8/U16/U32. A channel name of NULL yields 0; one that the part does not have yields the value that its role states for
+   this case, and is otherwise an error. Canonical values are view depth in
    metres (+inf for sky), unit world-space normals X Y Z, perceptual roughness, motion in uv (motion.Z in metres), linear colour
    and distance.Z in metres. Normals that are zero or not finite are returned as stored. Values that need no decoding and no
    conversion keep every bit; a float too large for GLINT_F16 becomes infinity. */
@@ -344,6 +349,7 @@ struct glint_role_channel {
     const char *unit;     /* of decoded values */
     const char *encoding; /* the encoding that applies: "depth", "normal", …, or "" */
     const char *meaning;
+    double absent; /* what a part without the channel is read as; NaN: it cannot be read then */
 };
 enum glint_shape { GLINT_SHAPE_FRAME /* the G-buffer's size */, GLINT_SHAPE_CUBE /* N × 6N */, GLINT_SHAPE_ANY };
 struct glint_role {

@@ -132,6 +132,14 @@ const struct glint_pass *glint_pass_find(const char *slot, const char *variant);
 bool glint_pass_assumes(const struct glint_pass *pass, const struct glint_row *parameter);
 /* The rows of capture images. */
 const struct glint_row *glint_capture_images(size_t *count);
+/* What a capture need not have, by role ("cubemap") and the beginning of its channels ("distance"; "": the part itself), and in one sentence
+   what a replay loses without it. */
+struct glint_absence {
+    const char *role, *channels, *cost;
+};
+const struct glint_absence *glint_absences(size_t *count);
+/* Whether an image of the capture is made of these channels. */
+bool glint_absence_concerns(const struct glint_absence *absence, const struct glint_row *image);
 /* The text of a file under passes/ that shaders include, for compiling a user's shader in-process. NULL for other paths. */
 const char *glint_pass_text(const char *path);
 

@@ -6,5 +6,6 @@ WRITE(image2DArray, cocoon_distance, R32F, "m", CUBEMAPS_MIPS, "Z", INFINITY, "d
 WRITE(image2DArray, cocoon, R16F, "1/m", COCOON, "Z", 0, "the cocoon by itself, as 1 / distance along the face's axis; the outermost samples lie on the border of the face (shared/cocoon.glsl); 0: the whole cube map is sky")
 NEEDS(reflections)
 NEEDS(cubemaps)
+NEEDS(distances)
 REFERENCE_NONE("where no cube map sees a ray, the reference continues it until one does")
 REFERENCE_WITH(cubemap_trace, "only cubemap_trace reads it")

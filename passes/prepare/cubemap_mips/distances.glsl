@@ -2,7 +2,8 @@
 #include "shared/cube_chain.glsl"
 
 float joined_distance(ivec3 at, int size, int level) {
-    if (level == 0) return texelFetch(cubemap_distance, at, 0).x;
+    // Without distances the image is a single texel.
+    if (level == 0) return texelFetch(cubemap_distance, min(at, textureSize(cubemap_distance, 0) - 1), 0).x;
     int finer = face_size(finer_distance, level - 1);
     Footprint x = footprint(at.x, size, finer), y = footprint(at.y, size, finer);
     float sum = 0.0, total = 0.0, least = INFINITE, most = 0.0;

@@ -6,6 +6,7 @@ PASS("Three levels with edges", "Mafia DE article, Downscaled Depth and Normals"
 #include "pick_rows.h"
 #line 402
 READ(texture2D, vertex_normal_full)
+WITHOUT(vertex_normal_full, "planes are those of shading normals")
 WRITE(image2D, depth_levels, R32F, "m", HALF_MIPS3, "Z", INFINITY, "depth_half, and in coarser levels the depth of the pixel picked from each block; +inf where sky")
 WRITE(image2D, normal_levels, RGBA16F, "1", HALF_MIPS3, "X Y Z roughness", 0, "normal_half, and in coarser levels the normal and roughness of those pixels")
 WRITE(image2D, vertex_normal_levels, RGBA16F, "1", HALF_MIPS3, "X Y Z pick", 0, "geometric normal of those pixels; w: position of the pixel within its texel, x + 8y")

@@ -22,7 +22,7 @@ vec3 weight_of(ivec2 pixel, float depth_m, vec4 surface) {
     vec3 to_viewer = -normalize(mat3(frame.world_from_view) * view);
     float cosine = clamp(dot(to_viewer, normalize(surface.xyz)), 0.0, 1.0);
     float roughness = surface.w > 0.0 ? min(surface.w, 1.0) : 0.0; // NaN becomes 0
-    float rise = fact_fresnel ? texelFetch(fresnel_full, pixel, 0).x : 1.0;
+    float rise = fact_fresnel ? texelFetch(fresnel_full, min(pixel, textureSize(fresnel_full, 0) - 1), 0).x : 1.0;
     return environment_reflectance(f0, roughness, cosine, rise);
 }
 

@@ -19,7 +19,7 @@ vec3 weight(ivec2 pixel, float depth_m, vec4 surface) {
     vec2 uv = (vec2(pixel) + 0.5) / vec2(frame.size.xy);
     vec3 view = view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
     float cosine = clamp(dot(-normalize(mat3(frame.world_from_view) * view), normalize(surface.xyz)), 0.0, 1.0);
-    float rise = fact_fresnel ? texelFetch(fresnel_full, pixel, 0).x : 1.0;
+    float rise = fact_fresnel ? texelFetch(fresnel_full, min(pixel, textureSize(fresnel_full, 0) - 1), 0).x : 1.0;
     return environment_reflectance(f0, surface.w > 0.0 ? min(surface.w, 1.0) : 0.0, cosine, rise); // NaN becomes 0
 }
 

@@ -3,6 +3,7 @@ PASS("Best score", "Mafia III talk, Best cube-map selection, GPU")
 #include "slot.h"
 #line 202
 READ(textureCubeArray, cubemap_distance)
+WITHOUT(cubemap_distance, "every cube map counts as seeing the ray")
 ALONG_RAYS(cubemap_distance, normal_jittered)
 PUSH(float, visibility, 0.1,  0.0, 16.0, "1", "Mafia III talk, Best cube-map selection, GPU", "weight of visibility: the ray's start is visible from the centre; 0: off")
 PUSH(float, distance,   1.0,  0.0, 16.0, "1", "Mafia III talk, Best cube-map selection, GPU", "weight of distance: the centre is near; 0: off")

@@ -5,6 +5,7 @@ PASS("Half-texel march", "glint, after Mafia III talk, Multiple cube-maps")
 #line 202
 OPTIONAL_READ(texture2DArray, cubemap_distance_mips, R32F, CUBEMAPS_MIPS, INFINITY)
 READS_LEVELS(cubemap_distance_mips, skip)
+WITHOUT(cubemap_distance, "rays that leave the screen are looked up by direction")
 SPEC(int,   steps,       16384, 1,  1048576, "steps", "glint", "max steps of a ray")
 SPEC(int,   refinements, 24,    0,  64,    "halvings", "glint", "bisections of the step in which the ray went behind a surface")
 SPEC(bool,  interpolate, true,  0,  1,     "1", "glint", "interpolate distance between four texels of one surface, exact on planes; off: the nearest texel")

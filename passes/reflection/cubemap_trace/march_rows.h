@@ -3,6 +3,7 @@
 #line 202
 OPTIONAL_READ(texture2DArray, cubemap_distance_mips, R32F, CUBEMAPS_MIPS, INFINITY)
 READS_LEVELS(cubemap_distance_mips, rough_level)
+WITHOUT(cubemap_distance, "rays that leave the screen are looked up by direction")
 OPTIONAL_READ(texture2DArray, cocoon_distance, R32F, CUBEMAPS_MIPS, INFINITY)
 OPTIONAL_READ(texture2DArray, cocoon, R16F, COCOON, 0)
 READ(texture2D, active_volume)

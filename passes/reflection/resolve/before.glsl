@@ -41,9 +41,10 @@ vec3 picture_before(vec3 place) {
     return record_picture(scene ? IMAGE_previous_scene : IMAGE_previous_lit, place.xy, 0.0, color);
 }
 
+bool has_previous_picture() { return of_frame(previous_lit) || of_frame(previous_scene); }
+
 uint source_of(vec3 place) {
-    bool pictured = frame.flags.y == 0u && (of_frame(previous_lit) || of_frame(previous_scene));
-    if (!pictured || !(place.z > 0.0)) return OUTSIDE;
+    if (frame.flags.y != 0u || !has_previous_picture() || !(place.z > 0.0)) return OUTSIDE;
     if (!all(greaterThanEqual(place.xy, vec2(0.0))) || !all(lessThanEqual(place.xy, vec2(1.0)))) return OUTSIDE;
     return shows(place.xy, place.z) ? SHOWN : HIDDEN;
 }
@@ -59,7 +60,9 @@ vec4 not_shown(Ray ray) {
 vec4 color_before(Ray ray, out uint source) {
     vec3 place = place_before(ray);
     source = source_of(place);
-    vec4 color = source == SHOWN ? vec4(picture_before(place), 1.0) : not_shown(ray);
+    vec4 color = source == SHOWN          ? vec4(picture_before(place), 1.0)
+                 : has_previous_picture() ? not_shown(ray)
+                                          : screen_color(ray); // a capture without the previous frame
     if (color.a > 0.0 && fog && frame.fog_color.w > 0.0) color.rgb = through_fog(color.rgb, ray);
     return color;
 }

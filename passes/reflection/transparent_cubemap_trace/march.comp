@@ -16,6 +16,7 @@ Result trace(ivec2 texel, float depth_m, vec4 normal, float start_m) {
     vec3 direction = mirror_direction(origin, normal.xyz);
     uint best = nearest_active(origin + start_m * direction);
     if (best >= frame.counts.x) return Result(INFINITE, NO_PLACE, END_no_cubemap, 0u, 0u);
+    if (!has_distances()) return Result(INFINITE, best, END_fallback, 0u, 0u);
     return march(origin, direction, start_m, best, quality_of(normal.w, uvec2(texel)));
 }
 

@@ -132,7 +132,7 @@ struct glint_survey {
     struct glint_survey_pixels surfaces;   /* all pixels but sky */
     struct glint_survey_pixels reflecting; /* surfaces with specular or metalness, whose reflection is visible */
     float depth_m[2];                      /* lowest and highest, without sky */
-    uint32_t cubemaps, volumes;            /* volumes: cube maps with an inner volume */
+    uint32_t cubemaps, volumes, distances; /* volumes, distances: cube maps with an inner volume, with distances */
     bool has_sky, has_previous, has_planar, has_water, has_transparent, has_fresnel, has_fog;
     bool has_history; /* the replay holds the images of the previous frame, and this frame is no camera cut */
     /* What follows is counted on a device only, and on_device is true if it was. With `partial` only the counts and the ranges of
@@ -206,7 +206,7 @@ struct glint_plan_entry {
     const struct glint_pass *pass;
     bool runs;
     bool cached_work; /* as in struct glint_pass_result */
-    char reason[192]; /* why it runs or does not, with the figure that decides it */
+    char reason[400]; /* why it runs or does not, with the figure that decides it, and what it does without */
     uint64_t texels;  /* total size of its dispatches when nothing is culled; 0: a host pass, or unknown */
 };
 struct glint_pass_result {
@@ -214,7 +214,7 @@ struct glint_pass_result {
     bool ran, shown;  /* shown: it ran, or it was dropped and its image is an alias of one of the capture's */
     bool cached;      /* its images were still up to date, so that it did not execute */
     bool cached_work; /* it depends on cube maps alone: its cost arises when a cube map changes, not every frame */
-    char reason[192];
+    char reason[400];
     struct glint_time time; /* n = 0 when not timed */
     uint64_t texels;        /* as in struct glint_plan_entry */
     uint64_t
@@ -265,6 +265,12 @@ struct glint_cube_faces {
     uint64_t uploaded, uploaded_of, filtered, filtered_of;
 };
 const struct glint_cube_faces *glint_replay_cube_faces(const struct glint_replay *replay);
+/* Whether the capture does not have it. Channels are absent if a part of the role has none of them; where the part itself is absent, that is
+   what the capture lacks. */
+bool glint_capture_lacks(const struct glint_capture *capture, const struct glint_absence *absence);
+/* What the passes of the last plan or run would read and the capture does not have: the i-th, NULL past the last. Passes do without it in the
+   way that their reasons state. Valid as long as the library is loaded. */
+const struct glint_absence *glint_replay_missing(const struct glint_replay *replay, size_t i);
 bool glint_replay_run(struct glint_replay *replay, const struct glint_pipeline *pipeline,
                       const struct glint_replay_options *options, glint_progress progress, void *user,
                       struct glint_error *err);

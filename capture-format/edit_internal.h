@@ -1,0 +1,60 @@
+/* A capture that is copied with changes. */
+#ifndef GLINT_EDIT_INTERNAL_H
+#define GLINT_EDIT_INTERNAL_H
+
+#include "attributes.h"
+#include "exr_internal.h"
+#include "glint/edit.h"
+#include "part.h"
+
+/* Stored pixels of several channels of one type, interleaved. */
+struct glint_edit_block {
+    uint8_t *data;
+    uint32_t channels;
+};
+
+struct glint_edit_channel {
+    struct glint_channel_info info;
+    struct glint_edit_block *block; /* NULL: not read yet */
+    uint32_t place;                 /* in the block */
+};
+
+struct glint_edit_part {
+    struct glint_exr_part_info info; /* as it will be written; `channels` is filled on demand */
+    struct glint_edit_channel *channels;
+    struct glint_channel_info *listed;
+    struct glint_attribute_list attributes;
+    struct glint_exr *exr; /* the file of its pixels, the capture's own or a sibling */
+    size_t index;          /* in that file */
+    uint32_t x, y;         /* where its rectangle begins in the file's pixels */
+    uint32_t full_width;
+};
+
+struct glint_edit_sibling {
+    char *name;
+    struct glint_exr *exr;
+};
+
+struct glint_edit {
+    struct glint_exr *exr;
+    struct glint_arena arena;
+    struct glint_edit_part *parts;
+    size_t count;
+    struct glint_edit_sibling *siblings;
+    size_t sibling_count;
+    struct glint_edit_block **blocks;
+    size_t block_count, block_capacity;
+    glint_edit_note note;
+    void *user;
+};
+
+#if defined(__GNUC__)
+__attribute__((format(printf, 2, 3)))
+#endif
+void glint_edit_say(const struct glint_edit *edit, const char *format, ...);
+/* Takes the pixels of a part from its sibling into the copy. Does nothing to other parts. */
+bool glint_edit_resolve(struct glint_edit *edit, struct glint_edit_part *part, struct glint_error *err);
+/* The part's role, or NULL. */
+const struct glint_role *glint_edit_role(const struct glint_edit_part *part);
+
+#endif

@@ -1,0 +1,17 @@
+/* What a capture need not have, and what a replay loses without it. Rows only, read by C.
+   ABSENCE(role, channels, cost): a part of the role, or of one that has it, the channels that begin so. A replay warns once of each that its
+   passes would read, glint strip says what is left out, and glint info which role would open what. */
+ABSENCE("cubemap", "", "rays that leave the screen end in the sky, or find nothing where there is no sky either")
+ABSENCE("cubemap", "distance", "rays that leave the screen are looked up by direction, as if everything were far away, and there is no cocoon")
+ABSENCE("sky", "", "rays to the sky take what the cube maps hold there, which may be black")
+ABSENCE("scene", "", "screen hits show the diffuse picture, without the reflections and translucency of what they hit")
+ABSENCE("previous.scene", "", "hits in the previous frame show its diffuse picture")
+ABSENCE("previous.lit", "", "screen hits show this frame's picture instead of the previous one's, unless there is the previous scene")
+ABSENCE("previous.gbuffer", "", "colours of the previous frame are used also where something else was in front then")
+ABSENCE("gbuffer", "motion.X", "moving objects are reprojected as if they stood still, and smear")
+ABSENCE("gbuffer", "motion.Z", "objects that move along the view are compared with the previous frame at the wrong depth")
+ABSENCE("gbuffer", "material.metalness", "every surface is a dielectric, and metals reflect a few per cent")
+ABSENCE("gbuffer", "material.specular", "every dielectric reflects 4 % at normal incidence, and surfaces without a reflection get one")
+ABSENCE("gbuffer", "albedo", "metals reflect 80 % without colour")
+ABSENCE("gbuffer", "vertexNormal", "edges between surfaces are found by shading normals, which bumps mislead")
+ABSENCE("gbuffer", "stencil", "what the camera holds is reflected, although what it hides was never rendered")

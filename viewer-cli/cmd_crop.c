@@ -1,0 +1,86 @@
+/* glint crop: a rectangle of a capture, with its camera. */
+#include "edit/edit.h"
+
+#include <math.h>
+
+struct arguments {
+    const char *path, *out, *rectangle;
+    struct glint_edit_rectangle to;
+};
+
+static const struct argp_option options[] = {
+    {"output", 'o', "G", 0, "The copy, a new file", 0},
+    {0},
+};
+static const struct example examples[] = {
+    {"glint crop frame.exr 320,180,640,360 -o repro.exr", "keeps 640 × 360 pixels, from column 320 and row 180 on"},
+    {"glint strip frame.exr --keep gbuffer,lit -o - | glint crop - 0,0,64,64 -o repro.exr",
+     "makes a repro of a few kilobytes"},
+    {0},
+};
+
+extern const struct command cmd_crop;
+
+static void parse_rectangle(struct arguments *a, const char *text, struct argp_state *state) {
+    double numbers[4];
+    arg_numbers("RECTANGLE", text, numbers, 4, state);
+    for (int i = 0; i < 4; i++)
+        if (!(numbers[i] >= 0 && numbers[i] <= 1 << 20 && numbers[i] == floor(numbers[i])))
+            argp_error(state, "%s: expected x,y,width,height in whole pixels", text);
+    a->rectangle = text;
+    a->to = (struct glint_edit_rectangle){(uint32_t)numbers[0], (uint32_t)numbers[1], (uint32_t)numbers[2],
+                                          (uint32_t)numbers[3]};
+}
+
+static error_t cmd_crop_parse(int key, char *arg, struct argp_state *state) {
+    struct arguments *a = state->input;
+    switch (key) {
+    case 'o':
+        a->out = arg;
+        return 0;
+    case ARGP_KEY_ARG:
+        if (!a->path) a->path = arg;
+        else if (!a->rectangle) parse_rectangle(a, arg, state);
+        else argp_error(state, "expected one capture and one rectangle, found %s, too", arg);
+        return 0;
+    case ARGP_KEY_END:
+        if (!a->path) argp_error(state, "no capture given");
+        if (!a->rectangle) argp_error(state, "no rectangle given; expected x,y,width,height");
+        if (!a->out) argp_error(state, "no output given; -o names the copy");
+        return 0;
+    }
+    return ARGP_ERR_UNKNOWN;
+}
+
+static bool crop(struct glint_edit *edit, const char *path, void *user, struct glint_error *err) {
+    (void)path;
+    const struct arguments *a = user;
+    return glint_edit_crop(edit, &a->to, err);
+}
+
+static enum status cmd_crop_run(int argc, char **argv) {
+    struct arguments a = {0};
+    command_parse(&cmd_crop, argc, argv, &a);
+    return edit_file(&cmd_crop, a.path, a.out, crop, &a);
+}
+
+const struct command cmd_crop = {
+    .name = "crop",
+    .arguments = "F X,Y,W,H -o G",
+    .summary = "copy a rectangle of a capture, with its camera",
+    .description =
+        "Copies W × H pixels of a capture from column X and row Y on, counted from the top left. The projections of "
+        "this "
+        "and the previous frame change with the picture, so that every pixel keeps its ray and its jitter; motion is "
+        "corrected in its encoding. All images of the frame's size are cropped, and so are images of the engine's that "
+        "are a whole number of times smaller; where a texel of these covers pixels on both sides of the rectangle's "
+        "border, the command names a rectangle that fits. Cube maps and planar maps stay whole. What a ray would have "
+        "hit "
+        "outside the rectangle is off screen in the copy, and the truth's mirror rays say so. All other pixels keep "
+        "every bit.",
+    .options = options,
+    .numbers = true,
+    .parse = cmd_crop_parse,
+    .examples = examples,
+    .run = cmd_crop_run,
+};
