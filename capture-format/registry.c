@@ -1,6 +1,7 @@
 /* The registry as C tables, generated from rows/. */
 #include "registry.h"
 
+#include <math.h>
 #include <string.h>
 
 #define CAT_(a, b) a##b

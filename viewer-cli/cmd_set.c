@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "io/table.h"
-#include "options/nearest.h"
+#include "glint/nearest.h"
 
 struct arguments {
     const char *path, *out;
@@ -128,31 +128,31 @@ static const char *without_prefix(const char *key) {
 /* Whether the key is one of FORMAT.md's or an attribute of a part. */
 static bool check_key(const struct glint_edit *edit, const char *key, struct glint_error *err) {
     const struct glint_exr_part_info *part;
-    struct nearest near = nearest_to(without_prefix(key));
+    struct glint_nearest near = glint_nearest_to(without_prefix(key));
     struct glint_edit_key known;
     for (size_t i = 0; glint_edit_key(i, &known); i++) {
         if (!strcmp(known.name, without_prefix(key))) return true;
-        nearest_offer(&near, known.name);
+        glint_nearest_offer(&near, known.name);
     }
     for (size_t p = 0; (part = glint_edit_part(edit, p)) != NULL; p++)
         for (size_t a = 0; a < part->attribute_count; a++) {
             if (!strncmp(part->attributes[a].name, "glint.", 6)) continue;
             if (!strcmp(part->attributes[a].name, key)) return true;
-            nearest_offer(&near, part->attributes[a].name);
+            glint_nearest_offer(&near, part->attributes[a].name);
         }
     return glint_fail(err, GLINT_ERROR_USAGE, "%s: no such key%s; glint set --list shows them", key,
-                      nearest_text(&near));
+                      glint_nearest_text(&near));
 }
 
 static bool check_part(const struct glint_edit *edit, const char *name, struct glint_error *err) {
     const struct glint_exr_part_info *part;
-    struct nearest near = nearest_to(name);
+    struct glint_nearest near = glint_nearest_to(name);
     const size_t length = strlen(name);
     for (size_t p = 0; (part = glint_edit_part(edit, p)) != NULL; p++) {
         if (!strncmp(part->name, name, length) && (!part->name[length] || part->name[length] == '.')) return true;
-        nearest_offer(&near, part->name);
+        glint_nearest_offer(&near, part->name);
     }
-    return glint_fail(err, GLINT_ERROR_USAGE, "%s: the capture has no such part%s", name, nearest_text(&near));
+    return glint_fail(err, GLINT_ERROR_USAGE, "%s: the capture has no such part%s", name, glint_nearest_text(&near));
 }
 
 /* A colon in the value does not separate a part. */

@@ -20,7 +20,6 @@ static struct glint_metric_table compared(const struct glint_pixels *found, cons
 }
 
 static void each_set_of_classes_divides_all_pixels(UNUSED void **state) {
-    static const char *const sides[] = {"left", "right"}, *const heights[] = {"top", "middle", "bottom"};
     float found[] = {1, 2, 3, 4}, truth[] = {0, 0, 0, 0};
     uint8_t side[] = {1, 2, 1, 2}, height[] = {1, 1, 0, 3};
     const struct glint_pixels f = {2, 2, 1, found}, t = {2, 2, 1, truth};

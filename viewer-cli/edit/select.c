@@ -7,7 +7,7 @@
 #include "capture/missing.h"
 #include "glint/capture.h"
 #include "io/table.h"
-#include "options/nearest.h"
+#include "glint/nearest.h"
 
 /* "gbuffer", "cubemap" (all of them), "previous" (all of them), "gbuffer:motion", "cubemap:distance.Z". */
 static bool begins(const char *name, const char *with, size_t length) {
@@ -50,22 +50,22 @@ static bool refuse_unknown(const struct glint_capture *capture, const char *item
     enum { NAMES = 512 };
     char names[NAMES][128];
     size_t count = 0;
-    struct nearest near = nearest_to(item);
+    struct glint_nearest near = glint_nearest_to(item);
     for (size_t p = 0; p < glint_capture_part_count(capture); p++) {
         const struct glint_part_info *part = glint_capture_part(capture, p);
-        nearest_offer(&near, part->name);
+        glint_nearest_offer(&near, part->name);
         for (size_t c = 0; c < part->channel_count; c++) {
             const char *channel = part->channels[c].name;
             const size_t layer = strcspn(channel, ".");
             if (count + 2 > NAMES || !strchr(item, ':')) continue;
             snprintf(names[count], sizeof *names, "%.60s:%.60s", part->name, channel);
-            nearest_offer(&near, names[count++]);
+            glint_nearest_offer(&near, names[count++]);
             snprintf(names[count], sizeof *names, "%.60s:%.*s", part->name, (int)layer, channel);
-            nearest_offer(&near, names[count++]);
+            glint_nearest_offer(&near, names[count++]);
         }
     }
     return glint_fail(err, GLINT_ERROR_USAGE, "%s: the capture has no part or channel of this name%s", item,
-                      nearest_text(&near));
+                      glint_nearest_text(&near));
 }
 
 /* ---- What stays ---- */
