@@ -22,8 +22,8 @@ struct glint_replay {
     struct pool pool;
     struct engine engine;
     struct planner planner;
-    struct results results;        /* of the last run */
-    struct glint_plan_entry *plan; /* of the last glint_replay_plan */
+    struct results results;                           /* of the last run */
+    struct glint_plan_entry *plan;                    /* of the last glint_replay_plan */
     const struct glint_absence *missing[MISSING_MAX]; /* of the last plan or run */
     size_t missing_count;
 };

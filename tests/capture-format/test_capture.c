@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "fixture.h"
+#include "rewrite.h"
 #include "unit.h"
 
 static struct glint_capture *open_all(const char *path) {
@@ -213,15 +214,53 @@ static void folders_are_made_with_those_around_them(UNUSED void **state) {
     unlink(path);
 }
 
+/* Channels that a part need not have are read as FORMAT.md says, alone and among others, and no others are. */
+static void absent_channels_read_as_their_values(UNUSED void **state) {
+    static const char *const names[] = {"material.metalness", "material.specular", "albedo.G", "material.roughness"};
+    static const char *const gone[] = {"material.metalness", "material.specular", "albedo.R", "albedo.G",
+                                       "albedo.B",           "motion.X",          "motion.Y", "motion.Z"};
+    static const float values[] = {0, 0.5f, 0.8f};
+    static const uint16_t halves[] = {0, 0x3800, 0x3a66};
+    static struct fixture f;
+    static struct rewrite r;
+    static float read[FIX_W * FIX_H * 4], alone[FIX_W * FIX_H];
+    static uint16_t half[FIX_W * FIX_H * 4];
+    struct glint_error err = {0};
+    char path[512];
+    fixture_init(&f);
+    assert_true(fixture_write(&f, fixture_path(path, "absent.exr"), FIXTURE_LIT + 1, NULL, &err));
+    rewrite_load(&r, path);
+    for (size_t i = 0; i < sizeof gone / sizeof *gone; i++) rewrite_remove_channel(&r, "gbuffer", gone[i]);
+    unlink(path);
+    rewrite_save(&r, path);
+    rewrite_finish(&r);
+    struct glint_capture *capture = glint_capture_open(path, NULL, &err);
+    assert_non_null(capture);
+    const struct glint_part_info *part = glint_capture_find(capture, "gbuffer");
+    assert_true(glint_capture_read(capture, part, names, 4, GLINT_F32, read, 2, &err));
+    assert_true(glint_capture_read(capture, part, names, 4, GLINT_F16, half, 2, &err));
+    for (size_t i = 0; i < FIX_W * FIX_H; i++) {
+        for (size_t c = 0; c < 3; c++) assert_true(read[4 * i + c] == values[c] && half[4 * i + c] == halves[c]);
+        assert_true(read[4 * i + 3] == f.gbuffer[17 * i + 4]); /* as stored */
+    }
+    for (size_t c = 0; c < 3; c++) {
+        assert_true(glint_capture_read(capture, part, &names[c], 1, GLINT_F32, alone, 1, &err));
+        for (size_t i = 0; i < FIX_W * FIX_H; i++) assert_true(alone[i] == values[c]);
+        assert_true(glint_part_can_read(part, names[c]) && !glint_part_has_channel(part, names[c]));
+    }
+    const char *const motion = "motion.X";
+    assert_false(glint_part_can_read(part, motion));
+    assert_false(glint_capture_read(capture, part, &motion, 1, GLINT_F32, alone, 1, &err));
+    glint_capture_close(&capture);
+    unlink(path);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_role_comes_back),
-        cmocka_unit_test(frame_comes_back_bit_for_bit),
-        cmocka_unit_test(lengths_are_metres),
-        cmocka_unit_test(every_half_keeps_its_bits),
-        cmocka_unit_test(floats_round_to_the_nearest_half),
-        cmocka_unit_test(every_code_comes_back),
-        cmocka_unit_test(folders_are_made_with_those_around_them),
+        cmocka_unit_test(every_role_comes_back),     cmocka_unit_test(frame_comes_back_bit_for_bit),
+        cmocka_unit_test(lengths_are_metres),        cmocka_unit_test(absent_channels_read_as_their_values),
+        cmocka_unit_test(every_half_keeps_its_bits), cmocka_unit_test(floats_round_to_the_nearest_half),
+        cmocka_unit_test(every_code_comes_back),     cmocka_unit_test(folders_are_made_with_those_around_them),
     };
     return cmocka_run_group_tests(tests, fixture_setup, NULL);
 }

@@ -1,0 +1,261 @@
+/* crop: rays and motion stay those of the pixels, the rest keeps its bits, and a replay of the crop is a crop of the replay. */
+#include "cli.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "../capture-format/fixture.h"
+
+#include "edited.h"
+
+static char made[512], room[512];
+
+static int make_captures(void **state) {
+    if (make_folder(state) != 0) return -1;
+    snprintf(made, sizeof made, "%s", in_folder("made.exr"));
+    snprintf(room, sizeof room, "%s", in_folder("room.exr"));
+    edited_write(made);
+    free(glint_ok("sample", "room", "-o", room, "--size", "96x64", "--cube-size", "32", "--truth", "2"));
+    return 0;
+}
+
+/* The position of a pixel's centre in view space at depth 1, from the decoded camera. */
+static void ray_of(const struct glint_frame *frame, const struct glint_camera *camera, const uint32_t size[2], double x,
+                   double y, double ray[2]) {
+    const double *m = camera->view_to_clip, front = m[14] < 0 ? -1 : 1;
+    const double down = frame->clip_y == GLINT_CLIP_Y_DOWN ? 1 : -1;
+    ray[0] = (2 * (x + 0.5) / size[0] - 1 - m[2] * front) / m[0];
+    ray[1] = (down * (2 * (y + 0.5) / size[1] - 1) - m[6] * front) / m[5];
+}
+
+/* Both cameras see every pixel of the rectangle along the same ray. The remaining difference is the rounding of doubles: a few units of the
+   last place of a number of the size of 1. */
+static void expect_rays(const char *from, const char *to, uint32_t x0, uint32_t y0) {
+    struct glint_error err = {0};
+    struct glint_capture *a = glint_capture_open(from, NULL, &err), *b = glint_capture_open(to, NULL, &err);
+    if (!a || !b) fail_msg("%s", err.message);
+    const struct glint_frame *f = glint_capture_frame(a), *g = glint_capture_frame(b);
+    const struct glint_part_info *p = glint_capture_find(a, "gbuffer"), *q = glint_capture_find(b, "gbuffer");
+    const uint32_t large[2] = {p->width, p->height}, small[2] = {q->width, q->height};
+    for (uint32_t y = 0; y < small[1]; y++)
+        for (uint32_t x = 0; x < small[0]; x++)
+            for (int camera = 0; camera < 1 + f->has_previous; camera++) {
+                double u[2], v[2];
+                ray_of(f, camera ? &f->previous : &f->camera, large, x0 + x, y0 + y, u);
+                ray_of(g, camera ? &g->previous : &g->camera, small, x, y, v);
+                for (int i = 0; i < 2; i++) assert_true(fabs(u[i] - v[i]) <= 4e-15);
+            }
+    assert_memory_equal(f->camera.world_to_view, g->camera.world_to_view, sizeof f->camera.world_to_view);
+    assert_memory_equal(f->jitter_px, g->jitter_px, sizeof f->jitter_px);
+    glint_capture_close(&a);
+    glint_capture_close(&b);
+}
+
+static const char camera_and_motion[] =
+    "glint.viewToClip glint.previousViewToClip motion.X motion.Y glint.storage visible";
+
+static void rays_stay(void **state) {
+    (void)state;
+    static const char *const rectangles[] = {"0,0,40,24", "4,2,20,12", "6,8,2,16", "38,22,2,2", "0,20,40,4"};
+    static const char *const clip_y[] = {"clipY=up", "clipY=down"};
+    for (int down = 0; down < 2; down++) {
+        free(glint_ok("set", made, clip_y[down], "viewToClip=1.3,0,0.03,0,0,2.1,-0.07,0,0,0,0,0.1,0,0,-1,0",
+                      "jitter=0.6,0.84", "-o", in_folder("jittered.exr")));
+        for (size_t i = 0; i < sizeof rectangles / sizeof *rectangles; i++) {
+            unsigned x, y, w, h;
+            sscanf(rectangles[i], "%u,%u,%u,%u", &x, &y, &w, &h);
+            free(glint_ok("crop", in_folder("jittered.exr"), rectangles[i], "-o", in_folder("crop.exr")));
+            expect_rays(in_folder("jittered.exr"), in_folder("crop.exr"), x, y);
+            edited_expect_same(in_folder("jittered.exr"), in_folder("crop.exr"), x, y, camera_and_motion);
+        }
+    }
+}
+
+/* A decoded offset in pixels is the same, within the step of what is stored. */
+static void motion_stays(void **state) {
+    (void)state;
+    static const char *const names[] = {"uv", "ndc", "pixels", "packed16"};
+    static const char *const rectangles[] = {"16,8,48,32", "6,4,50,26"}; /* the same factor on both axes, and not */
+    static const char *const channels[] = {"motion.X", "motion.Y"};
+    struct glint_error err = {0};
+    for (int e = 0; e < 8; e++) {
+        const uint32_t x0 = e % 2 ? 6 : 16, y0 = e % 2 ? 4 : 8;
+        free(glint_ok("sample", "room", "-o", in_folder("moving.exr"), "--size", "96x64", "--cube-size", "8",
+                      "--motion", names[e / 2], "--travel", "0.1,0,0.05"));
+        free(glint_ok("crop", in_folder("moving.exr"), rectangles[e % 2], "-o", in_folder("crop.exr")));
+        struct glint_capture *a = glint_capture_open(in_folder("moving.exr"), NULL, &err),
+                             *b = glint_capture_open(in_folder("crop.exr"), NULL, &err);
+        if (!a || !b) fail_msg("%s", err.message);
+        const struct glint_part_info *p = glint_capture_find(a, "gbuffer"), *q = glint_capture_find(b, "gbuffer");
+        float *u = calloc((size_t)p->width * p->height * 2, sizeof *u),
+              *v = calloc((size_t)p->width * p->height * 2, sizeof *v);
+        assert_true(u && v && glint_capture_read(a, p, channels, 2, GLINT_F32, u, 0, &err) &&
+                    glint_capture_read(b, q, channels, 2, GLINT_F32, v, 0, &err));
+        double most = 0;
+        for (uint32_t y = 0; y < q->height; y++)
+            for (uint32_t x = 0; x < q->width; x++)
+                for (uint32_t i = 0; i < 2; i++) {
+                    const double before = (double)u[2 * ((size_t)(y0 + y) * p->width + x0 + x) + i] *
+                                          (i ? p->height : p->width),
+                                 after = (double)v[2 * ((size_t)y * q->width + x) + i] * (i ? q->height : q->width);
+                    most = fmax(most, fabs(before));
+                    assert_true(fabs(before - after) <= 4 * 0x1p-24 * fabs(before) + 1e-6); /* floats, added up */
+                }
+        assert_true(most > 0.5);
+        free(u);
+        free(v);
+        glint_capture_close(&a);
+        glint_capture_close(&b);
+    }
+}
+
+static void other_sizes_are_cropped_by_their_ratio(void **state) {
+    (void)state;
+    struct outcome said = glint("crop", made, "4,2,20,12", "-o", in_folder("crop.exr"), NULL);
+    assert_int_equal(said.status, 0);
+    assert_contains(said.err, "engine.a.list: kept whole");
+    outcome_free(&said);
+    struct glint_exr *exr = edited_open(in_folder("crop.exr"));
+    assert_int_equal(glint_exr_part(exr, edited_part(exr, "engine.a.half"))->width, 10);
+    assert_int_equal(glint_exr_part(exr, edited_part(exr, "engine.a.half"))->height, 6);
+    assert_int_equal(glint_exr_part(exr, edited_part(exr, "engine.a.cube"))->height, 6 * FIX_CUBE);
+    assert_int_equal(glint_exr_part(exr, edited_part(exr, "editor.overlay"))->width, 20);
+    glint_exr_close(&exr);
+    glint_fails(2, "crop 4,2,18,10, or leave the part out", "crop", made, "5,3,17,9", "-o", in_folder("none.exr"));
+    free(glint_ok("crop", made, "4,2,18,10", "-o", in_folder("crop.exr")));
+}
+
+static void wrong_rectangles_are_refused(void **state) {
+    (void)state;
+    static const char *const bad[] = {"0,0,0,4", "0,0,4,0", "40,0,1,1", "0,0,41,24", "39,0,2,24", "0,1048576,1,1"};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+        glint_fails(2, "expected a rectangle within 40 x 24", "crop", made, bad[i], "-o", in_folder("none.exr"));
+    glint_fails(2, "whole pixels", "crop", made, "0.5,0,4,4", "-o", in_folder("none.exr"));
+    glint_fails(2, "whole pixels", "crop", made, "-1,0,4,4", "-o", in_folder("none.exr"));
+    glint_fails(2, "expected 4 numbers", "crop", made, "0,0,nan,4", "-o", in_folder("none.exr"));
+    glint_fails(2, "no rectangle", "crop", made, "-o", in_folder("none.exr"));
+    assert_false(file_exists(in_folder("none.exr")));
+}
+
+/* The images of a run, of one pass. */
+static float *run_image(const char *run, const char *file, const char *image, const char *channel, uint32_t size[2]) {
+    char path[600];
+    struct glint_error err = {0};
+    snprintf(path, sizeof path, "%s/%s", run, file);
+    struct glint_exr *exr = edited_open(path);
+    const size_t part = edited_part(exr, image);
+    const struct glint_exr_part_info *info = glint_exr_part(exr, part);
+    assert_non_null(info);
+    float *data = malloc((size_t)info->width * info->height * sizeof *data);
+    uint32_t *whole = malloc((size_t)info->width * info->height * sizeof *whole);
+    assert_true(data && whole);
+    size[0] = info->width, size[1] = info->height;
+    if (info->channels[0].stored == GLINT_STORED_UINT) {
+        assert_true(glint_exr_read(exr, part, &channel, 1, GLINT_U32, whole, 0, &err));
+        for (size_t i = 0; i < (size_t)size[0] * size[1]; i++) data[i] = (float)whole[i];
+    } else assert_true(glint_exr_read(exr, part, &channel, 1, GLINT_F32, data, 0, &err));
+    free(whole);
+    glint_exr_close(&exr);
+    return data;
+}
+
+static void replay_rays(const char *capture, const char *run) {
+    free(glint_ok("replay", capture, "-o", run, "--preset", "kf2", "--use", "screen_trace=dda", "--set",
+                  "downsample.jitter=0", "--passes", "downsample,screen_trace", "--outputs",
+                  "screen_travelled,screen_finished,depth_half"));
+}
+
+static char *trace_file(const char *run) {
+    static char names[2][64];
+    static int turn;
+    char *name = names[turn++ % 2];
+    char path[600];
+    for (int i = 0; i < 30; i++) {
+        snprintf(name, 64, "%02d-screen_trace.exr", i);
+        snprintf(path, sizeof path, "%s/%s", run, name);
+        if (file_exists(path)) return name;
+    }
+    fail_msg("%s has no screen_trace", run);
+    return NULL;
+}
+
+/* Where the traced ray ends at the truth's hit, the truth of the crop says that the hit is visible exactly if the ray of the crop finds it. The
+   rest are hits at the border of the rectangle, and those behind surfaces that the crop does not show. */
+static void expect_visible_hits(const float *far, const float *ended_whole, const float *ended, const uint32_t large[2],
+                                const uint32_t small[2], uint32_t x0, uint32_t y0) {
+    struct glint_exr *before = edited_open(room), *after = edited_open(in_folder("crop.exr"));
+    const size_t from = edited_part(before, "truth.mirror"), to = edited_part(after, "truth.mirror");
+    static const char *const names[] = {"distance.Z", "visible"};
+    struct glint_error err = {0};
+    float *truth = malloc((size_t)large[0] * large[1] * 2 * sizeof *truth),
+          *cropped = malloc((size_t)small[0] * small[1] * 2 * sizeof *cropped);
+    size_t seen = 0, hidden = 0, wrong = 0;
+    assert_true(truth && cropped && glint_exr_read(before, from, names, 2, GLINT_F32, truth, 0, &err) &&
+                glint_exr_read(after, to, names, 2, GLINT_F32, cropped, 0, &err));
+    for (uint32_t y = 0; y < small[1]; y++)
+        for (uint32_t x = 0; x < small[0]; x++) {
+            const size_t i = (size_t)y * small[0] + x, k = (size_t)(y0 + y) * large[0] + x0 + x;
+            assert_true(cropped[2 * i] == truth[2 * k] && cropped[2 * i + 1] <= truth[2 * k + 1]);
+            if (truth[2 * k + 1] == 0 || ended_whole[k] == 0 || fabsf(far[k] - truth[2 * k]) > 0.01f * truth[2 * k])
+                continue;
+            *(cropped[2 * i + 1] == 1 ? &seen : &hidden) += 1;
+            wrong += (cropped[2 * i + 1] == 1) != (ended[i] != 0);
+        }
+    print_message("# %zu hits are visible in the rectangle, %zu no longer; %zu traced otherwise\n", seen, hidden,
+                  wrong);
+    assert_true(seen > 100 && hidden > 100 && wrong <= (seen + hidden) / 50);
+    free(truth);
+    free(cropped);
+    glint_exr_close(&before);
+    glint_exr_close(&after);
+}
+
+/* Mirror rays at every pixel, through every texel: nothing depends on a pixel's place in the picture. A ray that ends on a surface inside the
+   rectangle has the same length in both; where rounding of the camera to floats decides whether it grazes a surface, it may differ. */
+static void a_replay_of_the_crop_is_a_crop_of_the_replay(void **state) {
+    (void)state;
+    const uint32_t x0 = 18, y0 = 20;
+    uint32_t large[2], small[2];
+    char whole[512], part[512];
+    snprintf(whole, sizeof whole, "%s", in_folder("whole"));
+    snprintf(part, sizeof part, "%s", in_folder("part"));
+    free(glint_ok("crop", room, "18,20,60,44", "-o", in_folder("crop.exr")));
+    expect_rays(room, in_folder("crop.exr"), x0, y0);
+    replay_rays(room, whole);
+    replay_rays(in_folder("crop.exr"), part);
+    float *far = run_image(whole, trace_file(whole), "screen_travelled", "Z", large),
+          *near = run_image(part, trace_file(part), "screen_travelled", "Z", small),
+          *ended = run_image(part, trace_file(part), "screen_finished", "finished", small),
+          *ended_whole = run_image(whole, trace_file(whole), "screen_finished", "finished", large);
+    assert_int_equal(small[0], 60);
+    assert_int_equal(small[1], 44);
+    size_t count = 0, differ = 0;
+    for (uint32_t y = 0; y < small[1]; y++)
+        for (uint32_t x = 0; x < small[0]; x++) {
+            const size_t i = (size_t)y * small[0] + x, k = (size_t)(y0 + y) * large[0] + x0 + x;
+            if (ended[i] == 0 || near[i] == 0) continue; /* it left the rectangle */
+            count++;
+            differ += ended_whole[k] == 0 || !(fabsf(far[k] - near[i]) <= 1e-4f * near[i]);
+        }
+    expect_visible_hits(far, ended_whole, ended, large, small, x0, y0);
+    print_message("# %zu rays end in the rectangle, %zu differ\n", count, differ);
+    assert_true(count > 200);
+    assert_true(differ <= count / 200);
+    free(far);
+    free(near);
+    free(ended);
+    free(ended_whole);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(rays_stay),
+        cmocka_unit_test(motion_stays),
+        cmocka_unit_test(other_sizes_are_cropped_by_their_ratio),
+        cmocka_unit_test(wrong_rectangles_are_refused),
+        cmocka_unit_test(a_replay_of_the_crop_is_a_crop_of_the_replay),
+    };
+    return cmocka_run_group_tests_name("crop", tests, make_captures, remove_folder);
+}
