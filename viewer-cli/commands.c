@@ -6,6 +6,8 @@
 /* clang-format off */
 extern const struct command
     cmd_sample,
+    cmd_pack,
+    cmd_extract,
     cmd_info,
     cmd_validate,
     cmd_lint,
@@ -28,6 +30,8 @@ extern const struct command
 
 const struct command *const commands[] = {
     &cmd_sample,
+    &cmd_pack,
+    &cmd_extract,
     &cmd_info,
     &cmd_validate,
     &cmd_lint,

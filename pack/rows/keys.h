@@ -127,7 +127,7 @@ OBJECT(ENCODINGS, "encodings", "how the engine stored the channels; the values s
     KEY("color",         CHOICE, "linear pre_exposed srgb",           OPTIONAL, "linear", "R, G, B of radiance")
 OBJECT(ATTRIBUTE, "attribute", "an attribute whose type is said")
     KEY("type",      CHOICE, "string int float double v2d v3d v3f m44d floats strings opaque", REQUIRED, "", "type in the OpenEXR file")
-    KEY("value",     ANY,    "", REQUIRED, "", "text, number or list of them; for opaque: hexadecimal bytes")
+    KEY("value",     ANY,    "", REQUIRED, "", "text, number or list of them (\"nan\", \"inf\" and \"-inf\" are numbers, too); for opaque: hexadecimal bytes")
     KEY("type_name", TEXT,   "", OPTIONAL, "", "for opaque: OpenEXR's name of the type")
 /* clang-format on */
 #undef OBJECT
