@@ -40,10 +40,13 @@ static bool print_part(struct glint_capture *capture, const struct glint_part_in
                            channel->storage, err);
     }
     /* the Z that only the decoder knows */
-    bool stored = false;
-    for (size_t i = 0; i < part->channel_count; i++) stored = stored || !strcmp(part->channels[i].name, "normal.Z");
-    if (ok && !stored && glint_part_has_channel(part, "normal.Z"))
-        ok = print_channel(capture, part, "normal.Z", false, "-", err);
+    static const char *const derived[] = {"normal.Z", "vertexNormal.Z"};
+    for (int k = 0; k < 2; k++) {
+        bool stored = false;
+        for (size_t i = 0; i < part->channel_count; i++) stored = stored || !strcmp(part->channels[i].name, derived[k]);
+        if (ok && !stored && glint_part_has_channel(part, derived[k]))
+            ok = print_channel(capture, part, derived[k], false, "-", err);
+    }
     return ok;
 }
 
