@@ -256,7 +256,9 @@ static bool pack_opened(struct pack *pack, const char *out, struct glint_error *
     pack->textures_node = node_child(&pack->root, "textures");
     pack->parts_node = node_child(&pack->root, "parts");
     pack->frame_node = node_child(&pack->root, "frame");
-    if (!check_roles(pack, err) || !check_shared(pack, err) || (out && !check_output(pack, out, err)) || !textures_prepare(pack, err)) return false;
+    if (!check_roles(pack, err) || !check_shared(pack, err) || (out && !check_output(pack, out, err)) ||
+        !textures_prepare(pack, err))
+        return false;
     struct part gbuffer = part_of(pack, "gbuffer");
     bool ok = true;
     if (pack->frame_node.value)
