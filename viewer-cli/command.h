@@ -35,6 +35,8 @@ struct command {
 /* clang-format off */
 extern const struct command
     cmd_sample,
+    cmd_pack,
+    cmd_extract,
     cmd_info,
     cmd_validate,
     cmd_lint,

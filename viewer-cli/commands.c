@@ -6,6 +6,8 @@
 /* clang-format off */
 const struct command *const commands[] = {
     &cmd_sample,
+    &cmd_pack,
+    &cmd_extract,
     &cmd_info,
     &cmd_validate,
     &cmd_lint,

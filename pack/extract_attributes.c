@@ -1,0 +1,247 @@
+/* Attributes of a capture as keys of a manifest. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "extract.h"
+#include "pack.h"
+
+enum kind { NUMBERS, NUMBER, COUNT, FLAG, TEXT, PLANE };
+
+struct row {
+    const char *scope, *attribute, *key;
+    enum kind kind;
+};
+
+/* Which key holds which attribute. The matrices are as the capture has them: row-major, for column vectors, with jitter. */
+static const struct row rows[] = {
+    {"frame", "glint.worldToView", "world_to_view", NUMBERS},
+    {"frame", "glint.viewToClip", "view_to_clip", NUMBERS},
+    {"frame", "glint.previousWorldToView", "previous_world_to_view", NUMBERS},
+    {"frame", "glint.previousViewToClip", "previous_view_to_clip", NUMBERS},
+    {"frame", "glint.frame", "number", COUNT},
+    {"frame", "glint.cut", "cut", FLAG},
+    {"frame", "glint.player", "player", NUMBERS},
+    {"frame", "glint.jitter", "jitter", NUMBERS},
+    {"frame", "glint.exposure", "exposure", NUMBER},
+    {"frame", "glint.preExposure", "pre_exposure", NUMBER},
+    {"frame", "glint.metresPerUnit", "metres_per_unit", NUMBER},
+    {"frame", "glint.depthNear", "depth_near", NUMBER},
+    {"frame", "glint.depthFar", "depth_far", NUMBER},
+    {"frame", "glint.motionRange", "motion_range", NUMBER},
+    {"frame", "glint.motionDepthRange", "motion_depth_range", NUMBER},
+    {"frame", "glint.up", "up", TEXT},
+    {"frame", "glint.clipY", "clip_y", TEXT},
+    {"frame", "glint.clipZ", "clip_z", TEXT},
+    {"fog", "glint.fogColor", "color", NUMBERS},
+    {"fog", "glint.fogDensity", "density", NUMBER},
+    {"fog", "glint.fogBase", "base", NUMBER},
+    {"fog", "glint.fogScaleHeight", "scale_height", NUMBER},
+    {"cubemap", "glint.center", "center", NUMBERS},
+    {"cubemap", "glint.outdoor", "outdoor", FLAG},
+    {"cubemap", "glint.fade", "fade", NUMBER},
+    {"cubemap", "glint.age", "age", COUNT},
+    {"cubemap", "glint.inner", "inner", TEXT},
+    {"cubemap", "glint.boxMin", "box_min", NUMBERS},
+    {"cubemap", "glint.boxMax", "box_max", NUMBERS},
+    {"cubemap", "glint.sphereCenter", "sphere_center", NUMBERS},
+    {"cubemap", "glint.sphereRadius", "sphere_radius", NUMBER},
+    {"planar", "glint.plane", "plane", PLANE},
+    {"planar", "glint.worldToView", "world_to_view", NUMBERS},
+    {"planar", "glint.viewToClip", "view_to_clip", NUMBERS},
+    {"encodings", "glint.depth", "depth", TEXT},
+    {"encodings", "glint.normal", "normal", TEXT},
+    {"encodings", "glint.vertexNormal", "vertex_normal", TEXT},
+    {"encodings", "glint.normalSpace", "normal_space", TEXT},
+    {"encodings", "glint.roughness", "roughness", TEXT},
+    {"encodings", "glint.motion", "motion", TEXT},
+    {"encodings", "glint.motionDepth", "motion_depth", TEXT},
+    {"encodings", "glint.color", "color", TEXT},
+};
+enum { ROWS = sizeof rows / sizeof *rows };
+
+static json_t *number_list(const double *numbers, size_t count) {
+    json_t *list = json_array();
+    for (size_t i = 0; i < count; i++) json_array_append_new(list, json_real(numbers[i]));
+    return list;
+}
+
+static json_t *value_of(const struct row *row, const struct glint_exr_attribute *a) {
+    switch (row->kind) {
+    case TEXT:
+        return a->string ? json_string(a->string) : NULL;
+    case NUMBERS:
+        return a->numbers ? number_list(a->numbers, a->count) : NULL;
+    case PLANE:
+        return a->numbers && a->count == 16 ? number_list(a->numbers, 4) : NULL;
+    case NUMBER:
+        return a->numbers ? json_real(a->numbers[0]) : NULL;
+    case COUNT:
+        return a->numbers ? json_integer((uint32_t)(int32_t)a->numbers[0]) : NULL;
+    case FLAG:
+        break;
+    }
+    return a->numbers ? json_boolean(a->numbers[0] != 0) : NULL;
+}
+
+/* The object that holds a scope's attributes; empty if the part has none. */
+static json_t *scope_of(const struct glint_exr_part_info *part, const char *scope) {
+    json_t *object = json_object();
+    for (size_t i = 0; i < ROWS; i++) {
+        const struct glint_exr_attribute *a =
+            strcmp(rows[i].scope, scope) ? NULL : glint_exr_attribute(part, rows[i].attribute);
+        json_t *value = a ? value_of(&rows[i], a) : NULL;
+        if (value) json_object_set_new(object, rows[i].key, value);
+    }
+    return object;
+}
+
+static json_t *classes_of(const struct glint_exr_attribute *a) {
+    json_t *list = json_array();
+    for (size_t i = 0; i < a->count && a->strings; i++) {
+        char *end = NULL;
+        const unsigned long value = strtoul(a->strings[i], &end, 10),
+                            mask = *end == '/' ? strtoul(end + 1, &end, 10) : 0;
+        if (*end == '=')
+            json_array_append_new(list, json_pack("{s:s, s:I, s:I}", "name", end + 1, "value", (json_int_t)value,
+                                                  "mask", (json_int_t)mask));
+    }
+    return list;
+}
+
+json_t *extract_frame(const struct glint_exr_part_info *gbuffer) {
+    json_t *frame = scope_of(gbuffer, "frame"), *fog = scope_of(gbuffer, "fog");
+    const struct glint_exr_attribute *classes = glint_exr_attribute(gbuffer, "glint.stencilClasses");
+    json_object_set_new(frame, "layout", json_string("row_major"));
+    json_object_set_new(frame, "vectors", json_string("column"));
+    json_object_set_new(frame, "jitter_in_matrix", json_true());
+    if (json_object_size(fog)) json_object_set(frame, "fog", fog);
+    if (classes) json_object_set_new(frame, "stencil_classes", classes_of(classes));
+    json_decref(fog);
+    return frame;
+}
+
+static void add_planes(const struct glint_exr_part_info *part, json_t *cubemap) {
+    json_t *planes = json_array();
+    for (unsigned i = 0; i < GLINT_MAX_PLANES; i++) {
+        char name[32];
+        snprintf(name, sizeof name, "glint.hull.%02u", i / 4);
+        const struct glint_exr_attribute *a = glint_exr_attribute(part, name);
+        const double *plane = a && a->numbers && a->count == 16 ? a->numbers + 4 * (i % 4) : NULL;
+        if (!plane || (plane[0] == 0 && plane[1] == 0 && plane[2] == 0 && plane[3] == 0)) break;
+        json_array_append_new(planes, number_list(plane, 4));
+    }
+    if (json_array_size(planes)) json_object_set(cubemap, "planes", planes);
+    json_decref(planes);
+}
+
+/* ---- Attributes that glint does not know ---- */
+
+/* A number, or the name of one that JSON has not. */
+static json_t *any_number(double number) {
+    if (isfinite(number)) return json_real(number);
+    return json_string(isnan(number) ? "nan" : number > 0 ? "inf" : "-inf");
+}
+
+static json_t *any_numbers(const struct glint_exr_attribute *a) {
+    json_t *list = json_array();
+    for (size_t i = 0; i < a->count; i++) json_array_append_new(list, any_number(a->numbers[i]));
+    return list;
+}
+
+static json_t *texts_of(const struct glint_exr_attribute *a) {
+    json_t *list = json_array();
+    for (size_t i = 0; i < a->count; i++)
+        if (json_array_append_new(list, json_string(a->strings[i]))) return json_decref(list), NULL;
+    return list;
+}
+
+static json_t *bytes_of(const struct glint_exr_attribute *a) {
+    char *text = calloc(2 * a->count + 1, 1);
+    for (size_t i = 0; text && i < a->count; i++)
+        snprintf(text + 2 * i, 3, "%02x", ((const unsigned char *)a->bytes)[i]);
+    json_t *value = text ? json_string(text) : NULL;
+    free(text);
+    return value;
+}
+
+static json_t *typed(const char *type, json_t *value) {
+    return value ? json_pack("{s:s, s:o}", "type", type, "value", value) : NULL;
+}
+
+static json_t *unknown_of(const struct glint_exr_attribute *a) {
+    json_t *bytes;
+    switch (a->type) {
+    case GLINT_EXR_STRING:
+        return json_string(a->string);
+    case GLINT_EXR_INT:
+        return json_integer((json_int_t)a->numbers[0]);
+    case GLINT_EXR_DOUBLE:
+        return isfinite(a->numbers[0]) ? json_real(a->numbers[0]) : typed("double", any_number(a->numbers[0]));
+    case GLINT_EXR_FLOAT:
+        return typed("float", any_number(a->numbers[0]));
+    case GLINT_EXR_V2D:
+        return typed("v2d", any_numbers(a));
+    case GLINT_EXR_V3D:
+        return typed("v3d", any_numbers(a));
+    case GLINT_EXR_V3F:
+        return typed("v3f", any_numbers(a));
+    case GLINT_EXR_M44D:
+        return typed("m44d", any_numbers(a));
+    case GLINT_EXR_FLOATS:
+        return typed("floats", any_numbers(a));
+    case GLINT_EXR_STRINGS:
+        return typed("strings", texts_of(a));
+    case GLINT_EXR_OPAQUE:
+        break;
+    }
+    bytes = typed("opaque", bytes_of(a));
+    if (bytes) json_object_set_new(bytes, "type_name", json_string(a->type_name));
+    return bytes;
+}
+
+static bool add_unknown(const struct glint_exr_part_info *part, json_t *out, struct glint_error *err) {
+    json_t *unknown = json_object();
+    bool ok = unknown != NULL;
+    for (size_t i = 0; ok && i < part->attribute_count; i++) {
+        const struct glint_exr_attribute *a = &part->attributes[i];
+        if (!strncmp(a->name, "glint.", 6)) continue;
+        json_t *value = unknown_of(a);
+        ok = value && !json_object_set_new(unknown, a->name, value);
+        if (!ok)
+            glint_fail(err, GLINT_ERROR_UNSUPPORTED, "part %s: %.100s: expected text in UTF-8, found other bytes",
+                       part->name, a->name);
+    }
+    if (json_object_size(unknown)) json_object_set(out, "attributes", unknown);
+    json_decref(unknown);
+    return ok;
+}
+
+bool extract_attributes(const struct glint_exr_part_info *part, json_t *out, struct glint_error *err) {
+    bool previous;
+    const struct glint_role *role = role_of(part->name, &previous);
+    const char *own = role ? role->name : "";
+    json_t *encodings = role ? scope_of(part, "encodings") : NULL;
+    if (json_object_size(encodings)) json_object_set(out, "encodings", encodings);
+    json_decref(encodings);
+    if (!strcmp(own, "cubemap") || !strcmp(own, "planar")) {
+        json_t *object = scope_of(part, own);
+        if (!strcmp(own, "cubemap")) add_planes(part, object);
+        json_object_set_new(out, own, object);
+    }
+    return add_unknown(part, out, err);
+}
+
+const char *extract_storage(const struct glint_exr_part_info *part, const struct glint_channel_info *channel,
+                            char text[64]) {
+    static const char *const own[] = {"half", "float", "uint"};
+    const struct glint_exr_attribute *storage = glint_exr_attribute(part, "glint.storage");
+    const size_t length = strlen(channel->name);
+    for (size_t i = 0; storage && storage->strings && i < storage->count; i++)
+        if (!strncmp(storage->strings[i], channel->name, length) && storage->strings[i][length] == '=') {
+            snprintf(text, 64, "%.63s", storage->strings[i] + length + 1);
+            if (text[0]) return text;
+        }
+    return own[channel->stored];
+}

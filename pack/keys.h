@@ -1,0 +1,54 @@
+/* The keys that a manifest may have: rows/keys.h as data. */
+#ifndef GLINT_PACK_KEYS_H
+#define GLINT_PACK_KEYS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum key_kind {
+    KEY_TEXT,
+    KEY_NUMBER,
+    KEY_COUNT,
+    KEY_BOOL,
+    KEY_NUMBERS,
+    KEY_MATRIX,
+    KEY_CHOICE,
+    KEY_CHOICES,
+    KEY_ONE,
+    KEY_LIST,
+    KEY_MAP,
+    KEY_TEXTS,
+    KEY_PLANES,
+    KEY_ANY
+};
+
+struct key {
+    const char *name; /* NULL ends the keys of an object */
+    enum key_kind kind;
+    const char *detail;
+    bool required;
+    const char *fallback, *meaning;
+};
+
+struct object {
+    const char *name; /* NULL ends pack_objects */
+    const char *meaning;
+    const struct key *keys;
+};
+
+/* The first one is the whole manifest. */
+extern const struct object pack_objects[];
+const struct object *pack_object(const char *name);
+const struct key *pack_key(const struct object *object, const char *name);
+
+/* "; did you mean "gbuf2"?" for the nearest of some names, "" if none is near. */
+struct suggestion {
+    const char *wanted, *best;
+    size_t distance;
+    char text[160];
+};
+struct suggestion suggestion_for(const char *wanted);
+void suggestion_offer(struct suggestion *suggestion, const char *name);
+const char *suggestion_text(struct suggestion *suggestion);
+
+#endif

@@ -1,0 +1,281 @@
+/* glint_pack: reads a manifest and its textures, and writes the capture. */
+#include "pack.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static bool report(const struct pack *pack, const char *what, double done, struct glint_error *err) {
+    if (!pack->options.progress || pack->options.progress(pack->options.progress_user, what, done)) return true;
+    return glint_fail(err, GLINT_ERROR_INTERRUPTED, "%s: interrupted", pack->manifest.path);
+}
+
+/* ---- Siblings ---- */
+
+/* Puts the file beside the capture, unless it lies there already. */
+static bool place_sibling(const struct part *part, const char *out, const char *from, const char *name,
+                          struct glint_error *err) {
+    const struct node node = node_child(&part->node, "sibling");
+    char *target = file_beside(out, name);
+    if (!target) return image_no_memory(&node, err);
+    bool ok = true;
+    if (file_same(from, target)) ok = true;
+    else if (!access(target, F_OK)) {
+        if (!file_equal(from, target))
+            ok = node_fail(&node, err, GLINT_ERROR_IO, "%s is there already, and holds something else than %s", target,
+                           from);
+    } else if (!file_copy(from, target, err)) ok = node_wrap(&node, err);
+    free(target);
+    return ok;
+}
+
+static bool read_sibling(const struct part *part, const char *out, const char **name, struct glint_error *err) {
+    const char *path = node_text(&part->node, "sibling"), *slash = path ? strrchr(path, '/') : NULL;
+    const struct node node = node_child(&part->node, "sibling");
+    *name = slash ? slash + 1 : path;
+    if (!path) return true;
+    if (!**name || !strcmp(*name, ".") || !strcmp(*name, "..") || strchr(*name, '\\') || strlen(*name) > 255)
+        return node_fail(&node, err, GLINT_ERROR_FORMAT, "expected the path of a file, found \"%.100s\"", path);
+    char *from = file_beside(part->pack->manifest.path, path);
+    if (!from) return image_no_memory(&node, err);
+    bool ok = !access(from, R_OK) || node_fail(&node, err, GLINT_ERROR_IO, "%s cannot be read", from);
+    ok = ok && (!out || place_sibling(part, out, from, *name, err));
+    free(from);
+    return ok;
+}
+
+/* ---- Parts ---- */
+
+static struct part part_of(const struct pack *pack, const char *name) {
+    struct part part = {.pack = pack, .node = node_child(&pack->parts_node, name), .name = name};
+    part.role = role_of(name, &part.is_previous);
+    part.is_cube = part.role && part.role->shape == GLINT_SHAPE_CUBE;
+    return part;
+}
+
+static bool check_part(const struct part *part, uint32_t width, uint32_t height, struct glint_error *err) {
+    const struct node *node = &part->node;
+    const bool cubemap = part->role && !strcmp(part->role->name, "cubemap"),
+               planar = part->role && !strcmp(part->role->name, "planar");
+    if (!part->name[0] || strlen(part->name) > 255)
+        return node_fail(node, err, GLINT_ERROR_FORMAT, "expected a part's name of 1 to 255 bytes");
+    if (part->role && part->role->reserved)
+        return node_fail(node, err, GLINT_ERROR_FORMAT, "the role is reserved: %s", part->role->meaning);
+    if (cubemap != node_has(node, "cubemap") || planar != node_has(node, "planar"))
+        return node_fail(node, err, GLINT_ERROR_FORMAT, "expected %s, found %s",
+                         cubemap  ? "a cubemap with its center"
+                         : planar ? "a planar with its plane and camera"
+                                  : "neither cubemap nor planar, which belong to cubemap.NNN and planar.NNN",
+                         cubemap || planar ? "none or another" : "one");
+    if (part->role && part->role->shape == GLINT_SHAPE_FRAME && width &&
+        (part->width != width || part->height != height))
+        return node_fail(node, err, GLINT_ERROR_FORMAT, "expected %u x %u texels, as in gbuffer, found %u x %u", width,
+                         height, part->width, part->height);
+    return true;
+}
+
+static bool hand_over(struct glint_writer *writer, const struct part *part, struct glint_part *file,
+                      struct glint_error *err) {
+    struct glint_channel *channels = calloc(part->count + 1, sizeof *channels);
+    static const enum glint_type types[] = {GLINT_F16, GLINT_F32, GLINT_U32};
+    if (!channels) return image_no_memory(&part->node, err);
+    for (size_t i = 0; i < part->count; i++)
+        channels[i] = (struct glint_channel){.name = part->channels[i].name,
+                                             .type = types[part->channels[i].stored],
+                                             .data = part->channels[i].data,
+                                             .storage = part->channels[i].storage};
+    file->channels = channels;
+    file->channel_count = part->count;
+    const bool ok = glint_writer_add_part(writer, file, err) || node_wrap(&part->node, err);
+    free(channels);
+    return ok;
+}
+
+static bool add_part(struct pack *pack, struct part *part, struct glint_writer *writer, struct extras *extras,
+                     const char *out, struct glint_error *err) {
+    struct glint_cubemap cubemap = {.outdoor = false};
+    struct glint_planar planar = {.plane = {0}};
+    struct glint_part file = {.name = part->name};
+    struct glint_attribute *simple = NULL;
+    const struct glint_camera *camera = !pack->has_frame                  ? NULL
+                                        : node_has(&part->node, "planar") ? &planar.camera
+                                        : !part->is_previous              ? &pack->frame.camera
+                                        : pack->frame.has_previous        ? &pack->frame.previous
+                                                                          : NULL;
+    if (node_has(&part->node, "cubemap") && !cubemap_read(&part->node, &cubemap, err)) return false;
+    if (node_has(&part->node, "planar") && !planar_read(pack, &part->node, &planar, err)) return false;
+    if (!encodings_read(part, camera, err) || !channels_choose(part, err) ||
+        !read_sibling(part, out, &file.sibling, err) || !channels_convert(part, err))
+        return false;
+    bool ok = attributes_read(part, extras, &simple, &file.attribute_count, err);
+    file.width = part->width;
+    file.height = part->height;
+    file.encodings = part->encodings;
+    file.attributes = simple;
+    if (node_has(&part->node, "cubemap")) file.cubemap = &cubemap;
+    if (node_has(&part->node, "planar")) file.planar = &planar;
+    ok = ok && (part->role ? hand_over(writer, part, &file, err) : extras_add_part(extras, part, err));
+    free(simple);
+    return ok;
+}
+
+/* Moves a part; what points to its nodes follows. */
+static void take_part(struct part *to, struct part *from) {
+    *to = *from;
+    to->more.parent = &to->node;
+    for (size_t i = 0; i < to->count; i++)
+        to->channels[i].node.parent = to->channels[i].node.parent == &from->more ? &to->more : &to->node;
+    *from = (struct part){.width = from->width, .height = from->height};
+}
+
+static bool add_parts(struct pack *pack, struct part *gbuffer, struct glint_writer *writer, struct extras *extras,
+                      const char *out, struct glint_error *err) {
+    const size_t count = json_object_size(pack->parts_node.value);
+    size_t done = 0;
+    bool ok = true;
+    json_t *all = pack->parts_node.value;
+    for (void *at = json_object_iter(all); ok && at; at = json_object_iter_next(all, at)) {
+        struct part part = part_of(pack, json_object_iter_key(at));
+        const bool first = !strcmp(part.name, "gbuffer");
+        ok = report(pack, part.name, 0.9 * (double)done++ / (double)count, err);
+        if (first) take_part(&part, gbuffer);
+        else ok = ok && channels_read(pack, &part, err);
+        ok = ok && check_part(&part, gbuffer->width, gbuffer->height, err) &&
+             add_part(pack, &part, writer, extras, out, err);
+        channels_finish(&part);
+    }
+    return ok;
+}
+
+/* ---- The whole ---- */
+
+/* Parts that must be there, by the registry. A manifest without a frame makes a file of cube maps. */
+static bool check_roles(const struct pack *pack, struct glint_error *err) {
+    size_t count = 0;
+    const struct glint_role *roles = glint_roles(&count);
+    bool frame = node_has(&pack->root, "frame");
+    json_t *all = pack->parts_node.value;
+    for (void *at = json_object_iter(all); !frame && at; at = json_object_iter_next(all, at)) {
+        const struct node node = node_child(&pack->parts_node, json_object_iter_key(at));
+        if (strncmp(node.key, "cubemap.", 8))
+            return node_fail(&pack->root, err, GLINT_ERROR_FORMAT,
+                             "frame is missing, which only a file of cube maps does without: %s",
+                             pack_key(pack_objects, "frame")->meaning);
+    }
+    for (size_t i = 0; frame && i < count; i++)
+        if (roles[i].required && !node_has(&pack->parts_node, roles[i].name))
+            return node_fail(&pack->parts_node, err, GLINT_ERROR_FORMAT, "%s is missing: %s", roles[i].name,
+                             roles[i].meaning);
+    return json_object_size(all) > 0 ||
+           node_fail(&pack->parts_node, err, GLINT_ERROR_FORMAT, "expected parts, found none");
+}
+
+/* OpenEXR refuses files whose parts differ in these. */
+static bool check_shared(const struct pack *pack, struct glint_error *err) {
+    static const char *const names[] = {"chromaticities", "timeCode"};
+    json_t *all = pack->parts_node.value, *first = NULL;
+    for (size_t n = 0; n < sizeof names / sizeof *names; n++)
+        for (void *at = json_object_iter(all); at; at = json_object_iter_next(all, at)) {
+            const struct node part = node_child(&pack->parts_node, json_object_iter_key(at)),
+                              attributes = node_child(&part, "attributes");
+            json_t *own = json_object_get(attributes.value, names[n]);
+            if (at == json_object_iter(all)) first = own;
+            if (own != first && (!own || !first || !json_equal(own, first)))
+                return node_fail(&attributes, err, GLINT_ERROR_FORMAT,
+                                 "expected the same %s in all parts, as OpenEXR wants it, found another or none",
+                                 names[n]);
+        }
+    return true;
+}
+
+/* Whether something is there that the writer does not take. */
+static bool needs_extras(const struct pack *pack) {
+    json_t *parts = pack->parts_node.value;
+    bool previous;
+    for (void *at = json_object_iter(parts); at; at = json_object_iter_next(parts, at)) {
+        json_t *attributes = json_object_get(json_object_iter_value(at), "attributes");
+        if (!role_of(json_object_iter_key(at), &previous)) return true;
+        for (void *a = json_object_iter(attributes); a; a = json_object_iter_next(attributes, a))
+            if (json_is_object(json_object_iter_value(a))) return true;
+    }
+    return false;
+}
+
+static bool is_input(const struct pack *pack, const char *out, const char *name) {
+    char *path = file_beside(pack->manifest.path, name);
+    const bool same = path && file_same(path, out);
+    free(path);
+    return same;
+}
+
+static bool check_output(const struct pack *pack, const char *out, struct glint_error *err) {
+    json_t *textures = pack->textures_node.value, *parts = pack->parts_node.value;
+    bool same = file_same(pack->manifest.path, out);
+    for (void *at = json_object_iter(textures); at; at = json_object_iter_next(textures, at)) {
+        const json_t *texture = json_object_iter_value(at), *files = json_object_get(texture, "files"),
+                     *file = json_object_get(texture, "file");
+        for (size_t i = 0; i < json_array_size(files); i++)
+            same = same || is_input(pack, out, json_string_value(json_array_get(files, i)));
+        if (!files) same = same || is_input(pack, out, file ? json_string_value(file) : json_object_iter_key(at));
+    }
+    for (void *at = json_object_iter(parts); at; at = json_object_iter_next(parts, at)) {
+        const char *sibling = json_string_value(json_object_get(json_object_iter_value(at), "sibling"));
+        same = same || (sibling && is_input(pack, out, sibling));
+    }
+    return !same || glint_fail(err, GLINT_ERROR_USAGE, "%s is an input: expected another output", out);
+}
+
+static bool write_all(struct pack *pack, struct part *gbuffer, const char *out, struct glint_error *err) {
+    const bool twice = needs_extras(pack);
+    const size_t length = out ? strlen(out) + 40 : 40;
+    char *first = malloc(length);
+    struct extras *extras = extras_create();
+    if (first) snprintf(first, length, twice ? "%s.first-%ld" : "%s", out ? out : "capture", (long)getpid());
+    const struct glint_writer_options options = {.threads = pack->options.threads};
+    struct glint_writer *writer = first && extras ? glint_writer_create(first, &options, err) : NULL;
+    bool ok = writer || (first && extras) || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    if (ok && writer && pack->has_frame)
+        ok = glint_writer_set_frame(writer, &pack->frame, err) || node_wrap(&pack->frame_node, err);
+    ok = ok && writer && add_parts(pack, gbuffer, writer, extras, out, err);
+    if (ok) textures_note(pack);
+    if (ok && out) {
+        ok = report(pack, "write", 0.9, err) &&
+             (glint_writer_finish(writer, err) || node_wrap(&pack->parts_node, err)) &&
+             (!twice || extras_write(extras, first, out, pack->options.threads, err));
+        if (twice) unlink(first);
+    }
+    glint_writer_destroy(&writer);
+    extras_destroy(&extras);
+    free(first);
+    return ok;
+}
+
+static bool pack_opened(struct pack *pack, const char *out, struct glint_error *err) {
+    pack->root = node_root(&pack->manifest);
+    pack->textures_node = node_child(&pack->root, "textures");
+    pack->parts_node = node_child(&pack->root, "parts");
+    pack->frame_node = node_child(&pack->root, "frame");
+    if (!check_roles(pack, err) || !check_shared(pack, err) || (out && !check_output(pack, out, err)) ||
+        !textures_prepare(pack, err))
+        return false;
+    struct part gbuffer = part_of(pack, "gbuffer");
+    bool ok = true;
+    if (pack->frame_node.value)
+        ok = channels_read(pack, &gbuffer, err) && frame_read(pack, gbuffer.width, gbuffer.height, err);
+    ok = ok && write_all(pack, &gbuffer, out, err);
+    channels_finish(&gbuffer);
+    return ok;
+}
+
+bool glint_pack(const char *manifest, const char *out, const struct glint_pack_options *options,
+                struct glint_error *err) {
+    struct pack pack = {.has_frame = false};
+    struct glint_error own = {0};
+    if (!err) err = &own; /* messages of what lies below are put together with lines */
+    if (options) pack.options = *options;
+    const bool ok = manifest_open(&pack.manifest, manifest, err) && pack_opened(&pack, out, err);
+    textures_finish(&pack);
+    manifest_close(&pack.manifest);
+    return ok;
+}

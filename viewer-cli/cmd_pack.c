@@ -1,0 +1,106 @@
+/* glint pack: a capture from loose textures and a manifest. */
+#include <string.h>
+
+#include "glint/pack.h"
+#include "io/pipe.h"
+#include "io/progress.h"
+#include "io/table.h"
+#include "options/args.h"
+
+enum { KEY_PROGRESS = 256 };
+
+struct arguments {
+    const char *manifest, *out;
+    bool explain;
+    uint32_t jobs;
+    bool lines;
+};
+
+static const struct argp_option options[] = {
+    {"output", 'o', "FILE", 0, "Capture to write, or - for stdout", 0},
+    {"explain", 'e', NULL, 0, "Print everything as it was understood, defaults included, and write nothing", 0},
+    {"jobs", 'j', "N", 0, "Number of threads (default: one per core)", 0},
+    PROGRESS_OPTION,
+    {0},
+};
+static const struct example examples[] = {
+    {"glint pack frame.json --explain", "reads and checks everything, and prints what was understood"},
+    {"glint pack frame.json -o frame.exr", "writes the capture, and prints each default that it used"},
+    {"glint extract street.exr -o street", "shows a manifest: that of a capture"},
+    {0},
+};
+
+extern const struct command cmd_pack;
+
+static error_t cmd_pack_parse(int key, char *arg, struct argp_state *state) {
+    struct arguments *a = state->input;
+    switch (key) {
+    case 'o':
+        a->out = arg;
+        return 0;
+    case 'e':
+        a->explain = true;
+        return 0;
+    case 'j':
+        a->jobs = arg_uint("jobs", arg, 1, 1024, state);
+        return 0;
+    case KEY_PROGRESS:
+        a->lines = true;
+        return 0;
+    case ARGP_KEY_ARG:
+        if (a->manifest) argp_error(state, "expected one manifest, found %s and %s", a->manifest, arg);
+        a->manifest = arg;
+        return 0;
+    case ARGP_KEY_END:
+        if (!a->manifest) argp_error(state, "no manifest given");
+        if (!a->explain == !a->out) argp_error(state, "expected -o FILE or --explain");
+        return 0;
+    }
+    return ARGP_ERR_UNKNOWN;
+}
+
+/* Without --explain, what was said needs no repetition. */
+static void on_note(void *user, enum glint_pack_note kind, const char *key, const char *text) {
+    const struct arguments *a = user;
+    char line[1600];
+    if (kind == GLINT_PACK_SAID && !a->explain) return;
+    snprintf(line, sizeof line, "%s: %s", key, text);
+    text_clean(line);
+    if (a->explain) printf("%s\n", line);
+    else command_note(&cmd_pack, "%s", line);
+}
+
+static enum status cmd_pack_run(int argc, char **argv) {
+    struct arguments a = {0};
+    struct progress progress = {0};
+    struct pipe pipe = {.path = ""};
+    struct glint_error err = {0};
+    command_parse(&cmd_pack, argc, argv, &a);
+    progress.lines = a.lines;
+    const char *out = a.out ? pipe_output(&pipe, a.out, &err) : NULL;
+    if (a.out && !out) return command_fail(&cmd_pack, &err);
+    progress_begin(&progress);
+    const struct glint_pack_options pack = {
+        .threads = a.jobs, .note = on_note, .note_user = &a, .progress = progress_report, .progress_user = &progress};
+    bool ok = glint_pack(a.manifest, out, &pack, &err);
+    progress_end(&progress);
+    ok = ok && (!a.out || pipe_output_flush(&pipe, &err));
+    pipe_finish(&pipe);
+    return ok ? STATUS_DONE : command_fail(&cmd_pack, &err);
+}
+
+const struct command cmd_pack = {
+    .name = "pack",
+    .arguments = "MANIFEST",
+    .summary = "make a capture of loose textures",
+    .description =
+        "Makes a capture of the textures that an engine dumped, raw memory or image files, and of a JSON file, the "
+        "manifest, which says how to read them: formats by their Vulkan or Direct3D names, row pitch, swizzle, "
+        "cube-map "
+        "faces, camera matrices in any order. Everything that the manifest leaves unsaid has a default, which is "
+        "printed. Errors name the manifest's line and key. docs/pack.md describes the manifest.",
+    .options = options,
+    .parse = cmd_pack_parse,
+    .examples = examples,
+    .run = cmd_pack_run,
+};
