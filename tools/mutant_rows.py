@@ -60,8 +60,8 @@ HARMLESS = {
     ("prepare/downsample/pick.comp", "float depth_m = texelFetch(depth_full, min(block + ivec2(i & 1, i >> 1), last), 0).x;",
      "float depth_m = texelFetch(depth_full, (block + ivec2(i & 1, i >> 1)), 0).x;"):
         "choose() ignores pixels outside of the picture, whatever was fetched there",
-    ("reflection/resolve/blurred.comp", "vec2 place = uv + at * radius / vec2(frame.size.xy);",
-     "vec2 place = uv - at * radius / vec2(frame.size.xy);"): "the taps are symmetric about the middle",
+    ("reflection/resolve/blurred.comp", "precise vec2 place = uv + vec2(2 * ivec2(i % taps, i / taps) + 1 - taps) * apart;",
+     "precise vec2 place = uv - vec2(2 * ivec2(i % taps, i / taps) + 1 - taps) * apart;"): "the taps are symmetric about the middle",
     ("reflection/screen_trace/linear.glsl", "if (verify) result.fetches++;", "if (false) result.fetches++;"): COUNT,
     ("reflection/screen_trace/hiz.comp", "int coarsest_level() { return max(findMSB(min(frame.size.z, frame.size.w)) - 2, 0); }",
      "int coarsest_level() { return (findMSB(min(frame.size.z, frame.size.w)) - 2); }"):
