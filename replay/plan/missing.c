@@ -26,7 +26,7 @@ bool glint_capture_lacks(const struct glint_capture *capture, const struct glint
 }
 
 /* Whether any pass says what it does without an image. */
-static bool is_told(const char *image) {
+static bool is_declared(const char *image) {
     size_t count;
     const struct glint_pass *all = glint_passes(&count);
     for (size_t i = 0; i < count; i++)
@@ -36,10 +36,10 @@ static bool is_told(const char *image) {
 
 /* Where passes say what they do without an image, it matters to these alone: others bind it because their slot does. */
 static bool matters(const struct graph *graph, const struct glint_row *image) {
-    bool told = false;
+    bool declared = false;
     for (size_t p = 0; p < graph->pass_count; p++)
-        told |= graph->passes[p].runs && glint_pass_row(graph->passes[p].pass, GLINT_ROW_WITHOUT, image->name);
-    return told || !is_told(image->name);
+        declared |= graph->passes[p].runs && glint_pass_row(graph->passes[p].pass, GLINT_ROW_WITHOUT, image->name);
+    return declared || !is_declared(image->name);
 }
 
 static bool is_read(const struct graph *graph, const struct glint_absence *absence) {

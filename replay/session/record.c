@@ -72,10 +72,12 @@ static bool makes_diagnostics(const struct run *run) {
 /* What the capture does not have and what that costs; images of which nothing is known hold their fallback value. */
 static void warn_of_missing(const struct glint_replay *replay, const struct run *run, json_t *list) {
     size_t count;
-    const struct glint_absence *all = glint_absences(&count), *missing;
-    for (size_t i = 0; (missing = glint_replay_missing(replay, i)) != NULL; i++)
+    const struct glint_absence *all = glint_absences(&count);
+    for (size_t i = 0; i < replay->missing_count; i++) {
+        const struct glint_absence *missing = replay->missing[i];
         json_array_append_new(list, json_sprintf("the capture has no %s%s%s: %s", missing->role,
                                                  missing->channels[0] ? ":" : "", missing->channels, missing->cost));
+    }
     for (size_t i = 0; i < run->graph->image_count; i++) {
         const struct graph_image *image = &run->graph->images[i];
         bool known = false;
