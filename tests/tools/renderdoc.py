@@ -287,6 +287,7 @@ class Tests:
                 ("passes/geometry", {}, ["passes.geometry.pick: 3 passes fit: pass 0 (event 6), pass 1 (event 10)"]),
                 ("passes/geometry", {"pick": 3}, ["passes.geometry.pick: expected only, first, last or a number from 0 to 2, found 3"]),
                 ("passes/geometry/outputs", ["R16G16_FLOAT"], ["passes.geometry.outputs", "writes R8G8B8A8_UNORM, R8G8B8A8_UNORM"]),
+                ("passes/combine/cube_samplers", ["albedo_map"], ["passes.combine.cube_samplers: expected albedo_map", "has no cube map albedo_map"]),
                 ("images/zs/pass", "combin", ["images.zs.pass: expected a pass of this mapping, found combin; did you mean combine?"]),
                 ("images/zs/sampler", "depth", ["images.zs.sampler: pass 2 (event 20) reads no depth; did you mean depth_map?"]),
                 ("images/zs", {"pass": "combine"}, ["images.zs: expected one of sampler, output, depth, storage_image, found none"]),

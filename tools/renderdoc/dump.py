@@ -8,7 +8,7 @@ A mapping is a JSON file of data (mapping.schema.json completes it in an editor;
 
   passes     names for passes, each found by what its shader reads and writes:
                "combine": {"samplers": ["diffuse_map", "ssao_tex"], "pick": "last"}
-             samplers, not_samplers, outputs (formats), output_names, constants, depth (format), size, kind, draws_at_least,
+             samplers, not_samplers, cube_samplers, outputs (formats), output_names, constants, depth (format), size, kind, draws_at_least,
              reads_output_of (a pass above); pick is only (the default: another one that fits is an error), first, last or a number
   images     what a pass reads or writes, as it is after the pass's last draw (targets are used again later in the frame):
                "normal": {"pass": "combine", "sampler": "normal_color"}, "color": {"pass": "combine", "output": 0},

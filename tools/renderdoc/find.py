@@ -1,7 +1,7 @@
 """Finds a frame's passes by what their shaders read and write, in the list that list_passes.py prints."""
 from expressions import suggest
 
-KEYS = {"samplers", "not_samplers", "outputs", "output_names", "constants", "depth", "size", "kind", "draws_at_least", "reads_output_of", "pick", "comment"}
+KEYS = {"samplers", "not_samplers", "cube_samplers", "outputs", "output_names", "constants", "depth", "size", "kind", "draws_at_least", "reads_output_of", "pick", "comment"}
 
 
 class FindError(Exception):
@@ -46,6 +46,9 @@ def lacks(entry, rule, found):
     extra = [s for s in rule.get("not_samplers", []) if s in have]
     if extra:
         yield "not_samplers", "has the sampler " + ", ".join(extra), len(extra)
+    flat = [s for s in rule.get("cube_samplers", []) if not (have.get(s) or {}).get("cube")]
+    if flat:
+        yield "cube_samplers", "has no cube map " + ", ".join(flat), len(flat)
     formats = [format_of(o) for o in entry["outputs"]]
     wanted = rule.get("outputs", [])
     if len(formats) < len(wanted) or any(w is not None and w != f for w, f in zip(wanted, formats)):
