@@ -6,12 +6,10 @@
 Starts PROGRAM with RenderDoc injected, waits until it is where the frame is wanted, takes the frames, copies them to DIR as
 NAME_0.rdc, NAME_1.rdc, … in the order in which they were drawn, and ends the program. A DISPLAY must be set; Xvfb's is enough.
 
-The moment is described by the program's own output: --output says where it goes (or where the program writes its log), --wait-for is a
-regular expression that it must contain, and --delay counts seconds from there. --repeat takes several moments, --every seconds apart.
+Moments are numbers of frames: --at 150,200 takes the 150th frame that the program shows and those after it, then the 200th.
 """
 import argparse
 import os
-import re
 import shlex
 import signal
 import sys
@@ -26,18 +24,16 @@ def read_arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("-o", dest="folder", required=True, help="folder of the captures")
     parser.add_argument("--name", default="frame", help="start of the captures' names (default frame)")
-    parser.add_argument("--frames", type=int, default=2, help="consecutive frames at each moment (default 2: a frame and its previous one)")
-    parser.add_argument("--log", help="file to which the program writes its log; watched by --wait-for")
-    parser.add_argument("--wait-for", help="regular expression that the log must contain first")
-    parser.add_argument("--delay", type=float, default=0, help="seconds from there to the first capture")
-    parser.add_argument("--repeat", type=int, default=1, help="number of moments")
-    parser.add_argument("--every", type=float, default=60, help="seconds between moments (default 60)")
+    parser.add_argument("--frames", type=int, default=2, help="consecutive frames of each moment (default 2: a frame and its previous one)")
+    parser.add_argument("--at", default="100", help="numbers of frames, with commas: the first of each moment (default 100)")
     parser.add_argument("--timeout", type=float, default=3600, help="seconds after which to give up (default 3600)")
     parser.add_argument("--module", default="", help="folder of renderdoc.so, where Python does not find it by itself")
     parser.add_argument("program", nargs="+", help="program and its arguments, after --")
     arguments = parser.parse_args()
-    if arguments.wait_for and not arguments.log:
-        parser.error("--wait-for needs --log")
+    try:
+        arguments.at = sorted(int(number) for number in arguments.at.split(","))
+    except ValueError:
+        parser.error(f"--at: expected numbers with commas between them, found {arguments.at}")
     return arguments
 
 
@@ -80,26 +76,12 @@ class Target:
                 stop(f"gave up after --timeout; {self.reason}")
         return found
 
-    def take(self, frames):
-        self.control.TriggerCapture(frames)
-        taken = []
-        while len(taken) < frames:
-            taken += self.messages(1)
-        return sorted(taken, key=lambda c: c.frameNumber)
-
-
-def wait_for(target, arguments):
-    if not arguments.wait_for:
-        return
-    pattern = re.compile(arguments.wait_for)
-    while True:
-        target.messages(2)
+    def end(self):
         try:
-            with open(arguments.log, encoding="utf-8", errors="replace") as log:
-                if pattern.search(log.read()):
-                    return
-        except FileNotFoundError:
-            pass
+            os.kill(self.pid, signal.SIGKILL)
+        except ProcessLookupError:
+            pass  # it ended by itself
+        self.control.Shutdown()
 
 
 def main():
@@ -110,26 +92,20 @@ def main():
         sys.path.insert(0, arguments.module)
     import renderdoc as rd
     os.makedirs(arguments.folder, exist_ok=True)
-    if arguments.log and os.path.exists(arguments.log):
-        os.remove(arguments.log)  # what an earlier run said is no answer
     start = time.monotonic()
     target = Target(rd, arguments, start + arguments.timeout)
     number = 0
     try:
-        wait_for(target, arguments)
-        print(f"{time.monotonic() - start:.0f} s: the program is there", flush=True)
-        target.messages(arguments.delay)
-        for moment in range(arguments.repeat):
-            if moment:
-                target.messages(arguments.every)
-            for capture in target.take(arguments.frames):
+        for first in arguments.at:
+            target.control.QueueCapture(first, arguments.frames)
+        while number < len(arguments.at) * arguments.frames:
+            for capture in sorted(target.messages(1), key=lambda c: c.frameNumber):
                 path = os.path.join(arguments.folder, f"{arguments.name}_{number}.rdc")
                 os.replace(capture.path, path)
                 number += 1
                 print(f"{time.monotonic() - start:.0f} s: frame {capture.frameNumber}: {path}, {os.path.getsize(path) / 1e6:.0f} MB", flush=True)
     finally:
-        os.kill(target.pid, signal.SIGKILL)
-        target.control.Shutdown()
+        target.end()
 
 
 if __name__ == "__main__":

@@ -1,0 +1,152 @@
+"""Frames of real engines, from their start to glint's replay: engines.py GLINT FOLDER [--pictures DOCS]. Run by ./dev engines.
+
+Finished steps stay in FOLDER and are not repeated; delete a step's result to do it again. Game data and captures are only there."""
+import argparse
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import time
+
+HERE = pathlib.Path(__file__).resolve().parent
+PYTHON = "/usr/bin/python3"  # Debian's own, for which its RenderDoc module is built
+DISPLAY = ":87"
+PRESETS = ("kf2", "mafia3")
+
+# SuperTuxKart's settings. Its shaders are compiled for llvmpipe, which has no texture compression worth its time.
+SETTINGS = """<?xml version="1.0"?>
+<stkconfig version="8">
+    <Video width="640" height="360" real_width="640" real_height="360" fullscreen="false" enable_texture_compression="false"
+           enable_high_definition_textures="2" max_texture_size="512" hq_mipmap="true" enable_dynamic_lights="true" scale_rtts_factor="1.0"
+           enable_glow="false" enable_bloom="false" enable_light_shaft="false" enable_dof="false" old_driver_popup="false" render_driver="gl"/>
+    <GFX particles-effecs="0" animated-characters="true" geometry_level="0" anisotropic="4" swap-interval="0" motionblur_enabled="false"
+         mlaa="false" ssao="true" light_scatter="true" shadows_resolution="0" Degraded_IBL="false"/>
+</stkconfig>
+"""
+GAME = ["/usr/games/supertuxkart", "--windowed", "--race-now", "--track=candela_city", "--numkarts=4", "--profile-laps=3", "--seed=1"]
+FRAME = 100  # the first of two; by then the race has begun
+
+
+class Steps:
+    """Runs what is not done yet, and remembers how long each step took."""
+
+    def __init__(self, folder):
+        self.folder, self.path = folder, folder / "times.json"
+        self.times = json.loads(self.path.read_text()) if self.path.exists() else {}
+
+    def do(self, name, results, work):
+        results = [self.folder / r for r in results]
+        if all(r.exists() for r in results):
+            print(f"{name}: done before", flush=True)
+            return
+        print(f"{name} …", flush=True)
+        start = time.monotonic()
+        work()
+        missing = [str(r) for r in results if not r.exists()]
+        if missing:
+            sys.exit(f"engines.py: {name} left no {', '.join(missing)}")
+        self.times[name] = round(time.monotonic() - start, 1)
+        self.path.write_text(json.dumps(self.times, indent=1) + "\n")
+        print(f"{name}: {self.times[name]:.0f} s", flush=True)
+
+
+def call(*command, into=None, **options):
+    """Runs a program at the lowest priority; its words go to a file, and are shown where it fails."""
+    log = open(into, "w", encoding="utf-8") if into else None
+    run = subprocess.run(["nice", "-n", "19", *map(str, command)], stdout=log, stderr=subprocess.STDOUT if into else None, **options)
+    if log:
+        log.close()
+    if run.returncode:
+        if into:
+            with open(into, encoding="utf-8", errors="replace") as text:
+                print("".join(text.readlines()[-20:]), file=sys.stderr)
+        sys.exit(f"engines.py: {command[0]} ended with {run.returncode}" + (f"; see {into}" if into else ""))
+
+
+def environment(home):
+    return dict(os.environ, DISPLAY=DISPLAY, HOME=str(home), XDG_CONFIG_HOME=str(home / "config"), XDG_DATA_HOME=str(home / "data"),
+                XDG_CACHE_HOME=str(home / "cache"), SDL_AUDIODRIVER="dummy", ALSOFT_DRIVERS="null", LIBGL_ALWAYS_SOFTWARE="1",
+                LP_NUM_THREADS="0", PYTHONDONTWRITEBYTECODE="1")
+
+
+def with_display(work):
+    """Does the work while a display without a screen runs."""
+    server = subprocess.Popen(["Xvfb", DISPLAY, "-screen", "0", "640x360x24", "-nolisten", "tcp"], stderr=subprocess.DEVNULL)
+    try:
+        for _ in range(100):
+            if os.path.exists(f"/tmp/.X11-unix/X{DISPLAY[1:]}") or server.poll() is not None:
+                break
+            time.sleep(0.1)
+        if server.poll() is not None:
+            sys.exit(f"engines.py: Xvfb {DISPLAY} ended at once; does another one run?")
+        work()
+    finally:
+        server.terminate()
+        server.wait()
+
+
+def capture(folder):
+    home, taken = folder / "home", folder / "taken"
+    settings = home / "config/supertuxkart/config-0.10"
+    settings.mkdir(parents=True, exist_ok=True)
+    (settings / "config.xml").write_text(SETTINGS)
+    shutil.rmtree(taken, ignore_errors=True)
+    call(PYTHON, HERE / "renderdoc/capture.py", "-o", taken, "--at", FRAME, "--frames", 2, "--timeout", 3 * 3600, "--", *GAME,
+         into=folder / "game.log", env=environment(home))
+    for number in (0, 1):
+        os.replace(taken / f"frame_{number}.rdc", folder / f"frame_{number}.rdc")
+
+
+def dump(folder):
+    shutil.rmtree(folder / "dump", ignore_errors=True)
+    call(PYTHON, HERE / "renderdoc/dump.py", folder / "frame_1.rdc", HERE / "renderdoc/supertuxkart.json", "-o", folder / "dump",
+         "--passes", folder / "passes_1.json", "--previous", folder / "frame_0.rdc", "--previous-passes", folder / "passes_0.json",
+         into=folder / "dump.log", env=environment(folder / "home"))
+
+
+def supertuxkart(glint, folder):
+    folder.mkdir(parents=True, exist_ok=True)
+    steps = Steps(folder)
+    steps.do("capture", ["frame_0.rdc", "frame_1.rdc"], lambda: with_display(lambda: capture(folder)))
+    for number in (0, 1):
+        steps.do(f"passes of frame {number}", [f"passes_{number}.json"], lambda: with_display(lambda: (
+            call(PYTHON, HERE / "renderdoc/list_passes.py", folder / f"frame_{number}.rdc", "--json", "-o", folder / "passes.new",
+                 into=folder / "passes.log", env=environment(folder / "home")),
+            os.replace(folder / "passes.new", folder / f"passes_{number}.json"))))
+    steps.do("map", ["dump/manifest.json"], lambda: with_display(lambda: dump(folder)))
+    steps.do("pack", ["frame.exr"], lambda: call(glint, "pack", folder / "dump/manifest.json", "-o", folder / "frame.exr", into=folder / "pack.log"))
+    steps.do("validate", ["validate.txt"], lambda: call(glint, "validate", folder / "frame.exr", into=folder / "validate.txt"))
+    steps.do("lint", ["lint.txt"], lambda: call(glint, "lint", folder / "frame.exr", into=folder / "lint.txt"))
+    steps.do("info", ["info.txt"], lambda: call(glint, "info", folder / "frame.exr", into=folder / "info.txt"))
+    for preset in PRESETS:
+        steps.do(f"replay with {preset}", [f"{preset}/run.json"], lambda: call(
+            glint, "replay", folder / "frame.exr", "-p", preset, "-o", folder / preset, "--diagnostics", into=folder / f"{preset}.txt"))
+
+
+def pictures(glint, folder, docs):
+    """The game's picture and glint's, and the reflections alone, at four times the exposure (the frame is of a night)."""
+    shown = {"own": ("frame.exr", "--part", "scene"), "own-reflection": ("frame.exr", "--part", "engine.upscale.reflection")}
+    for preset in PRESETS:
+        shown[preset] = (preset, "--image", "composed")
+        shown[f"{preset}-reflection"] = (preset, "--image", "reflection")
+    for name, (source, *options) in shown.items():
+        call(glint, "view", folder / source, *options, "--no-legend", "--exposure", "2", "-o", folder / f"{name}.png")
+        call("oiiotool", folder / f"{name}.png", "--ch", "R,G,B", "--compression", "jpeg:85", "-o", docs / f"engines-stk-{name}.jpg")
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("glint", type=lambda p: pathlib.Path(p).resolve())
+    parser.add_argument("folder", type=lambda p: pathlib.Path(p).resolve())
+    parser.add_argument("--pictures", type=pathlib.Path, help="write the pictures of docs/engines.md to this folder")
+    arguments = parser.parse_args()
+    supertuxkart(arguments.glint, arguments.folder / "supertuxkart")
+    if arguments.pictures:
+        pictures(arguments.glint, arguments.folder / "supertuxkart", arguments.pictures)
+    print(f"captures, logs, times.json and runs: {arguments.folder}")
+
+
+if __name__ == "__main__":
+    main()
