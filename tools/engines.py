@@ -65,6 +65,12 @@ def call(*command, into=None, **options):
         sys.exit(f"engines.py: {command[0]} ended with {run.returncode}" + (f"; see {into}" if into else ""))
 
 
+def say(path, *command):
+    """What a program says becomes a file, once it has ended well."""
+    call(*command, into=path.with_suffix(".new"))
+    os.replace(path.with_suffix(".new"), path)
+
+
 def environment(home):
     return dict(os.environ, DISPLAY=DISPLAY, HOME=str(home), XDG_CONFIG_HOME=str(home / "config"), XDG_DATA_HOME=str(home / "data"),
                 XDG_CACHE_HOME=str(home / "cache"), SDL_AUDIODRIVER="dummy", ALSOFT_DRIVERS="null", LIBGL_ALWAYS_SOFTWARE="1",
@@ -117,9 +123,9 @@ def supertuxkart(glint, folder):
             os.replace(folder / "passes.new", folder / f"passes_{number}.json"))))
     steps.do("map", ["dump/manifest.json"], lambda: with_display(lambda: dump(folder)))
     steps.do("pack", ["frame.exr"], lambda: call(glint, "pack", folder / "dump/manifest.json", "-o", folder / "frame.exr", into=folder / "pack.log"))
-    steps.do("validate", ["validate.txt"], lambda: call(glint, "validate", folder / "frame.exr", into=folder / "validate.txt"))
-    steps.do("lint", ["lint.txt"], lambda: call(glint, "lint", folder / "frame.exr", into=folder / "lint.txt"))
-    steps.do("info", ["info.txt"], lambda: call(glint, "info", folder / "frame.exr", into=folder / "info.txt"))
+    steps.do("validate", ["validate.txt"], lambda: say(folder / "validate.txt", glint, "validate", folder / "frame.exr"))
+    steps.do("lint", ["lint.txt"], lambda: say(folder / "lint.txt", glint, "lint", folder / "frame.exr"))
+    steps.do("info", ["info.txt"], lambda: say(folder / "info.txt", glint, "info", folder / "frame.exr"))
     for preset in PRESETS:
         steps.do(f"replay with {preset}", [f"{preset}/run.json"], lambda: call(
             glint, "replay", folder / "frame.exr", "-p", preset, "-o", folder / preset, "--diagnostics", into=folder / f"{preset}.txt"))

@@ -319,6 +319,23 @@ class Tests:
                 else:
                     raise AssertionError(f"{text} was accepted")
 
+    def test_supertuxkarts_mapping_finds_its_passes(self):
+        """In the list that list_passes.py wrote of a frame of the game, without the constants of most passes."""
+        with open(os.path.join(ROOT, "tests/tools/supertuxkart_passes.json"), encoding="utf-8") as text:
+            recorded = json.load(text)
+        source = type("Recorded", (), {"api": recorded["api"], "passes": recorded["passes"]})
+        frame = mapping.Frame(mapping.load(os.path.join(ROOT, "tools/renderdoc/supertuxkart.json")), source)
+        equal({name: entry["last_event"] for name, entry in frame.found.items()}, {"reflection": 1248, "combine": 1417, "sky": 1427, "tonemap": 1657})
+        formats = {name: frame.texture_of(name)[1]["format"]["name"] for name in frame.mapping["images"]}
+        equal(formats["depth_stencil"], "D24S8")
+        equal((formats["diffuse"], formats["specular"]), ("R11G11B10_FLOAT", "R11G11B10_FLOAT"))
+        equal(frame.texture_of("sky_box")[1]["cube"], True)
+        equal([frame.rows(name, frame.texture_of(name)[1]) for name in ("color", "sky_box")], ["bottom_first", "top_first"])
+        view, projection = frame.constant("view"), frame.constant("projection")
+        if not np.allclose(view[:3, :3] @ view[:3, :3].T, np.eye(3), atol=1e-5) or not np.array_equal(view[3], [0, 0, 0, 1]):
+            raise AssertionError(f"u_view_matrix is no rotation and translation of column vectors: {view}")
+        equal(projection[3].tolist(), [0, 0, 1, 0])
+
     def test_schema_has_the_keys_that_are_accepted(self):
         with open(os.path.join(ROOT, "tools/renderdoc/mapping.schema.json"), encoding="utf-8") as text:
             schema = json.load(text)
