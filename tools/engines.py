@@ -132,14 +132,14 @@ def supertuxkart(glint, folder):
 
 
 def pictures(glint, folder, docs):
-    """The game's picture and glint's, and the reflections alone, at four times the exposure (the frame is of a night)."""
-    shown = {"own": ("frame.exr", "--part", "scene"), "own-reflection": ("frame.exr", "--part", "engine.upscale.reflection")}
+    """The game's picture and glint's, and the reflections alone, two stops brighter (it is night); one sheet."""
+    shown = [(folder / "frame.exr", "--part", "scene"), (folder / "frame.exr", "--part", "engine.upscale.reflection")]
     for preset in PRESETS:
-        shown[preset] = (preset, "--image", "composed")
-        shown[f"{preset}-reflection"] = (preset, "--image", "reflection")
-    for name, (source, *options) in shown.items():
-        call(glint, "view", folder / source, *options, "--no-legend", "--exposure", "2", "-o", folder / f"{name}.png")
-        call("oiiotool", folder / f"{name}.png", "--ch", "R,G,B", "--compression", "jpeg:85", "-o", docs / f"engines-stk-{name}.jpg")
+        shown += [(folder / preset, "--image", "composed"), (folder / preset, "--image", "reflection")]
+    tiles = [folder / f"picture-{i}.png" for i in range(len(shown))]
+    for tile, what in zip(tiles, shown):
+        call(glint, "view", *what, "--no-legend", "--exposure", "2", "-o", tile)
+    call("oiiotool", *tiles, "--mosaic:pad=4", f"2x{len(shown) // 2}", "--ch", "R,G,B", "--compression", "jpeg:82", "-o", docs / "engines-supertuxkart.jpg")
 
 
 def main():

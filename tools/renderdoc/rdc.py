@@ -153,12 +153,15 @@ class Capture:
                                        ("storage", reflection.readWriteResources, state.GetReadWriteResources(stage))):
             points = state.GetBindpointMapping(stage)
             points = points.readOnlyResources if kind == "sampled" else points.readWriteResources
-            by_point = {(b.bindPoint.bindset, b.bindPoint.bind): b for b in bound}
+            by_point = {}  # OpenGL's atomic counters, buffers and images share numbers: only textures count
+            for array in bound:
+                if array.resources and int(array.resources[0].resourceId) in self.textures:
+                    by_point.setdefault((array.bindPoint.bindset, array.bindPoint.bind), array)
             for resource in resources:
                 point = points[resource.bindPoint]
                 array = by_point.get((point.bindset, point.bind))
                 samplers.append({"name": resource.name, "access": kind,
-                                 "texture": self.bound(array.resources[0]) if array and array.resources else None})
+                                 "texture": self.bound(array.resources[0]) if array else None})
         return {"samplers": samplers, "outputs": [o.varName or o.semanticName for o in reflection.outputSignature],
                 "blocks": [self.block(state, stage, reflection, i) for i in range(len(reflection.constantBlocks))]}
 
