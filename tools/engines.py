@@ -12,8 +12,7 @@ import time
 
 HERE = pathlib.Path(__file__).resolve().parent
 PYTHON = "/usr/bin/python3"  # Debian's own, for which its RenderDoc module is built
-DISPLAY = ":87"
-PRESETS = ("kf2", "mafia3")
+DISPLAY = f":{os.environ.get('GLINT_ENGINES_DISPLAY', 87)}"
 
 # SuperTuxKart's settings. Its shaders are compiled for llvmpipe, which has no texture compression worth its time.
 SETTINGS = """<?xml version="1.0"?>
@@ -25,8 +24,12 @@ SETTINGS = """<?xml version="1.0"?>
          mlaa="false" ssao="true" light_scatter="true" shadows_resolution="0" Degraded_IBL="false"/>
 </stkconfig>
 """
-GAME = ["/usr/games/supertuxkart", "--windowed", "--race-now", "--track=candela_city", "--numkarts=4", "--profile-laps=3", "--seed=1"]
-FRAME = 100  # the first of two; by then the race has begun
+# What is started, the first of the two frames that are taken (0: as soon as possible), the mapping, and what it is replayed with. By its 100th frame the race has begun.
+PROGRAMS = {
+    "vkcube": (["/usr/bin/vkcube"], 0, "vkcube.json", ("kf2",)),
+    "supertuxkart": (["/usr/games/supertuxkart", "--windowed", "--race-now", "--track=candela_city", "--numkarts=4", "--profile-laps=3", "--seed=1"],
+                     100, "supertuxkart.json", ("kf2", "mafia3")),
+}
 
 
 class Steps:
@@ -79,6 +82,8 @@ def environment(home):
 
 def with_display(work):
     """Does the work while a display without a screen runs."""
+    if os.path.exists(f"/tmp/.X11-unix/X{DISPLAY[1:]}"):
+        sys.exit(f"engines.py: the display {DISPLAY} is in use; choose another number by GLINT_ENGINES_DISPLAY")
     server = subprocess.Popen(["Xvfb", DISPLAY, "-screen", "0", "640x360x24", "-nolisten", "tcp"], stderr=subprocess.DEVNULL)
     try:
         for _ in range(100):
@@ -86,47 +91,52 @@ def with_display(work):
                 break
             time.sleep(0.1)
         if server.poll() is not None:
-            sys.exit(f"engines.py: Xvfb {DISPLAY} ended at once; does another one run?")
+            sys.exit(f"engines.py: Xvfb {DISPLAY} ended at once")
         work()
     finally:
         server.terminate()
         server.wait()
 
 
-def capture(folder):
+def capture(folder, command, frame):
     home, taken = folder / "home", folder / "taken"
     settings = home / "config/supertuxkart/config-0.10"
     settings.mkdir(parents=True, exist_ok=True)
     (settings / "config.xml").write_text(SETTINGS)
     shutil.rmtree(taken, ignore_errors=True)
-    call(PYTHON, HERE / "renderdoc/capture.py", "-o", taken, "--at", FRAME, "--frames", 2, "--timeout", 3 * 3600, "--", *GAME,
-         into=folder / "game.log", env=environment(home))
+    call(PYTHON, HERE / "renderdoc/capture.py", "-o", taken, "--at", frame, "--frames", 2, "--timeout", 3 * 3600, "--", *command,
+         into=folder / "program.log", env=environment(home))
     for number in (0, 1):
         os.replace(taken / f"frame_{number}.rdc", folder / f"frame_{number}.rdc")
 
 
-def dump(folder):
+def list_passes(folder, number):
+    call(PYTHON, HERE / "renderdoc/list_passes.py", folder / f"frame_{number}.rdc", "--json", "-o", folder / "passes.new",
+         into=folder / "passes.log", env=environment(folder / "home"))
+    os.replace(folder / "passes.new", folder / f"passes_{number}.json")
+
+
+def dump(folder, mapping):
     shutil.rmtree(folder / "dump", ignore_errors=True)
-    call(PYTHON, HERE / "renderdoc/dump.py", folder / "frame_1.rdc", HERE / "renderdoc/supertuxkart.json", "-o", folder / "dump",
+    call(PYTHON, HERE / "renderdoc/dump.py", folder / "frame_1.rdc", HERE / "renderdoc" / mapping, "-o", folder / "dump",
          "--passes", folder / "passes_1.json", "--previous", folder / "frame_0.rdc", "--previous-passes", folder / "passes_0.json",
          into=folder / "dump.log", env=environment(folder / "home"))
 
 
-def supertuxkart(glint, folder):
+def replay(glint, name, folder):
+    """From the program to the runs."""
+    command, frame, mapping, presets = PROGRAMS[name]
+    print(f"{name}: {folder}", flush=True)
     folder.mkdir(parents=True, exist_ok=True)
     steps = Steps(folder)
-    steps.do("capture", ["frame_0.rdc", "frame_1.rdc"], lambda: with_display(lambda: capture(folder)))
+    steps.do("capture", ["frame_0.rdc", "frame_1.rdc"], lambda: with_display(lambda: capture(folder, command, frame)))
     for number in (0, 1):
-        steps.do(f"passes of frame {number}", [f"passes_{number}.json"], lambda: with_display(lambda: (
-            call(PYTHON, HERE / "renderdoc/list_passes.py", folder / f"frame_{number}.rdc", "--json", "-o", folder / "passes.new",
-                 into=folder / "passes.log", env=environment(folder / "home")),
-            os.replace(folder / "passes.new", folder / f"passes_{number}.json"))))
-    steps.do("map", ["dump/manifest.json"], lambda: with_display(lambda: dump(folder)))
+        steps.do(f"passes of frame {number}", [f"passes_{number}.json"], lambda: with_display(lambda: list_passes(folder, number)))
+    steps.do("map", ["dump/manifest.json"], lambda: with_display(lambda: dump(folder, mapping)))
     steps.do("pack", ["frame.exr"], lambda: call(glint, "pack", folder / "dump/manifest.json", "-o", folder / "frame.exr", into=folder / "pack.log"))
-    steps.do("validate", ["validate.txt"], lambda: say(folder / "validate.txt", glint, "validate", folder / "frame.exr"))
-    steps.do("lint", ["lint.txt"], lambda: say(folder / "lint.txt", glint, "lint", folder / "frame.exr"))
-    steps.do("info", ["info.txt"], lambda: say(folder / "info.txt", glint, "info", folder / "frame.exr"))
-    for preset in PRESETS:
+    for what in ("validate", "lint", "info"):
+        steps.do(what, [f"{what}.txt"], lambda: say(folder / f"{what}.txt", glint, what, folder / "frame.exr"))
+    for preset in presets:
         steps.do(f"replay with {preset}", [f"{preset}/run.json"], lambda: call(
             glint, "replay", folder / "frame.exr", "-p", preset, "-o", folder / preset, "--diagnostics", into=folder / f"{preset}.txt"))
 
@@ -134,7 +144,7 @@ def supertuxkart(glint, folder):
 def pictures(glint, folder, docs):
     """The game's picture and glint's, and the reflections alone, two stops brighter (it is night); one sheet."""
     shown = [(folder / "frame.exr", "--part", "scene"), (folder / "frame.exr", "--part", "engine.upscale.reflection")]
-    for preset in PRESETS:
+    for preset in PROGRAMS["supertuxkart"][3]:
         shown += [(folder / preset, "--image", "composed"), (folder / preset, "--image", "reflection")]
     tiles = [folder / f"picture-{i}.png" for i in range(len(shown))]
     for tile, what in zip(tiles, shown):
@@ -148,7 +158,8 @@ def main():
     parser.add_argument("folder", type=lambda p: pathlib.Path(p).resolve())
     parser.add_argument("--pictures", type=pathlib.Path, help="write the pictures of docs/engines.md to this folder")
     arguments = parser.parse_args()
-    supertuxkart(arguments.glint, arguments.folder / "supertuxkart")
+    for name in PROGRAMS:
+        replay(arguments.glint, name, arguments.folder / name)
     if arguments.pictures:
         pictures(arguments.glint, arguments.folder / "supertuxkart", arguments.pictures)
     print(f"captures, logs, times.json and runs: {arguments.folder}")

@@ -182,6 +182,19 @@ class Tests:
         same(evaluate("resize(s, l)", s=small, l=np.zeros((2, 8, 1)))[1, :, 0], [0, 0, 0.125, 0.375, 0.625, 0.875, 1, 1])
         same(evaluate("pixel_uv(s)", s=small), [[[0.25, 0.5], [0.75, 0.5]]])
 
+    def test_normals_of_a_plane_from_its_positions(self):
+        plane = np.stack(np.meshgrid(np.arange(5.0), np.arange(4.0)), axis=-1)
+        positions = np.dstack([plane, 0.5 * plane[..., :1] - 0.25 * plane[..., 1:]])
+        positions[:, 4] += [0, 0, 9]  # another surface: its neighbours keep to their own
+        found = evaluate("normalize(cross(dx(p), dy(p)))", p=positions)
+        expected = np.array([-0.5, 0.25, 1]) / np.linalg.norm([-0.5, 0.25, 1])
+        same(found[:, :4], np.broadcast_to(expected, (4, 4, 3)))
+        contains(refused("dx(m)", m=np.eye(4)), "a matrix of 4 x 4")
+
+    def test_a_matrix_of_numbers(self):
+        same(evaluate("matrix(1, 2, 3, 4, 5, 6, 7, 8, -9)"), [[1, 2, 3], [4, 5, 6], [7, 8, -9]])
+        contains(refused("matrix(1, 2, 3, 4, 5, 6, 7, 8, 9, 10)"), "9 or 16 numbers")
+
     def test_conditions(self):
         a = np.array([[[0.1], [0.6], [1.0]]])
         same(evaluate("where(0.2 < a and not a == 1, 5, a)", a=a), [[[0.1], [5], [1.0]]])

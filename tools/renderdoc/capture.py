@@ -6,7 +6,8 @@
 Starts PROGRAM with RenderDoc injected, waits until it is where the frame is wanted, takes the frames, copies them to DIR as
 NAME_0.rdc, NAME_1.rdc, … in the order in which they were drawn, and ends the program. A DISPLAY must be set; Xvfb's is enough.
 
-Moments are numbers of frames: --at 150,200 takes the 150th frame that the program shows and those after it, then the 200th.
+Moments are numbers of frames: --at 150,200 takes the 150th frame that the program shows and those after it, then the 200th; 0 is
+as soon as possible. A number that the program has passed before RenderDoc is connected, a fraction of a second, is never reached.
 """
 import argparse
 import os
@@ -97,7 +98,10 @@ def main():
     number = 0
     try:
         for first in arguments.at:
-            target.control.QueueCapture(first, arguments.frames)
+            if first:
+                target.control.QueueCapture(first, arguments.frames)
+            else:
+                target.control.TriggerCapture(arguments.frames)
         while number < len(arguments.at) * arguments.frames:
             for capture in sorted(target.messages(1), key=lambda c: c.frameNumber):
                 path = os.path.join(arguments.folder, f"{arguments.name}_{number}.rdc")

@@ -72,6 +72,23 @@ def _resize(a, like):
     return a
 
 
+def _step(a, axis):
+    """The difference to the next pixel along an axis, or from the last one, whichever is smaller: so it stays on one surface."""
+    if a.ndim != 3 or a.shape[axis] < 2:
+        raise ExpressionError(f"dx and dy take an image of at least two pixels each way, found {describe(a)}")
+    step = np.diff(a, axis=axis)
+    first, last = np.take(step, [0], axis), np.take(step, [-1], axis)
+    ahead, behind = np.concatenate([step, last], axis), np.concatenate([first, step], axis)
+    return np.where(_dot(ahead, ahead) <= _dot(behind, behind), ahead, behind)
+
+
+def _matrix(*numbers):
+    size = {9: 3, 16: 4}.get(len(numbers))
+    if size is None or any(n.ndim for n in numbers):
+        raise ExpressionError("matrix takes 9 or 16 numbers, row by row")
+    return np.array(numbers, float).reshape(size, size)
+
+
 def _grid(like):
     """(u, v) of the pixels' centres; (0, 0) is the upper left corner of the picture."""
     v, u = [(np.arange(n) + 0.5) / n for n in like.shape[:2]]
@@ -88,8 +105,11 @@ def _inverse(matrix):
 FUNCTIONS = {
     "abs": (np.abs, 1, 1, "magnitude of each component"),
     "clamp": (lambda a, low, high: np.clip(a, low, high), 3, 3, "clamp(a, low, high)"),
+    "cross": (lambda a, b: np.cross(a, b), 2, 2, "cross product of each pixel's three components"),
     "decode_srgb": (_decode_srgb, 1, 1, "sRGB codes in [0, 1] to linear"),
     "dot": (_dot, 2, 2, "inner product of each pixel's components"),
+    "dx": (lambda a: _step(a, 1), 1, 1, "change to the pixel on the right (or from the left, where that is smaller)"),
+    "dy": (lambda a: _step(a, 0), 1, 1, "change to the pixel below (or from above, where that is smaller)"),
     "exp": (np.exp, 1, 1, "e to the power of a"),
     "exp2": (np.exp2, 1, 1, "2 to the power of a"),
     "floor": (np.floor, 1, 1, "largest integer that is not above"),
@@ -97,6 +117,7 @@ FUNCTIONS = {
     "length": (lambda a: np.sqrt(_dot(a, a)), 1, 1, "length of each pixel's vector"),
     "log": (np.log, 1, 1, "natural logarithm"),
     "log2": (np.log2, 1, 1, "logarithm to base 2"),
+    "matrix": (_matrix, 9, 16, "matrix of 9 or 16 numbers, row by row"),
     "max": (np.maximum, 2, 2, "larger of two"),
     "max_component": (_last(np.max), 1, 1, "largest component of each pixel"),
     "min": (np.minimum, 2, 2, "smaller of two"),
