@@ -55,13 +55,13 @@ class Steps:
         print(f"{name}: {self.times[name]:.0f} s", flush=True)
 
 
-def call(*command, into=None, **options):
-    """Runs a program at the lowest priority; its words go to a file, and are shown where it fails."""
+def call(*command, into=None, accept=(0,), **options):
+    """Runs a program; its words go to a file, and are shown where it fails."""
     log = open(into, "w", encoding="utf-8") if into else None
-    run = subprocess.run(["nice", "-n", "19", *map(str, command)], stdout=log, stderr=subprocess.STDOUT if into else None, **options)
+    run = subprocess.run(list(map(str, command)), stdout=log, stderr=subprocess.STDOUT if into else None, **options)
     if log:
         log.close()
-    if run.returncode:
+    if run.returncode not in accept:
         if into:
             with open(into, encoding="utf-8", errors="replace") as text:
                 print("".join(text.readlines()[-20:]), file=sys.stderr)
@@ -70,7 +70,7 @@ def call(*command, into=None, **options):
 
 def say(path, *command):
     """What a program says becomes a file, once it has ended well."""
-    call(*command, into=path.with_suffix(".new"))
+    call(*command, into=path.with_suffix(".new"), accept=(0, 1) if command[1] == "lint" else (0,))  # findings are a result
     os.replace(path.with_suffix(".new"), path)
 
 
@@ -136,6 +136,7 @@ def replay(glint, name, folder):
     steps.do("pack", ["frame.exr"], lambda: call(glint, "pack", folder / "dump/manifest.json", "-o", folder / "frame.exr", into=folder / "pack.log"))
     for what in ("validate", "lint", "info"):
         steps.do(what, [f"{what}.txt"], lambda: say(folder / f"{what}.txt", glint, what, folder / "frame.exr"))
+    print("lint: " + (folder / "lint.txt").read_text().strip().split("\n")[-1].split(": ")[-1], flush=True)
     for preset in presets:
         steps.do(f"replay with {preset}", [f"{preset}/run.json"], lambda: call(
             glint, "replay", folder / "frame.exr", "-p", preset, "-o", folder / preset, "--diagnostics", into=folder / f"{preset}.txt"))
