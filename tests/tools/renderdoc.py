@@ -213,6 +213,25 @@ class Tests:
                      "a if a else a", "(b := 1)", "open('x')", "a.shape", "sqrt", "1 << 2", "~1", "a in a", "sqrt(*a)", "sqrt(x=1)", "{1: 2}", "1j", "a[0:1]"):
             refused(text, a=np.ones(3))
 
+    def test_whatever_is_written_is_a_value_or_an_error_of_the_expression(self):
+        rng = np.random.default_rng(20)
+        words = [*expressions.FUNCTIONS, "a", "m", "v", "c", "previous", "1", "0", "-2", "1e308", "9" * 400, ".r", ".xyz", ".rgba", "[0]", "[1, 2]", "(", ")", "(", ")", ",",
+                 "+", "-", "*", "/", "**", "@", "<", "==", " and ", " or ", "not ", ".", "=", ":", "lambda"]
+        names = {"a": np.ones((2, 3, 4)), "m": np.eye(4), "v": np.ones(3), "c": np.ones((6, 2, 2, 3))}
+        values = 0
+        for i in range(4000):
+            if i % 2:
+                text = "".join(rng.choice(words, rng.integers(1, 9)))
+            else:
+                text = f"{rng.choice([*expressions.FUNCTIONS])}({', '.join(rng.choice(['a', 'm', 'v', 'c', '1', 'a.rgb', '-a', 'a < 1'], rng.integers(1, 4)))})"
+            try:
+                evaluate(text, **names)
+                values += 1
+            except expressions.ExpressionError:
+                pass
+        if values < 200:
+            raise AssertionError(f"only {values} of 4000 expressions were computed")
+
     def test_depth_of_nesting_is_limited(self):
         contains(refused("-" * 200 + "1"), "nested deeper")
         refused("(" * 5000 + "1" + ")" * 5000)

@@ -9,6 +9,7 @@ component broadcasts over images of several.
 """
 import ast
 import difflib
+import warnings
 
 import numpy as np
 
@@ -166,11 +167,16 @@ class Evaluator:
 
     def evaluate(self, text):
         try:
-            tree = ast.parse(text.strip(), mode="eval")
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                tree = ast.parse(text.strip(), mode="eval")
         except (SyntaxError, ValueError, RecursionError) as error:
             raise ExpressionError(f"is not an expression: {getattr(error, 'msg', error)}") from None
-        with np.errstate(all="ignore"):
-            return self._node(tree.body, 0)
+        try:
+            with np.errstate(all="ignore"):
+                return self._node(tree.body, 0)
+        except (TypeError, ValueError, IndexError, OverflowError, ZeroDivisionError, MemoryError) as error:
+            raise ExpressionError(f"cannot be computed: {error}") from None
 
     def _node(self, node, depth):
         if depth > DEEPEST:
