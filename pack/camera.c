@@ -16,10 +16,10 @@ static void transpose(double m[16]) {
         }
 }
 
-/* Whether the matrix, as row-major numbers, is a perspective for column vectors. */
-static bool is_perspective(const double m[16]) {
-    return m[12] == 0 && m[13] == 0 && m[14] != 0 && m[15] == 0 && m[1] == 0 && m[3] == 0 && m[4] == 0 && m[7] == 0 &&
-           m[8] == 0 && m[9] == 0;
+/* Whether the matrix, as row-major numbers, is a perspective for column vectors; `plain`: and its w is the depth. */
+static bool is_perspective(const double m[16], bool plain) {
+    return (!plain || fabs(m[14]) == 1) && m[12] == 0 && m[13] == 0 && m[14] != 0 && m[15] == 0 && m[1] == 0 &&
+           m[3] == 0 && m[4] == 0 && m[7] == 0 && m[8] == 0 && m[9] == 0;
 }
 
 /* Which of column and row vectors the projection shows; column when it is no help. */
@@ -28,10 +28,14 @@ static bool shows_rows(const double listed[16], bool column_major, bool *certain
     memcpy(straight, listed, sizeof straight);
     memcpy(turned, listed, sizeof turned);
     transpose(turned);
-    const bool as_columns = is_perspective(column_major ? turned : straight),
-               as_rows = is_perspective(column_major ? straight : turned);
-    *certain = as_columns != as_rows;
-    return as_rows && !as_columns;
+    const double *as_columns = column_major ? turned : straight, *as_rows = column_major ? straight : turned;
+    bool columns = is_perspective(as_columns, true), rows = is_perspective(as_rows, true);
+    if (!columns && !rows) {
+        columns = is_perspective(as_columns, false);
+        rows = is_perspective(as_rows, false);
+    }
+    *certain = columns != rows;
+    return rows && !columns;
 }
 
 bool matrix_order_read(struct pack *pack, struct matrix_order *order, struct glint_error *err) {

@@ -189,7 +189,8 @@ static bool read_raw(struct image *image, const struct node *texture, bool cube,
     const uint64_t layers = node_count(texture, "layer", 0) + node_count(texture, "slice", 0) + 1;
     const struct node arranged = node_child(texture, "cube");
     const char *faces = arranged.value ? node_text(&arranged, "layout") : NULL;
-    const bool six = faces ? !strcmp(faces, "layers") : cube && layout.width == layout.height;
+    const bool six =
+        faces ? !strcmp(faces, "layers") : cube && layout.width == layout.height && !node_has(texture, "files");
     image->is_cube = six;
     layout.layers = layers < IMAGE_MAX_LAYERS ? (uint32_t)layers * (six ? 6 : 1) : UINT32_MAX;
     return image_lay_out(image, texture, &layout, err);

@@ -1,6 +1,7 @@
 /* Finds keys of the manifest, and the known name that is nearest to an unknown one. */
 #include "keys.h"
 
+#include <ctype.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -47,7 +48,7 @@ const struct key *pack_key(const struct object *object, const char *name) {
 
 enum { LONGEST = 64 };
 
-/* Levenshtein's distance; names that are longer than LONGEST are far from everything. */
+/* Levenshtein's distance without regard to case; names that are longer than LONGEST are far from everything. */
 static size_t distance_of(const char *a, const char *b) {
     const size_t n = strlen(a), m = strlen(b);
     size_t row[LONGEST + 1];
@@ -57,7 +58,7 @@ static size_t distance_of(const char *a, const char *b) {
         size_t diagonal = row[0];
         row[0] = i;
         for (size_t j = 1; j <= m; j++) {
-            const size_t change = diagonal + (a[i - 1] != b[j - 1]);
+            const size_t change = diagonal + (tolower((unsigned char)a[i - 1]) != tolower((unsigned char)b[j - 1]));
             diagonal = row[j];
             size_t best = row[j] < row[j - 1] ? row[j] + 1 : row[j - 1] + 1;
             row[j] = best < change ? best : change;

@@ -1,4 +1,4 @@
-// Decodes images with OpenImageIO. Exceptions must not leave this file.
+// Decodes images with OpenImageIO: the module libglint-oiio, which oiio.c loads. Exceptions must not leave this file.
 #include "oiio.h"
 
 #include <OpenImageIO/filesystem.h>
@@ -56,8 +56,8 @@ bool decode(const char *path, const char *kind, const uint8_t *data, size_t size
 
 } // namespace
 
-bool oiio_decode(const char *path, const char *kind, const uint8_t *data, size_t size, uint64_t most, oiio_image *out,
-                 glint_error *err) {
+bool glint_oiio_decode(const char *path, const char *kind, const uint8_t *data, size_t size, uint64_t most,
+                       oiio_image *out, glint_error *err) {
     try {
         return decode(path, kind, data, size, most, out, err);
     } catch (const std::exception &e) {

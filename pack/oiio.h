@@ -23,6 +23,10 @@ struct oiio_image {
 bool oiio_decode(const char *path, const char *kind, const uint8_t *data, size_t size, uint64_t most,
                  struct oiio_image *out, struct glint_error *err);
 
+/* The same in the module that oiio_decode loads. */
+bool glint_oiio_decode(const char *path, const char *kind, const uint8_t *data, size_t size, uint64_t most,
+                       struct oiio_image *out, struct glint_error *err);
+
 #ifdef __cplusplus
 }
 #endif

@@ -171,6 +171,24 @@ static bool check_roles(const struct pack *pack, struct glint_error *err) {
            node_fail(&pack->parts_node, err, GLINT_ERROR_FORMAT, "expected parts, found none");
 }
 
+/* OpenEXR refuses files whose parts differ in these. */
+static bool check_shared(const struct pack *pack, struct glint_error *err) {
+    static const char *const names[] = {"chromaticities", "timeCode"};
+    json_t *all = pack->parts_node.value, *first = NULL;
+    for (size_t n = 0; n < sizeof names / sizeof *names; n++)
+        for (void *at = json_object_iter(all); at; at = json_object_iter_next(all, at)) {
+            const struct node part = node_child(&pack->parts_node, json_object_iter_key(at)),
+                              attributes = node_child(&part, "attributes");
+            json_t *own = json_object_get(attributes.value, names[n]);
+            if (at == json_object_iter(all)) first = own;
+            if (own != first && (!own || !first || !json_equal(own, first)))
+                return node_fail(&attributes, err, GLINT_ERROR_FORMAT,
+                                 "expected the same %s in all parts, as OpenEXR wants it, found another or none",
+                                 names[n]);
+        }
+    return true;
+}
+
 /* Whether something is there that the writer does not take. */
 static bool needs_extras(const struct pack *pack) {
     json_t *parts = pack->parts_node.value;
@@ -238,7 +256,9 @@ static bool pack_opened(struct pack *pack, const char *out, struct glint_error *
     pack->textures_node = node_child(&pack->root, "textures");
     pack->parts_node = node_child(&pack->root, "parts");
     pack->frame_node = node_child(&pack->root, "frame");
-    if (!check_roles(pack, err) || (out && !check_output(pack, out, err)) || !textures_prepare(pack, err)) return false;
+    if (!check_roles(pack, err) || !check_shared(pack, err) || (out && !check_output(pack, out, err)) ||
+        !textures_prepare(pack, err))
+        return false;
     struct part gbuffer = part_of(pack, "gbuffer");
     bool ok = true;
     if (pack->frame_node.value)

@@ -64,7 +64,7 @@ for f in files:
 generated = tempfile.TemporaryDirectory()
 os.mkdir(os.path.join(generated.name, "glint"))
 subprocess.run([sys.executable, "passes/table.py", "rows", os.path.join(generated.name, "glint/row_kinds.h")], check=True)
-includes = [a for d in ("capture-format", "passes", "replay", "study", "samples", "selftest") for a in ("-I", f"{d}/include")] + ["-I", generated.name]
+includes = [a for d in ("capture-format", "pack", "passes", "replay", "study", "samples", "selftest") for a in ("-I", f"{d}/include")] + ["-I", generated.name]
 for h in (f for f in files if "/include/glint/" in f and f.endswith(".h")):
     for command in (["gcc", "-std=c11"], ["g++", "-std=c++17", "-x", "c++"]):
         with tempfile.NamedTemporaryFile("w", suffix=".c") as unit:

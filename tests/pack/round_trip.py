@@ -1,0 +1,168 @@
+"""glint extract and glint pack, there and back: round_trip.py GLINT SCHEMA. Every sample scene, every encoding, shots with siblings, parts
+and attributes that glint does not know. Captures that glint wrote come back as the same bytes. Speaks TAP."""
+import json
+import os
+import struct
+import subprocess
+import sys
+import tempfile
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "viewer-cli"))
+import tap  # noqa: E402
+import programs  # noqa: E402
+
+GLINT, SCHEMA = sys.argv[1:]
+SMALL = ("--size=40x24", "--cube-size=8", "--planar-size=24x12", "--light=1")
+ENCODINGS = {"depth": ["view_linear", "device", "reversed", "reversed_infinite", "logarithmic", "logarithmic_reversed"],
+             "normal": ["signed", "unorm", "octahedral", "view_xy"], "normal_space": ["world", "view"],
+             "roughness": ["perceptual", "alpha", "gloss", "power"], "motion": ["uv", "ndc", "pixels", "packed16"],
+             "motion_depth": ["view_linear", "packed16"], "color": ["linear", "pre_exposed", "srgb"]}
+
+
+def glint(*words, status=0):
+    run = subprocess.run([GLINT, *words], capture_output=True, text=True)
+    assert run.returncode == status, (words, run.returncode, run.stdout[-2000:], run.stderr[-2000:])
+    return run.stdout + run.stderr
+
+
+def contents(path):
+    with open(path, "rb") as file:
+        return file.read()
+
+
+class Tests:
+    def __init__(self, folder):
+        self.folder = folder
+        self.manifests = []
+        self.names = [line.split()[0] for line in glint("sample", "--list").split("\n")[1:] if line.strip()]
+
+    def path(self, *names):
+        return os.path.join(self.folder, *names)
+
+    def there_and_back(self, capture):
+        name = os.path.basename(capture)[:-4]
+        folder, again = self.path(name + "-out"), self.path(name + "-again")
+        glint("extract", capture, "-o", folder)
+        os.makedirs(again, exist_ok=True)
+        glint("pack", os.path.join(folder, "manifest.json"), "-o", os.path.join(again, os.path.basename(capture)))
+        self.manifests.append(os.path.join(folder, "manifest.json"))
+        return os.path.join(again, os.path.basename(capture))
+
+    def check_bytes(self, capture):
+        again = self.there_and_back(capture)
+        assert contents(again) == contents(capture), f"{capture} and {again} differ"
+
+    def test_every_scene(self):
+        assert len(self.names) >= 12, self.names
+        for name in self.names:
+            path = self.path(name + ".exr")
+            more = [] if name in ("glasshouse", "lake", "rain_street") else ["--finished=1"]
+            glint("sample", name, "-o", path, *SMALL, "--truth=1", *more)
+            self.check_bytes(path)
+
+    def test_every_encoding(self):
+        most = max(map(len, ENCODINGS.values()))
+        for i in range(most):
+            path = self.path(f"encoded{i}.exr")
+            chosen = ",".join(f"{key}={names[i % len(names)]}" for key, names in ENCODINGS.items())
+            glint("sample", "street", "-o", path, *SMALL, "--encoding", chosen, "--offset=1e6,-3.3,7e5")
+            self.check_bytes(path)
+
+    def test_a_shot_with_its_sibling_and_the_sibling_itself(self):
+        glint("sample", "room", "-o", self.path("shot.exr"), *SMALL, "--frames=2")
+        (sibling,) = [n for n in os.listdir(self.folder) if n.startswith("shot") and "000" not in n and n.endswith(".exr")]
+        for frame in ("shot.0001.exr", "shot.0002.exr"):
+            again = self.there_and_back(self.path(frame))
+            assert contents(again) == contents(self.path(frame))
+            assert contents(os.path.join(os.path.dirname(again), sibling)) == contents(self.path(sibling))
+            glint("validate", again)
+        self.check_bytes(self.path(sibling))
+
+    def foreign(self):
+        """A capture with what glint does not know, by a manifest: all types of attributes, half, float and uint channels."""
+        folder = self.path("street-out")
+        if not os.path.exists(folder):
+            glint("sample", "street", "-o", self.path("street.exr"), *SMALL)
+            glint("extract", self.path("street.exr"), "-o", folder)
+        with open(os.path.join(folder, "manifest.json"), encoding="utf-8") as file:
+            manifest = json.load(file)
+        manifest["parts"]["lit"]["attributes"] = {
+            "a text": "grün", "count": -3, "share": 0.1, "single": {"type": "float", "value": 0.1}, "nothing": {"type": "double", "value": "nan"},
+            "pair": {"type": "v2d", "value": [1.5, 2]}, "three": {"type": "v3d", "value": [1, 2, 0.1]}, "wide": {"type": "v3f", "value": [1, 2, 0.5]},
+            "matrix": {"type": "m44d", "value": list(range(16))}, "many": {"type": "floats", "value": [1, 2, 0.25, "-inf"]},
+            "words": {"type": "strings", "value": ["a", "", "b c"]},
+            "rate": {"type": "opaque", "type_name": "rational", "value": "1900000001000000"}}
+        manifest["parts"]["studio.mask"] = {"id": {"texture": "gbuffer.stencil.id", "channel": "r"}, "R": "lit.r", "wide.Z": "gbuffer.depth.Z.r",
+                                            "channels": {"cubemap": "lit.g"}, "attributes": {"by": "hand", "seed": 7}}
+        rec709 = struct.pack("<8f", 0.64, 0.33, 0.3, 0.6, 0.15, 0.06, 0.3127, 0.329).hex()
+        manifest["parts"]["engine.thing"] = {"attributes": {"pass": "SSR"}, "id.x": "gbuffer.stencil.id.r", "RGB": "lit.bgr", "a/b": "lit.r"}
+        for part in manifest["parts"].values():
+            part.setdefault("attributes", {})["chromaticities"] = {"type": "opaque", "type_name": "chromaticities", "value": rec709}
+        with open(os.path.join(folder, "foreign.json"), "w", encoding="utf-8") as file:
+            json.dump(manifest, file, indent=1)
+        self.manifests.append(os.path.join(folder, "foreign.json"))
+        return os.path.join(folder, "foreign.json")
+
+    def test_what_glint_does_not_know(self):
+        path = self.path("foreign.exr")
+        manifest = self.foreign()
+        glint("pack", manifest, "-o", path)
+        glint("validate", path)
+        again = self.there_and_back(path)
+        listing = subprocess.run([programs.find("exrheader"), path], capture_output=True, text=True, check=True).stdout
+        for wanted in ("studio.mask", "single (type float): 0.1", "count (type int): -3", "share (type double): 0.1", "words (type stringvector)",
+                       'by (type string): "hand"', "id.x, 32-bit unsigned integer", "cubemap, 16-bit floating-point", "chromaticities (type chromaticities)", "rate (type rational): 25/1"):
+            assert wanted in listing, (wanted, listing)
+        listings = [subprocess.run([programs.find("exrheader"), p], capture_output=True, text=True, check=True).stdout.split("\n", 4)[-1]
+                    for p in (path, again)]
+        assert listings[0] == listings[1], "headers differ"
+        subprocess.run([programs.find("idiff"), "-q", "-a", path, again], check=True)
+        self.check_bytes(again)
+
+    def test_z_manifests_follow_the_schema(self):
+        assert len(self.manifests) >= 20, self.manifests
+        named = [word for manifest in self.manifests for word in ("-i", manifest)]
+        run = subprocess.run([programs.find("jsonschema"), *named, SCHEMA], capture_output=True, text=True)
+        assert run.returncode == 0, run.stderr[-2000:]
+        wrong = self.path("wrong.json")
+        for text in ('{"glint": 1, "parts": {}, "texures": {}}', '{"glint": 2, "parts": {}}', '{"parts": {}}', '{"glint": 1, "parts": {"lit": {"R": true}}}',
+                     '{"glint": 1, "parts": {}, "frame": {"clip_y": "left"}}', '{"glint": 1, "parts": {}, "frame": {"jitter": [1]}}'):
+            with open(wrong, "w", encoding="utf-8") as file:
+                file.write(text)
+            assert subprocess.run([programs.find("jsonschema"), "-i", wrong, SCHEMA], capture_output=True).returncode == 1, text
+            glint("pack", wrong, "--explain", status=1)
+
+    def test_no_input_is_overwritten(self):
+        folder = self.path("street-out")
+        before = contents(os.path.join(folder, "lit.raw"))
+        for name in ("lit.raw", "manifest.json"):
+            said = glint("pack", os.path.join(folder, "manifest.json"), "-o", os.path.join(folder, name), status=2)
+            assert "is an input" in said, said
+        assert contents(os.path.join(folder, "lit.raw")) == before
+        os.symlink(self.path("street.exr"), self.path("manifest.json"))
+        kept = contents(self.path("street.exr"))
+        os.makedirs(self.path("same"), exist_ok=True)
+        os.link(self.path("street.exr"), self.path("same", "manifest.json"))
+        assert "the capture itself" in glint("extract", self.path("street.exr"), "-o", self.path("same"), status=2)
+        assert contents(self.path("street.exr")) == kept
+
+    def test_stdout_and_explain(self):
+        folder = self.path("street-out")
+        manifest = os.path.join(folder, "manifest.json")
+        run = subprocess.run([GLINT, "pack", manifest, "-o", "-", "-j", "1"], capture_output=True, check=True)
+        assert run.stdout == contents(self.path("street.exr"))
+        before = sorted(os.listdir(folder))
+        said = glint("pack", manifest, "--explain")
+        assert sorted(os.listdir(folder)) == before
+        for wanted in ("frame.handedness: not said; right", "parts.lit.R: lit.r, stored as half", "parts.gbuffer.encodings.depth: ",
+                       "without a far plane, near at 0.1 units"):
+            assert wanted in said, (wanted, said)
+
+
+def main():
+    with tempfile.TemporaryDirectory() as folder:
+        tests = Tests(folder)
+        sys.exit(tap.run(tests))
+
+
+main()
