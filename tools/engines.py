@@ -75,9 +75,10 @@ def say(path, *command):
 
 
 def environment(home):
+    (home / "cache").mkdir(parents=True, exist_ok=True)  # of compiled shaders, too
     return dict(os.environ, DISPLAY=DISPLAY, HOME=str(home), XDG_CONFIG_HOME=str(home / "config"), XDG_DATA_HOME=str(home / "data"),
                 XDG_CACHE_HOME=str(home / "cache"), SDL_AUDIODRIVER="dummy", ALSOFT_DRIVERS="null", LIBGL_ALWAYS_SOFTWARE="1",
-                LP_NUM_THREADS="0", PYTHONDONTWRITEBYTECODE="1")
+                PYTHONDONTWRITEBYTECODE="1")
 
 
 def with_display(work):
@@ -105,7 +106,7 @@ def capture(folder, command, frame):
     (settings / "config.xml").write_text(SETTINGS)
     shutil.rmtree(taken, ignore_errors=True)
     call(PYTHON, HERE / "renderdoc/capture.py", "-o", taken, "--at", frame, "--frames", 2, "--timeout", 3 * 3600, "--", *command,
-         into=folder / "program.log", env=environment(home))
+         into=folder / "program.log", env=dict(environment(home), LP_NUM_THREADS="0"))  # the game starts threads of its own
     for number in (0, 1):
         os.replace(taken / f"frame_{number}.rdc", folder / f"frame_{number}.rdc")
 

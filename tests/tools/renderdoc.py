@@ -368,6 +368,18 @@ class Tests:
             raise AssertionError(f"u_view_matrix is no rotation and translation of column vectors: {view}")
         equal(projection[3].tolist(), [0, 0, 1, 0])
 
+    def test_vkcubes_mapping_divides_the_projection_out(self):
+        """Of the matrix that list_passes.py printed for one of its frames: what is left is a rotation, at the distance of √34 that its source has."""
+        product = [[0.904379, 0, 2.23842, 0], [-1.15166, -2.07017, 0.465299, 0], [0.796646, -0.515526, -0.321865, 5.64243], [0.795054, -0.514496, -0.321222, 5.83095]]
+        source = type("Recorded", (), {"api": "Vulkan", "passes": [one_pass(0, [("tex", target(1, RGBA8))], [target(2, RGBA8)], target(3, form("D16", "Depth", 1, 2)),
+                                                                            [matrix("MVP", product)], names=["uFragColor"])]})
+        source.passes[0]["shaders"]["fragment"]["blocks"][0]["name"] = "ubuf"
+        view = mapping.Frame(mapping.load(os.path.join(ROOT, "tools/renderdoc/vkcube.json")), source).look_up("view")
+        if not np.allclose(view[:3, :3] @ view[:3, :3].T, np.eye(3), atol=1e-5) or abs(np.linalg.det(view) - 1) > 1e-5:
+            raise AssertionError(f"no rotation: {view}")
+        if not np.allclose(view[:3, 3], [0, 0, -np.sqrt(34)], atol=1e-4):  # the printed digits allow 1e-5
+            raise AssertionError(f"the camera is elsewhere: {view}")
+
     def test_schema_has_the_keys_that_are_accepted(self):
         with open(os.path.join(ROOT, "tools/renderdoc/mapping.schema.json"), encoding="utf-8") as text:
             schema = json.load(text)
