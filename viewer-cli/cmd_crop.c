@@ -12,14 +12,16 @@ static const struct argp_option options[] = {
     {"output", 'o', "G", 0, "The copy, a new file", 0},
     {0},
 };
+static const struct arg_target targets[] = {
+    STORED('o', struct arguments, out),
+    {0},
+};
 static const struct example examples[] = {
     {"glint crop frame.exr 320,180,640,360 -o repro.exr", "keeps 640 × 360 pixels, from column 320 and row 180 on"},
     {"glint strip frame.exr --keep gbuffer,lit -o - | glint crop - 0,0,64,64 -o repro.exr",
      "makes a repro of a few kilobytes"},
     {0},
 };
-
-extern const struct command cmd_crop;
 
 static void parse_rectangle(struct arguments *a, const char *text, struct argp_state *state) {
     double numbers[4];
@@ -35,9 +37,6 @@ static void parse_rectangle(struct arguments *a, const char *text, struct argp_s
 static error_t cmd_crop_parse(int key, char *arg, struct argp_state *state) {
     struct arguments *a = state->input;
     switch (key) {
-    case 'o':
-        a->out = arg;
-        return 0;
     case ARGP_KEY_ARG:
         if (!a->path) a->path = arg;
         else if (!a->rectangle) parse_rectangle(a, arg, state);
@@ -68,17 +67,15 @@ const struct command cmd_crop = {
     .name = "crop",
     .arguments = "F X,Y,W,H -o G",
     .summary = "copy a rectangle of a capture, with its camera",
-    .description =
-        "Copies W × H pixels of a capture from column X and row Y on, counted from the top left. The projections of "
-        "this "
-        "and the previous frame change with the picture, so that every pixel keeps its ray and its jitter; motion is "
-        "corrected in its encoding. All images of the frame's size are cropped, and so are images of the engine's that "
-        "are a whole number of times smaller; where a texel of these covers pixels on both sides of the rectangle's "
-        "border, the command names a rectangle that fits. Cube maps and planar maps stay whole. What a ray would have "
-        "hit "
-        "outside the rectangle is off screen in the copy, and the truth's mirror rays say so. All other pixels keep "
-        "every bit.",
+    .description = "Copies W × H pixels of a capture from column X and row Y on, counted from the top left. The "
+                   "projections of this and the previous frame change with the picture, so that every pixel keeps its "
+                   "ray and its jitter; motion is corrected in its encoding. All images of the frame's size are "
+                   "cropped, and so are images of the engine's that are a whole number of times smaller; where a texel "
+                   "of these covers pixels on both sides of the rectangle's border, the command names a rectangle that "
+                   "fits. Cube maps and planar maps stay whole. What a ray would have hit outside the rectangle is off "
+                   "screen in the copy, and the truth's mirror rays say so. All other pixels keep every bit.",
     .options = options,
+    .targets = targets,
     .numbers = true,
     .parse = cmd_crop_parse,
     .examples = examples,

@@ -18,36 +18,25 @@ static const struct argp_option options[] = {
     PROGRESS_OPTION,
     {0},
 };
+static const struct arg_target targets[] = {
+    STORED('o', struct arguments, out),
+    STORED_NUMBER('j', struct arguments, jobs, 1, 1024),
+    STORED(KEY_PROGRESS, struct arguments, lines),
+    STORED(ARGP_KEY_ARG, struct arguments, capture),
+    {0},
+};
 static const struct example examples[] = {
     {"glint extract street.exr -o street", "writes street/manifest.json and street/*.raw"},
     {"glint pack street/manifest.json -o again.exr", "makes the same capture of them, bit for bit"},
     {0},
 };
 
-extern const struct command cmd_extract;
-
 static error_t cmd_extract_parse(int key, char *arg, struct argp_state *state) {
-    struct arguments *a = state->input;
-    switch (key) {
-    case 'o':
-        a->out = arg;
-        return 0;
-    case 'j':
-        a->jobs = arg_uint("jobs", arg, 1, 1024, state);
-        return 0;
-    case KEY_PROGRESS:
-        a->lines = true;
-        return 0;
-    case ARGP_KEY_ARG:
-        if (a->capture) argp_error(state, "expected one capture, found %s and %s", a->capture, arg);
-        a->capture = arg;
-        return 0;
-    case ARGP_KEY_END:
-        if (!a->capture) argp_error(state, "no capture given");
-        if (!a->out) argp_error(state, "no output folder given: -o DIR");
-        return 0;
-    }
-    return ARGP_ERR_UNKNOWN;
+    (void)arg;
+    const struct arguments *a = state->input;
+    if (key != ARGP_KEY_END) return ARGP_ERR_UNKNOWN;
+    if (!a->out) argp_error(state, "no output folder given: -o DIR");
+    return 0;
 }
 
 static enum status cmd_extract_run(int argc, char **argv) {
@@ -70,12 +59,12 @@ const struct command cmd_extract = {
     .name = "extract",
     .arguments = "F",
     .summary = "write a capture's textures, and the manifest that packs them",
-    .description =
-        "Writes every part of a capture as raw textures, exactly as the capture stores them, and manifest.json, which "
-        "says how to read them: glint pack makes the same capture of them. Attributes and parts that glint does not "
-        "know "
-        "and sibling files are kept. The manifest is written last.",
+    .description = "Writes every part of a capture as raw textures, exactly as the capture stores them, and "
+                   "manifest.json, which says how to read them: glint pack makes the same capture of them. Attributes "
+                   "and parts that glint does not know and sibling files are kept. The manifest is written last.",
     .options = options,
+    .targets = targets,
+    .operand = "capture",
     .parse = cmd_extract_parse,
     .examples = examples,
     .run = cmd_extract_run,

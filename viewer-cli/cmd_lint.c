@@ -26,6 +26,13 @@ static const struct argp_option options[] = {
     {0},
 };
 /* clang-format on */
+static const struct arg_target targets[] = {
+    STORED(KEY_FIX, struct arguments, fix),
+    STORED(KEY_LIST, struct arguments, list),
+    STORED('o', struct arguments, out),
+    STORED('j', struct arguments, json),
+    {0},
+};
 static const struct example examples[] = {
     {"glint lint frame.exr", "lists the likely mistakes of a dump"},
     {"glint lint frame.exr --fix -o fixed.exr", "also writes a copy in which the certain ones are fixed"},
@@ -34,25 +41,11 @@ static const struct example examples[] = {
     {0},
 };
 
-extern const struct command cmd_lint;
-
 static error_t cmd_lint_parse(int key, char *arg, struct argp_state *state) {
     struct arguments *a = state->input;
     switch (key) {
-    case KEY_FIX:
-        a->fix = true;
-        return 0;
-    case KEY_LIST:
-        a->list = true;
-        return 0;
     case KEY_MARKDOWN:
         a->list = a->markdown = true;
-        return 0;
-    case 'o':
-        a->out = arg;
-        return 0;
-    case 'j':
-        a->json = true;
         return 0;
     case ARGP_KEY_ARG:
         if (a->path) argp_error(state, "expected one capture");
@@ -255,6 +248,7 @@ const struct command cmd_lint = {
         "skipped. The sky texels and inner volumes of cube maps and the resolution of the depth storage are checked "
         "too. What cannot be decided from the data is listed. The exit status is 1 when there are findings.",
     .options = options,
+    .targets = targets,
     .parse = cmd_lint_parse,
     .examples = examples,
     .run = cmd_lint_run,

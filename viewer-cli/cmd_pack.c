@@ -23,6 +23,14 @@ static const struct argp_option options[] = {
     PROGRESS_OPTION,
     {0},
 };
+static const struct arg_target targets[] = {
+    STORED('o', struct arguments, out),
+    STORED('e', struct arguments, explain),
+    STORED_NUMBER('j', struct arguments, jobs, 1, 1024),
+    STORED(KEY_PROGRESS, struct arguments, lines),
+    STORED(ARGP_KEY_ARG, struct arguments, manifest),
+    {0},
+};
 static const struct example examples[] = {
     {"glint pack frame.json --explain", "reads and checks everything, and prints what was understood"},
     {"glint pack frame.json -o frame.exr", "writes the capture, and prints each default that it used"},
@@ -30,33 +38,12 @@ static const struct example examples[] = {
     {0},
 };
 
-extern const struct command cmd_pack;
-
 static error_t cmd_pack_parse(int key, char *arg, struct argp_state *state) {
-    struct arguments *a = state->input;
-    switch (key) {
-    case 'o':
-        a->out = arg;
-        return 0;
-    case 'e':
-        a->explain = true;
-        return 0;
-    case 'j':
-        a->jobs = arg_uint("jobs", arg, 1, 1024, state);
-        return 0;
-    case KEY_PROGRESS:
-        a->lines = true;
-        return 0;
-    case ARGP_KEY_ARG:
-        if (a->manifest) argp_error(state, "expected one manifest, found %s and %s", a->manifest, arg);
-        a->manifest = arg;
-        return 0;
-    case ARGP_KEY_END:
-        if (!a->manifest) argp_error(state, "no manifest given");
-        if (!a->explain == !a->out) argp_error(state, "expected -o FILE or --explain");
-        return 0;
-    }
-    return ARGP_ERR_UNKNOWN;
+    (void)arg;
+    const struct arguments *a = state->input;
+    if (key != ARGP_KEY_END) return ARGP_ERR_UNKNOWN;
+    if (!a->explain == !a->out) argp_error(state, "expected -o FILE or --explain");
+    return 0;
 }
 
 /* Without --explain, what was said needs no repetition. */
@@ -96,10 +83,11 @@ const struct command cmd_pack = {
     .description =
         "Makes a capture of the textures that an engine dumped, raw memory or image files, and of a JSON file, the "
         "manifest, which says how to read them: formats by their Vulkan or Direct3D names, row pitch, swizzle, "
-        "cube-map "
-        "faces, camera matrices in any order. Everything that the manifest leaves unsaid has a default, which is "
-        "printed. Errors name the manifest's line and key. docs/pack.md describes the manifest.",
+        "cube-map faces, camera matrices in any order. Everything that the manifest leaves unsaid has a default, which "
+        "is printed. Errors name the manifest's line and key. docs/pack.md describes the manifest.",
     .options = options,
+    .targets = targets,
+    .operand = "manifest",
     .parse = cmd_pack_parse,
     .examples = examples,
     .run = cmd_pack_run,

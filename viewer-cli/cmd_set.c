@@ -24,6 +24,12 @@ static const struct argp_option options[] = {
     {0},
 };
 /* clang-format on */
+static const struct arg_target targets[] = {
+    STORED('o', struct arguments, out),
+    STORED('j', struct arguments, json),
+    STORED(KEY_LIST, struct arguments, list),
+    {0},
+};
 static const struct example examples[] = {
     {"glint set frame.exr metresPerUnit=0.01 up=+z -o fixed.exr", "says that a unit is a centimetre, and z is up"},
     {"glint set frame.exr depth=reversed previous.gbuffer:depth=device -o fixed.exr",
@@ -34,8 +40,6 @@ static const struct example examples[] = {
     {0},
 };
 
-extern const struct command cmd_set;
-
 static const char *const scope_titles[] = {[GLINT_EDIT_FRAME] = "the frame",
                                            [GLINT_EDIT_CUBEMAP] = "cubemap.NNN",
                                            [GLINT_EDIT_PLANAR] = "planar.NNN",
@@ -45,15 +49,6 @@ static const char *const scope_titles[] = {[GLINT_EDIT_FRAME] = "the frame",
 static error_t cmd_set_parse(int key, char *arg, struct argp_state *state) {
     struct arguments *a = state->input;
     switch (key) {
-    case 'o':
-        a->out = arg;
-        return 0;
-    case 'j':
-        a->json = true;
-        return 0;
-    case KEY_LIST:
-        a->list = true;
-        return 0;
     case ARGP_KEY_ARG:
         if (!a->path) a->path = arg;
         else if (!strchr(arg, '=')) argp_error(state, "expected KEY=VALUE or PART:KEY=VALUE, found %s", arg);
@@ -190,16 +185,14 @@ const struct command cmd_set = {
     .summary = "copy a capture with changed attributes",
     .description =
         "Copies a capture with changed attributes: the camera and everything else of the frame, how channels are "
-        "encoded, "
-        "the engine's storage formats, and the attributes of cube maps and planar maps. Keys are the names of "
-        "FORMAT.md, "
-        "without glint. Attributes of the frame are on gbuffer; other keys apply to every part that can have them, or, "
-        "after PART:, only to parts with this name or beginning with it (cubemap, previous). Numbers are separated by "
-        "commas, matrices are written row by row, and an empty value removes the attribute. Pixels keep every bit: set "
-        "changes what is said about them. The input may break rules of FORMAT.md, the copy must not. Other attributes "
-        "that "
-        "a part already has can be set by their names, too.",
+        "encoded, the engine's storage formats, and the attributes of cube maps and planar maps. Keys are the names of "
+        "FORMAT.md, without glint. Attributes of the frame are on gbuffer; other keys apply to every part that can "
+        "have them, or, after PART:, only to parts with this name or beginning with it (cubemap, previous). Numbers "
+        "are separated by commas, matrices are written row by row, and an empty value removes the attribute. Pixels "
+        "keep every bit: set changes what is said about them. The input may break rules of FORMAT.md, the copy must "
+        "not. Other attributes that a part already has can be set by their names, too.",
     .options = options,
+    .targets = targets,
     .parse = cmd_set_parse,
     .examples = examples,
     .values = cmd_set_values,

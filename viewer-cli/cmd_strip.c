@@ -16,6 +16,13 @@ static const struct argp_option options[] = {
     {0},
 };
 /* clang-format on */
+static const struct arg_target targets[] = {
+    STORED_NAMES(KEY_KEEP, struct arguments, keep),
+    STORED_NAMES(KEY_DROP, struct arguments, drop),
+    STORED('o', struct arguments, out),
+    STORED(ARGP_KEY_ARG, struct arguments, path),
+    {0},
+};
 static const struct example examples[] = {
     {"glint strip frame.exr --keep gbuffer,lit -o repro.exr", "keeps what screen rays need"},
     {"glint strip frame.exr --keep gbuffer:motion,lit,cubemap -o repro.exr",
@@ -25,31 +32,13 @@ static const struct example examples[] = {
     {0},
 };
 
-extern const struct command cmd_strip;
-
 static error_t cmd_strip_parse(int key, char *arg, struct argp_state *state) {
-    struct arguments *a = state->input;
-    switch (key) {
-    case KEY_KEEP:
-        list_split(&a->keep, arg, state);
-        return 0;
-    case KEY_DROP:
-        list_split(&a->drop, arg, state);
-        return 0;
-    case 'o':
-        a->out = arg;
-        return 0;
-    case ARGP_KEY_ARG:
-        if (a->path) argp_error(state, "expected one capture, found %s and %s", a->path, arg);
-        a->path = arg;
-        return 0;
-    case ARGP_KEY_END:
-        if (!a->path) argp_error(state, "no capture given");
-        if (!a->out) argp_error(state, "no output given; -o names the copy");
-        if (!a->keep.count == !a->drop.count) argp_error(state, "expected either --keep or --drop");
-        return 0;
-    }
-    return ARGP_ERR_UNKNOWN;
+    (void)arg;
+    const struct arguments *a = state->input;
+    if (key != ARGP_KEY_END) return ARGP_ERR_UNKNOWN;
+    if (!a->out) argp_error(state, "no output given; -o names the copy");
+    if (!a->keep.count == !a->drop.count) argp_error(state, "expected either --keep or --drop");
+    return 0;
 }
 
 static bool strip(struct glint_edit *edit, const char *path, void *user, struct glint_error *err) {
@@ -70,14 +59,14 @@ const struct command cmd_strip = {
     .name = "strip",
     .arguments = "F -o G",
     .summary = "copy a capture without some of its parts and channels",
-    .description = "Copies a capture without some of its parts and channels, for a repro that is small or may be sent. "
-                   "A list names "
-                   "parts (gbuffer, cubemap.003), all parts whose names begin so (cubemap, previous, truth, engine), "
-                   "and channels or "
-                   "layers of them (gbuffer:motion, cubemap:distance.Z). What stays keeps every bit, and the input is "
-                   "not touched. "
-                   "What is left out is listed with its size and with what a replay loses.",
+    .description =
+        "Copies a capture without some of its parts and channels, for a repro that is small or may be sent. A list "
+        "names parts (gbuffer, cubemap.003), all parts whose names begin so (cubemap, previous, truth, engine), and "
+        "channels or layers of them (gbuffer:motion, cubemap:distance.Z). What stays keeps every bit, and the input is "
+        "not touched. What is left out is listed with its size and with what a replay loses.",
     .options = options,
+    .targets = targets,
+    .operand = "capture",
     .parse = cmd_strip_parse,
     .examples = examples,
     .run = cmd_strip_run,
