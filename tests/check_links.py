@@ -6,7 +6,7 @@ import sys
 import unicodedata
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-PAGES = sorted([*ROOT.glob("*.md"), *ROOT.glob("docs/*.md"), ROOT / "capture-format/FORMAT.md", ROOT / "passes/NOTES.md"])
+PAGES = sorted([*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md"), ROOT / "capture-format/FORMAT.md", ROOT / "passes/NOTES.md"])
 GLOSSARY = ROOT / "docs/glossary.md"
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 

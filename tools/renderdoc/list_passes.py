@@ -6,7 +6,7 @@
   list_passes.py FRAME.json --only combine        the table of passes whose samplers, outputs or constants have this in their names
 
 A pass is a run of draws into the same targets; a draw that may cover the screen stands alone. Its shaders are those of its last draw.
-The list is what a mapping is written from: see docs/engines.md.
+The list is what a mapping is written from: see docs/engines/renderdoc.md.
 
 RenderDoc replays the frame once a pass, so this takes a second or two a pass on a software driver. It needs a DISPLAY; Xvfb's is enough.
 """

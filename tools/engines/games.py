@@ -1,8 +1,4 @@
-"""Frames of real engines, from their start to glint's replay: engines.py GLINT FOLDER [--pictures DOCS]. Run by ./dev engines.
-
-Finished steps stay in FOLDER and are not repeated; delete a step's result to do it again. Game data and captures are only there."""
-import argparse
-import json
+"""Frames of programs that RenderDoc captures, from their start to glint's replay. Run by ./dev engines renderdoc."""
 import os
 import pathlib
 import shutil
@@ -10,7 +6,9 @@ import subprocess
 import sys
 import time
 
-HERE = pathlib.Path(__file__).resolve().parent
+from steps import Steps, call, say
+
+TOOLS = pathlib.Path(__file__).resolve().parent.parent / "renderdoc"
 PYTHON = "/usr/bin/python3"  # Debian's own, for which its RenderDoc module is built
 DISPLAY = f":{os.environ.get('GLINT_ENGINES_DISPLAY', 87)}"
 
@@ -30,48 +28,6 @@ PROGRAMS = {
     "supertuxkart": (["/usr/games/supertuxkart", "--windowed", "--race-now", "--track=candela_city", "--numkarts=4", "--profile-laps=3", "--seed=1"],
                      100, "supertuxkart.json", ("kf2", "mafia3")),
 }
-
-
-class Steps:
-    """Runs what is not done yet, and remembers how long each step took."""
-
-    def __init__(self, folder):
-        self.folder, self.path = folder, folder / "times.json"
-        self.times = json.loads(self.path.read_text()) if self.path.exists() else {}
-
-    def do(self, name, results, work):
-        results = [self.folder / r for r in results]
-        if all(r.exists() for r in results):
-            print(f"{name}: done before", flush=True)
-            return
-        print(f"{name} …", flush=True)
-        start = time.monotonic()
-        work()
-        missing = [str(r) for r in results if not r.exists()]
-        if missing:
-            sys.exit(f"engines.py: {name} left no {', '.join(missing)}")
-        self.times[name] = round(time.monotonic() - start, 1)
-        self.path.write_text(json.dumps(self.times, indent=1) + "\n")
-        print(f"{name}: {self.times[name]:.0f} s", flush=True)
-
-
-def call(*command, into=None, accept=(0,), **options):
-    """Runs a program; its words go to a file, and are shown where it fails."""
-    log = open(into, "w", encoding="utf-8") if into else None
-    run = subprocess.run(list(map(str, command)), stdout=log, stderr=subprocess.STDOUT if into else None, **options)
-    if log:
-        log.close()
-    if run.returncode not in accept:
-        if into:
-            with open(into, encoding="utf-8", errors="replace") as text:
-                print("".join(text.readlines()[-20:]), file=sys.stderr)
-        sys.exit(f"engines.py: {command[0]} ended with {run.returncode}" + (f"; see {into}" if into else ""))
-
-
-def say(path, *command):
-    """What a program says becomes a file, once it has ended well."""
-    call(*command, into=path.with_suffix(".new"), accept=(0, 1) if command[1] == "lint" else (0,))  # findings are a result
-    os.replace(path.with_suffix(".new"), path)
 
 
 def environment(home):
@@ -105,27 +61,27 @@ def capture(folder, command, frame):
     settings.mkdir(parents=True, exist_ok=True)
     (settings / "config.xml").write_text(SETTINGS)
     shutil.rmtree(taken, ignore_errors=True)
-    call(PYTHON, HERE / "renderdoc/capture.py", "-o", taken, "--at", frame, "--frames", 2, "--timeout", 3 * 3600, "--", *command,
+    call(PYTHON, TOOLS / "capture.py", "-o", taken, "--at", frame, "--frames", 2, "--timeout", 3 * 3600, "--", *command,
          into=folder / "program.log", env=dict(environment(home), LP_NUM_THREADS="0"))  # the game starts threads of its own
     for number in (0, 1):
         os.replace(taken / f"frame_{number}.rdc", folder / f"frame_{number}.rdc")
 
 
 def list_passes(folder, number):
-    call(PYTHON, HERE / "renderdoc/list_passes.py", folder / f"frame_{number}.rdc", "--json", "-o", folder / "passes.new",
+    call(PYTHON, TOOLS / "list_passes.py", folder / f"frame_{number}.rdc", "--json", "-o", folder / "passes.new",
          into=folder / "passes.log", env=environment(folder / "home"))
     os.replace(folder / "passes.new", folder / f"passes_{number}.json")
 
 
 def dump(folder, mapping):
     shutil.rmtree(folder / "dump", ignore_errors=True)
-    call(PYTHON, HERE / "renderdoc/dump.py", folder / "frame_1.rdc", HERE / "renderdoc" / mapping, "-o", folder / "dump",
+    call(PYTHON, TOOLS / "dump.py", folder / "frame_1.rdc", TOOLS / mapping, "-o", folder / "dump",
          "--passes", folder / "passes_1.json", "--previous", folder / "frame_0.rdc", "--previous-passes", folder / "passes_0.json",
          into=folder / "dump.log", env=environment(folder / "home"))
 
 
 def replay(glint, name, folder):
-    """From the program to the runs."""
+    """From the start of a program to the runs."""
     command, frame, mapping, presets = PROGRAMS[name]
     print(f"{name}: {folder}", flush=True)
     folder.mkdir(parents=True, exist_ok=True)
@@ -143,29 +99,18 @@ def replay(glint, name, folder):
             glint, "replay", folder / "frame.exr", "-p", preset, "-o", folder / preset, "--diagnostics", into=folder / f"{preset}.txt"))
 
 
+def prove(glint, folder):
+    for name in PROGRAMS:
+        replay(glint, name, folder / name)
+
+
 def pictures(glint, folder, docs):
     """The game's picture and glint's, and the reflections alone, two stops brighter (it is night); one sheet."""
+    folder = folder / "supertuxkart"
     shown = [(folder / "frame.exr", "--part", "scene"), (folder / "frame.exr", "--part", "engine.upscale.reflection")]
     for preset in PROGRAMS["supertuxkart"][3]:
         shown += [(folder / preset, "--image", "composed"), (folder / preset, "--image", "reflection")]
     tiles = [folder / f"picture-{i}.png" for i in range(len(shown))]
     for tile, what in zip(tiles, shown):
         call(glint, "view", *what, "--no-legend", "--exposure", "2", "-o", tile)
-    call("oiiotool", *tiles, "--mosaic:pad=4", f"2x{len(shown) // 2}", "--ch", "R,G,B", "--compression", "jpeg:82", "-o", docs / "engines-supertuxkart.jpg")
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("glint", type=lambda p: pathlib.Path(p).resolve())
-    parser.add_argument("folder", type=lambda p: pathlib.Path(p).resolve())
-    parser.add_argument("--pictures", type=pathlib.Path, help="write the pictures of docs/engines.md to this folder")
-    arguments = parser.parse_args()
-    for name in PROGRAMS:
-        replay(arguments.glint, name, arguments.folder / name)
-    if arguments.pictures:
-        pictures(arguments.glint, arguments.folder / "supertuxkart", arguments.pictures)
-    print(f"captures, logs, times.json and runs: {arguments.folder}")
-
-
-if __name__ == "__main__":
-    main()
+    call("oiiotool", *tiles, "--mosaic:pad=4", f"2x{len(shown) // 2}", "--ch", "R,G,B", "--compression", "jpeg:82", "-o", docs / "supertuxkart.jpg")

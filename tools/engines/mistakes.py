@@ -1,5 +1,5 @@
-"""What `glint lint` says of usual mistakes, made on purpose in the dump of a real engine: engine_mistakes.py GLINT DUMP. Prints the table
-of docs/engines.md. DUMP is a folder that tools/renderdoc/dump.py wrote."""
+"""What `glint lint` says of usual mistakes, made on purpose in the dump of a real engine: mistakes.py GLINT DUMP. Prints the table
+of docs/engines/renderdoc.md. DUMP is a folder that tools/renderdoc/dump.py wrote."""
 import copy
 import json
 import os
