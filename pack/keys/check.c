@@ -1,4 +1,4 @@
-/* Checks the keys and values of a manifest by rows/keys.h. */
+/* Checks the keys and values of a manifest by keys_rows.h. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,4 +1,4 @@
-/* The keys that a manifest may have: rows/keys.h as data. */
+/* The keys that a manifest may have: keys_rows.h as data. */
 #ifndef GLINT_PACK_KEYS_H
 #define GLINT_PACK_KEYS_H
 

@@ -15,7 +15,7 @@ struct manifest {
     json_t *root;
 };
 
-/* Reads and parses the file, and checks every key and kind of value by rows/keys.h, but not the channels of parts. */
+/* Reads and parses the file, and checks every key and kind of value by keys_rows.h, but not the channels of parts. */
 bool manifest_open(struct manifest *manifest, const char *path, struct glint_error *err);
 void manifest_close(struct manifest *manifest);
 

@@ -1,4 +1,4 @@
-/* Formats of raw memory: rows/formats.h as data, and the values of their components. */
+/* Formats of raw memory: formats_rows.h as data, and the values of their components. */
 #ifndef GLINT_PACK_FORMAT_H
 #define GLINT_PACK_FORMAT_H
 

@@ -193,7 +193,7 @@ static char *page_text(const char *page) {
 static bool keep(const char *path, const char *old, const char *text, bool check) {
     if (!strcmp(old, text)) return true;
     if (check) {
-        fprintf(stderr, "%s: differs from the rows of pack/rows; meson compile pack-doc writes it anew\n", path);
+        fprintf(stderr, "%s: differs from the rows of keys and formats; meson compile pack-doc writes it anew\n", path);
         return false;
     }
     FILE *out = fopen(path, "wb");

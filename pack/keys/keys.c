@@ -14,21 +14,21 @@
 enum {
 #define OBJECT(id, name, meaning) ROW_##id,
 #define KEY(...) CAT(ROW_AT_, __LINE__),
-#include "rows/keys.h"
+#include "keys_rows.h"
     ROW_END
 };
 
 static const struct key rows[] = {
 #define OBJECT(id, name, meaning) {NULL, KEY_ANY, name, false, "", meaning},
 #define KEY(name, kind, detail, need, fallback, meaning) {name, KEY_##kind, detail, need, fallback, meaning},
-#include "rows/keys.h"
+#include "keys_rows.h"
     {NULL, KEY_ANY, "", false, "", ""},
 };
 
 const struct object pack_objects[] = {
 #define OBJECT(id, name, meaning) {name, meaning, &rows[ROW_##id + 1]},
 #define KEY(...)
-#include "rows/keys.h"
+#include "keys_rows.h"
     {NULL, NULL, NULL},
 };
 

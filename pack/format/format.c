@@ -12,7 +12,7 @@
 const struct format pack_formats[] = {
 #define FORMAT(vulkan, vulkan_number, dxgi, dxgi_number, other, bytes, ...)                                            \
     {vulkan, vulkan_number, dxgi, dxgi_number, other, bytes, COUNT_OF(__VA_ARGS__), {__VA_ARGS__}},
-#include "rows/formats.h"
+#include "formats_rows.h"
 };
 const size_t pack_format_count = sizeof pack_formats / sizeof *pack_formats;
 
