@@ -1,8 +1,8 @@
 /* Finds a part's role in the registry. */
+#include "roles.h"
+
 #include <ctype.h>
 #include <string.h>
-
-#include "pack.h"
 
 static bool matches(const struct glint_role *role, const char *name) {
     const size_t length = strlen(role->name);

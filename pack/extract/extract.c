@@ -1,12 +1,16 @@
 /* glint_extract: a manifest and raw textures from a capture. */
-#include "extract.h"
-
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
-#include "pack.h"
+#include "attributes.h"
+#include "file.h"
+#include "format.h"
+#include "glint/exr.h"
+#include "glint/pack.h"
+#include "keys.h"
+#include "roles.h"
 
 struct extract {
     const char *capture, *folder;

@@ -1,9 +1,9 @@
 /* Cameras: matrices in any order, or a position and a field of view. */
+#include "camera.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-
-#include "pack.h"
 
 /* ---- The order of the numbers ---- */
 
@@ -38,8 +38,7 @@ static bool shows_rows(const double listed[16], bool column_major, bool *certain
     return rows && !columns;
 }
 
-bool matrix_order_read(struct pack *pack, struct matrix_order *order, struct glint_error *err) {
-    const struct node *frame = &pack->frame_node;
+bool matrix_order_read(const struct node *frame, struct matrix_order *order, struct glint_error *err) {
     const char *layout = node_text(frame, "layout"), *vectors = node_text(frame, "vectors");
     const struct node layout_node = node_child(frame, "layout"), vectors_node = node_child(frame, "vectors"),
                       clip = node_child(frame, "view_to_clip");
@@ -49,10 +48,10 @@ bool matrix_order_read(struct pack *pack, struct matrix_order *order, struct gli
     order->is_row_vectors = vectors && !strcmp(vectors, "row");
     if (node_numbers(frame, "view_to_clip", listed)) {
         const bool rows = shows_rows(listed, order->is_column_major, &certain);
-        if (!layout) pack_note(pack, GLINT_PACK_DEFAULT, &layout_node, "not said; row_major");
+        if (!layout) node_note(&layout_node, GLINT_PACK_DEFAULT, "not said; row_major");
         if (!vectors) {
             order->is_row_vectors = rows;
-            pack_note(pack, GLINT_PACK_DEFAULT, &vectors_node, "not said; %s%s", rows ? "row" : "column",
+            node_note(&vectors_node, GLINT_PACK_DEFAULT, "not said; %s%s", rows ? "row" : "column",
                       certain ? ", as view_to_clip shows, whose last row or column is 0 0 ±1 0" : "");
         } else if (certain && rows != order->is_row_vectors)
             return node_fail(&clip, err, GLINT_ERROR_FORMAT,
@@ -96,7 +95,7 @@ static void invert_rigid(double m[16]) {
     for (int r = 0; r < 3; r++) m[4 * r + 3] = -(m[4 * r] * from[0] + m[4 * r + 1] * from[1] + m[4 * r + 2] * from[2]);
 }
 
-static bool check_projection(const struct pack *pack, const struct node *node, double m[16], struct glint_error *err) {
+static bool check_projection(const struct node *node, double m[16], struct glint_error *err) {
     static const int zeros[] = {1, 3, 4, 7, 8, 9, 12, 13, 15};
     const double w = fabs(m[14]);
     if (m[14] == 0 && m[15] != 0)
@@ -104,7 +103,7 @@ static bool check_projection(const struct pack *pack, const struct node *node, d
                          "expected a perspective projection, found an orthographic one (row 3 is %g %g %g %g)", m[12],
                          m[13], m[14], m[15]);
     if (w != 1 && w > 0) {
-        pack_note(pack, GLINT_PACK_FOUND, node, "divided by %.9g, so that w is the depth", w);
+        node_note(node, GLINT_PACK_FOUND, "divided by %.9g, so that w is the depth", w);
         for (int i = 0; i < 16; i++) m[i] /= w;
     }
     for (size_t i = 0; i < sizeof zeros / sizeof *zeros; i++)
@@ -134,9 +133,9 @@ static bool normalize(double v[3]) {
     return length > 0 && isfinite(length);
 }
 
-static bool look_at(const struct pack *pack, const struct node *node, bool left, double out[16],
+static bool look_at(const struct node *frame, const struct node *node, bool left, double out[16],
                     struct glint_error *err) {
-    const char *axis = node_text(&pack->frame_node, "up");
+    const char *axis = node_text(frame, "up");
     double position[3], target[3], up[3] = {0}, forward[3], right[3], top[3];
     node_numbers(node, "position", position);
     node_numbers(node, "target", target);
@@ -159,9 +158,9 @@ static bool look_at(const struct pack *pack, const struct node *node, bool left,
     return true;
 }
 
-static bool project(const struct pack *pack, const struct node *node, bool left, double aspect, double out[16],
+static bool project(const struct node *frame, const struct node *node, bool left, double aspect, double out[16],
                     struct glint_error *err) {
-    const char *clip_z = node_text(&pack->frame_node, "clip_z"), *clip_y = node_text(&pack->frame_node, "clip_y");
+    const char *clip_z = node_text(frame, "clip_z"), *clip_y = node_text(frame, "clip_y");
     const bool vertical = node_has(node, "fov_y"), infinite = !node_has(node, "far"),
                reversed = node_bool(node, "reversed", false);
     const double degrees = node_number(node, vertical ? "fov_y" : "fov_x", 0), near = node_number(node, "near", 0),
@@ -206,17 +205,18 @@ bool view_read(const struct node *node, const char *prefix, const struct matrix_
     return true;
 }
 
-static bool read_without_matrices(struct pack *pack, const struct node *node, uint32_t width, uint32_t height,
+static bool read_without_matrices(const struct node *frame, const struct node *node, uint32_t width, uint32_t height,
                                   struct glint_camera *camera, struct glint_error *err) {
-    const char *hand = node_text(node, "handedness"), *world = node_text(&pack->frame_node, "handedness");
+    const char *hand = node_text(node, "handedness"), *world = node_text(frame, "handedness");
     const bool left = hand ? !strcmp(hand, "left") : world && !strcmp(world, "left");
     const double aspect = height ? (double)width / height : 1;
-    return look_at(pack, node, left, camera->world_to_view, err) &&
-           project(pack, node, left, aspect, camera->view_to_clip, err);
+    return look_at(frame, node, left, camera->world_to_view, err) &&
+           project(frame, node, left, aspect, camera->view_to_clip, err);
 }
 
-bool camera_read(struct pack *pack, const struct node *node, const char *prefix, const struct matrix_order *order,
-                 uint32_t width, uint32_t height, struct glint_camera *camera, struct glint_error *err) {
+bool camera_read(const struct node *frame, const struct node *node, const char *prefix,
+                 const struct matrix_order *order, uint32_t width, uint32_t height, struct glint_camera *camera,
+                 struct glint_error *err) {
     char name[64], clip[64];
     bool has_view = false;
     snprintf(name, sizeof name, "%scamera", prefix);
@@ -225,12 +225,12 @@ bool camera_read(struct pack *pack, const struct node *node, const char *prefix,
     if (!view_read(node, prefix, order, camera->world_to_view, &has_view, err)) return false;
     if (without.value && (has_view || projection.value))
         return node_fail(&without, err, GLINT_ERROR_FORMAT, "expected %s or matrices, found both", name);
-    if (without.value) return read_without_matrices(pack, &without, width, height, camera, err);
+    if (without.value) return read_without_matrices(frame, &without, width, height, camera, err);
     if (!has_view || !node_numbers(node, clip, camera->view_to_clip))
         return node_fail(node, err, GLINT_ERROR_FORMAT, "expected %sworld_to_view and %s, or a camera, found no %s",
                          prefix, clip, has_view ? clip : "world_to_view");
     if (order->is_transposed) transpose(camera->view_to_clip);
-    return check_projection(pack, &projection, camera->view_to_clip, err);
+    return check_projection(&projection, camera->view_to_clip, err);
 }
 
 /* ---- What a projection is ---- */

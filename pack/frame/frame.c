@@ -1,9 +1,11 @@
 /* The manifest's frame: conventions, jitter, and what stands beside the cameras. */
+#include "frame.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "pack.h"
+#include "keys.h"
 
 static int choice_of(const struct node *node, const char *key, const char *const *names) {
     const char *text = node_text(node, key);
@@ -13,15 +15,14 @@ static int choice_of(const struct node *node, const char *key, const char *const
 }
 
 /* Says which keys of the frame were not said, and what holds in their place. */
-static void note_defaults(const struct pack *pack) {
+static void note_defaults(const struct node *frame_node) {
     static const char *const told[] = {"clip_y", "clip_z",   "up",           "metres_per_unit",
                                        "jitter", "exposure", "pre_exposure", "player",
                                        "number", "fog",      "cut",          "stencil_classes"};
     const struct object *object = pack_object("frame");
     for (size_t i = 0; i < sizeof told / sizeof *told; i++) {
-        const struct node node = node_child(&pack->frame_node, told[i]);
-        if (!node.value)
-            pack_note(pack, GLINT_PACK_DEFAULT, &node, "not said; %s", pack_key(object, told[i])->fallback);
+        const struct node node = node_child(frame_node, told[i]);
+        if (!node.value) node_note(&node, GLINT_PACK_DEFAULT, "not said; %s", pack_key(object, told[i])->fallback);
     }
 }
 
@@ -62,11 +63,9 @@ static bool read_fog(const struct node *fog, struct glint_frame *frame, struct g
     return true;
 }
 
-static bool read_values(struct pack *pack, struct glint_error *err) {
+static bool read_values(const struct node *node, struct glint_frame *frame, struct glint_error *err) {
     static const char *const ups[] = {"+y", "+z", "+x", "-y", "-z", "-x"}, *const ys[] = {"up", "down"},
                              *const zs[] = {"zero_to_one", "minus_one_to_one"};
-    const struct node *node = &pack->frame_node;
-    struct glint_frame *frame = &pack->frame;
     const struct node fog = node_child(node, "fog"), classes = node_child(node, "stencil_classes");
     frame->up = (enum glint_axis)choice_of(node, "up", ups);
     frame->clip_y = (enum glint_clip_y)choice_of(node, "clip_y", ys);
@@ -103,11 +102,11 @@ static int handedness_of(const struct glint_camera *camera, enum glint_clip_y cl
     return right ? 1 : -1;
 }
 
-static bool check_handedness(const struct pack *pack, struct glint_error *err) {
-    const struct node node = node_child(&pack->frame_node, "handedness");
+static bool check_handedness(const struct node *frame_node, const struct glint_frame *frame, struct glint_error *err) {
+    const struct node node = node_child(frame_node, "handedness");
     const char *said = json_string_value(node.value),
-               *found = handedness_of(&pack->frame.camera, pack->frame.clip_y) > 0 ? "right" : "left";
-    if (!said) pack_note(pack, GLINT_PACK_FOUND, &node, "not said; %s, as the matrices have it", found);
+               *found = handedness_of(&frame->camera, frame->clip_y) > 0 ? "right" : "left";
+    if (!said) node_note(&node, GLINT_PACK_FOUND, "not said; %s, as the matrices have it", found);
     else if (strcmp(said, found))
         return node_fail(
             &node, err, GLINT_ERROR_FORMAT,
@@ -117,47 +116,43 @@ static bool check_handedness(const struct pack *pack, struct glint_error *err) {
     return true;
 }
 
-static void note_projection(const struct pack *pack) {
-    const struct projection p = projection_of(pack->frame.camera.view_to_clip, pack->frame.clip_z);
-    const bool matrix = node_has(&pack->frame_node, "view_to_clip");
-    const struct node node = node_child(&pack->frame_node, matrix ? "view_to_clip" : "camera");
+static void note_projection(const struct node *frame_node, const struct glint_frame *frame) {
+    const struct projection p = projection_of(frame->camera.view_to_clip, frame->clip_z);
+    const bool matrix = node_has(frame_node, "view_to_clip");
+    const struct node node = node_child(frame_node, matrix ? "view_to_clip" : "camera");
     char far[64];
     snprintf(far, sizeof far, "far at %.6g units", p.far);
-    pack_note(pack, GLINT_PACK_FOUND, &node, "a %sprojection %s, near at %.6g units", p.is_reversed ? "reversed " : "",
+    node_note(&node, GLINT_PACK_FOUND, "a %sprojection %s, near at %.6g units", p.is_reversed ? "reversed " : "",
               p.is_infinite ? "without a far plane" : far, p.near);
 }
 
-static bool read_previous(struct pack *pack, const struct matrix_order *order, uint32_t width, uint32_t height,
-                          const double unjittered[16], struct glint_error *err) {
-    const struct node *node = &pack->frame_node;
-    struct glint_frame *frame = &pack->frame;
+static bool read_previous(const struct node *node, struct glint_frame *frame, const struct matrix_order *order,
+                          uint32_t width, uint32_t height, const double unjittered[16], struct glint_error *err) {
     const bool has_view = node_has(node, "previous_world_to_view") || node_has(node, "previous_view_to_world");
     frame->has_previous = has_view || node_has(node, "previous_view_to_clip") || node_has(node, "previous_camera");
     if (!frame->has_previous) return true;
     if (!has_view || node_has(node, "previous_view_to_clip") || node_has(node, "previous_camera"))
-        return camera_read(pack, node, "previous_", order, width, height, &frame->previous, err);
+        return camera_read(node, node, "previous_", order, width, height, &frame->previous, err);
     const struct node clip = node_child(node, "previous_view_to_clip");
     memcpy(frame->previous.view_to_clip, unjittered, 16 * sizeof(double));
-    pack_note(pack, GLINT_PACK_DEFAULT, &clip, "not said; view_to_clip without this frame's jitter");
+    node_note(&clip, GLINT_PACK_DEFAULT, "not said; view_to_clip without this frame's jitter");
     bool found;
     return view_read(node, "previous_", order, frame->previous.world_to_view, &found, err);
 }
 
-bool frame_read(struct pack *pack, uint32_t width, uint32_t height, struct glint_error *err) {
-    const struct node *node = &pack->frame_node;
-    struct glint_frame *frame = &pack->frame;
+bool frame_read(const struct node *node, struct glint_frame *frame, uint32_t width, uint32_t height,
+                struct glint_error *err) {
     struct matrix_order order;
     double unjittered[16], previous_jitter[2] = {0, 0}, back[2];
     const bool has_jitter = node_has(node, "jitter");
     const bool included = node_bool(node, "jitter_in_matrix", !node_has(node, "camera"));
-    pack->has_frame = true;
-    if (!read_values(pack, err) || !matrix_order_read(pack, &order, err)) return false;
-    note_defaults(pack);
-    if (!camera_read(pack, node, "", &order, width, height, &frame->camera, err)) return false;
+    if (!read_values(node, frame, err) || !matrix_order_read(node, &order, err)) return false;
+    note_defaults(node);
+    if (!camera_read(node, node, "", &order, width, height, &frame->camera, err)) return false;
     for (int i = 0; i < 2; i++) back[i] = included ? -frame->jitter_px[i] : 0;
     memcpy(unjittered, frame->camera.view_to_clip, sizeof unjittered);
     add_jitter(unjittered, back, frame->clip_y, width, height);
-    if (!read_previous(pack, &order, width, height, unjittered, err)) return false;
+    if (!read_previous(node, frame, &order, width, height, unjittered, err)) return false;
     if (!included) {
         node_numbers(node, "previous_jitter", previous_jitter);
         add_jitter(frame->camera.view_to_clip, frame->jitter_px, frame->clip_y, width, height);
@@ -166,19 +161,20 @@ bool frame_read(struct pack *pack, uint32_t width, uint32_t height, struct glint
     }
     const struct node said = node_child(node, "jitter_in_matrix");
     if (has_jitter && !said.value)
-        pack_note(pack, GLINT_PACK_DEFAULT, &said, "not said; %s", included ? "true" : "false: pack adds the jitter");
-    note_projection(pack);
-    return check_handedness(pack, err);
+        node_note(&said, GLINT_PACK_DEFAULT, "not said; %s", included ? "true" : "false: pack adds the jitter");
+    note_projection(node, frame);
+    return check_handedness(node, frame, err);
 }
 
 /* ---- What parts carry ---- */
 
-bool planar_read(struct pack *pack, const struct node *part, struct glint_planar *planar, struct glint_error *err) {
+bool planar_read(const struct node *frame_node, const struct node *part, struct glint_planar *planar,
+                 struct glint_error *err) {
     const struct node node = node_child(part, "planar");
     struct matrix_order order = {.is_transposed = false};
-    if (!matrix_order_read(pack, &order, err)) return false;
+    if (!matrix_order_read(frame_node, &order, err)) return false;
     node_numbers(&node, "plane", planar->plane);
-    return camera_read(pack, &node, "", &order, 0, 0, &planar->camera, err);
+    return camera_read(frame_node, &node, "", &order, 0, 0, &planar->camera, err);
 }
 
 bool cubemap_read(const struct node *part, struct glint_cubemap *cubemap, struct glint_error *err) {

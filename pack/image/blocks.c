@@ -1,10 +1,11 @@
 /* Compressed blocks (BC1 to BC7). Each image is decoded on its own by OpenImageIO, as a DDS file of one level, because its reader takes
    neither arrays nor most of DX10's format numbers. */
+#include "blocks.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "image.h"
 #include "oiio.h"
 
 #define FOURCC(a, b, c, d) ((uint32_t)(a) | (uint32_t)(b) << 8 | (uint32_t)(c) << 16 | (uint32_t)(d) << 24)
@@ -74,7 +75,7 @@ static bool decode_one(const struct image *image, const struct node *texture, co
                        const struct layout *layout, size_t at, size_t bytes, struct oiio_image *out,
                        struct glint_error *err) {
     uint8_t *file = malloc(148 + bytes);
-    if (!file) return image_no_memory(texture, err);
+    if (!file) return node_no_memory(texture, err);
     const size_t header = write_header(file, blocks, layout);
     memcpy(file + header, image->bytes.data + at, bytes);
     bool ok =
@@ -96,7 +97,7 @@ static bool make_room(struct bytes *all, const struct oiio_image *first, const s
                          layers, first->size);
     all->size = first->size * layers;
     all->data = malloc(all->size);
-    return all->data != NULL || image_no_memory(texture, err);
+    return all->data != NULL || node_no_memory(texture, err);
 }
 
 static bool decode_all(const struct image *image, const struct node *texture, const struct blocks *blocks,
@@ -114,7 +115,7 @@ static bool decode_all(const struct image *image, const struct node *texture, co
             (i || make_room(all, last, texture, layout->layers, err)) && last->size * (i + 1) <= all->size;
         if (fits) memcpy(all->data + i * last->size, last->pixels, last->size);
         free(last->pixels);
-        if (!fits) return all->data ? image_no_memory(texture, err) : false;
+        if (!fits) return all->data ? node_no_memory(texture, err) : false;
     }
     return true;
 }

@@ -2,7 +2,7 @@
 #ifndef GLINT_PACK_CUBE_H
 #define GLINT_PACK_CUBE_H
 
-#include "manifest.h"
+#include "node.h"
 
 enum cube_layout {
     CUBE_STRIP_VERTICAL,

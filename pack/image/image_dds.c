@@ -1,7 +1,8 @@
 /* DDS: the header of Direct3D's texture files, with or without DX10's; the texels behind it are raw memory or compressed blocks. */
 #include <string.h>
 
-#include "image.h"
+#include "blocks.h"
+#include "readers.h"
 
 enum { FOURCC_DX10 = 0x30315844 };
 

@@ -5,7 +5,8 @@
 #include <sys/stat.h>
 
 #include "glint/exr.h"
-#include "image.h"
+#include "keys.h"
+#include "readers.h"
 
 static bool find_part(struct glint_exr *exr, const struct node *texture, size_t *found, struct glint_error *err) {
     const char *wanted = node_text(texture, "part");
@@ -36,7 +37,7 @@ static bool read_channel(struct image *image, const struct node *texture, struct
                         .row_pitch = (size_t)info->width * bytes,
                         .layer_pitch = (size_t)info->width * info->height * bytes,
                         .name = strdup(name)};
-    if (!source->name) return image_no_memory(texture, err);
+    if (!source->name) return node_no_memory(texture, err);
     image->count++;
     /* one letter, as in other files: R, G, B, A, and Y or Z for what stands alone */
     if (strchr("RGBA", name[0]) && !name[1]) source->component.letter = (char)(name[0] - 'A' + 'a');
@@ -64,7 +65,7 @@ static bool read_part(struct image *image, const struct node *texture, struct gl
     snprintf(image->format, sizeof image->format, "OpenEXR");
     image->sources = calloc(info->channel_count, sizeof *image->sources);
     image->bytes = (struct bytes){.data = malloc((size_t)bytes), .size = (size_t)bytes};
-    if (!image->sources || !image->bytes.data) return image_no_memory(texture, err);
+    if (!image->sources || !image->bytes.data) return node_no_memory(texture, err);
     size_t at = 0;
     for (size_t i = 0; i < info->channel_count; i++)
         if (!read_channel(image, texture, exr, part, i, &at, err)) return false;

@@ -4,7 +4,8 @@
 
 #include <zstd.h>
 
-#include "image.h"
+#include "blocks.h"
+#include "readers.h"
 
 struct level {
     uint64_t offset, length, unpacked;
@@ -35,7 +36,7 @@ static bool unpack(struct image *image, const struct node *texture, const struct
         return node_fail(texture, err, GLINT_ERROR_LIMIT, "expected at most 4 GiB of pixels, found %llu bytes",
                          (unsigned long long)level->unpacked);
     uint8_t *data = malloc((size_t)level->unpacked + 1);
-    if (!data) return image_no_memory(texture, err);
+    if (!data) return node_no_memory(texture, err);
     const size_t done =
         ZSTD_decompress(data, (size_t)level->unpacked, image->bytes.data + level->offset, (size_t)level->length);
     if (ZSTD_isError(done) || done != level->unpacked) {

@@ -1,61 +1,54 @@
 /* The manifest's textures: which file, which way up, which layer. */
-#include <stdarg.h>
+#include "texture.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "pack.h"
+#include "keys.h"
+#include "read.h"
 
-void pack_note(const struct pack *pack, enum glint_pack_note kind, const struct node *node, const char *format, ...) {
-    char path[512], text[900];
-    va_list args;
-    if (!pack->options.note) return;
-    va_start(args, format);
-    vsnprintf(text, sizeof text, format, args);
-    va_end(args);
-    pack->options.note(pack->options.note_user, kind, node_path(node, path), text);
-}
-
-bool textures_prepare(struct pack *pack, struct glint_error *err) {
-    const size_t count = json_object_size(pack->textures_node.value);
-    pack->textures = calloc(2 * count + 1, sizeof *pack->textures);
-    if (!pack->textures) return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", pack->manifest.path);
-    json_t *all = pack->textures_node.value;
+bool textures_prepare(struct textures *textures, const struct node *root, struct glint_error *err) {
+    textures->node = node_child(root, "textures");
+    const size_t count = json_object_size(textures->node.value);
+    textures->all = calloc(2 * count + 1, sizeof *textures->all);
+    if (!textures->all) return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", root->manifest->path);
+    json_t *all = textures->node.value;
     for (void *at = json_object_iter(all); at; at = json_object_iter_next(all, at)) {
-        struct texture *both = &pack->textures[pack->texture_count];
-        both[0].node = both[1].node = node_child(&pack->textures_node, json_object_iter_key(at));
+        struct texture *both = &textures->all[textures->count];
+        both[0].node = both[1].node = node_child(&textures->node, json_object_iter_key(at));
         both[1].is_cube = true;
-        pack->texture_count += 2;
+        textures->count += 2;
     }
     return true;
 }
 
-void textures_note(const struct pack *pack) {
+void textures_note(const struct textures *textures) {
     size_t unsaid = 0;
-    for (size_t i = 0; i < pack->texture_count; i += 2)
+    for (size_t i = 0; i < textures->count; i += 2)
         unsaid +=
-            (pack->textures[i].is_read || pack->textures[i + 1].is_read) && !node_has(&pack->textures[i].node, "rows");
+            (textures->all[i].is_read || textures->all[i + 1].is_read) && !node_has(&textures->all[i].node, "rows");
     if (unsaid)
-        pack_note(pack, GLINT_PACK_DEFAULT, &pack->textures_node, "rows not said in %zu of %zu; top_first", unsaid,
-                  pack->texture_count / 2);
-    for (size_t i = 0; i < pack->texture_count; i += 2)
-        if (!pack->textures[i].is_read && !pack->textures[i + 1].is_read)
-            pack_note(pack, GLINT_PACK_FOUND, &pack->textures[i].node, "no channel uses it");
+        node_note(&textures->node, GLINT_PACK_DEFAULT, "rows not said in %zu of %zu; top_first", unsaid,
+                  textures->count / 2);
+    for (size_t i = 0; i < textures->count; i += 2)
+        if (!textures->all[i].is_read && !textures->all[i + 1].is_read)
+            node_note(&textures->all[i].node, GLINT_PACK_FOUND, "no channel uses it");
 }
 
-void textures_finish(struct pack *pack) {
-    for (size_t i = 0; i < pack->texture_count; i++)
-        for (size_t k = 0; k < pack->textures[i].image_count; k++) image_finish(&pack->textures[i].images[k]);
-    free(pack->textures);
-    pack->textures = NULL;
-    pack->texture_count = 0;
+void textures_finish(struct textures *textures) {
+    for (size_t i = 0; i < textures->count; i++)
+        for (size_t k = 0; k < textures->all[i].image_count; k++) image_finish(&textures->all[i].images[k]);
+    free(textures->all);
+    textures->all = NULL;
+    textures->count = 0;
 }
 
-size_t texture_name_length(const struct pack *pack, const char *text) {
+size_t texture_name_length(const struct textures *textures, const char *text) {
     size_t longest = 0;
-    for (size_t i = 0; i < pack->texture_count; i += 2) {
-        const size_t length = strlen(pack->textures[i].node.key);
-        if (length > longest && !strncmp(text, pack->textures[i].node.key, length) &&
+    for (size_t i = 0; i < textures->count; i += 2) {
+        const size_t length = strlen(textures->all[i].node.key);
+        if (length > longest && !strncmp(text, textures->all[i].node.key, length) &&
             (text[length] == '.' || !text[length]))
             longest = length;
     }
@@ -66,7 +59,7 @@ size_t texture_name_length(const struct pack *pack, const char *text) {
 
 static bool read_file(struct texture *texture, const char *name, struct glint_error *err) {
     char *path = file_beside(texture->node.manifest->path, name);
-    if (!path) return image_no_memory(&texture->node, err);
+    if (!path) return node_no_memory(&texture->node, err);
     const bool ok = image_read(&texture->images[texture->image_count++], &texture->node, path, texture->is_cube, err);
     free(path);
     return ok;
@@ -111,21 +104,21 @@ static bool choose_layer(struct texture *texture, struct glint_error *err) {
     return true;
 }
 
-static void note_texture(const struct pack *pack, const struct texture *texture) {
+static void note_texture(const struct texture *texture) {
     const struct image *image = &texture->images[0];
     const struct node *node = &texture->node;
-    pack_note(pack, GLINT_PACK_SAID, node, "%u x %u texels of %s, %zu component%s%s%s", image->width, image->height,
+    node_note(node, GLINT_PACK_SAID, "%u x %u texels of %s, %zu component%s%s%s", image->width, image->height,
               image->format, image->count, image->count == 1 ? "" : "s",
               texture->bottom_first ? ", bottom row first" : "", texture->is_cube ? ", a cube map" : "");
     const struct node cube = node_child(node, "cube");
     if (texture->is_cube && !node_has(&cube, "layout") && texture->cube.layout != CUBE_FILES)
-        pack_note(pack, GLINT_PACK_DEFAULT, &cube, "layout not said; %s, by the shape of %u x %u texels",
+        node_note(&cube, GLINT_PACK_DEFAULT, "layout not said; %s, by the shape of %u x %u texels",
                   cube_layout_name(texture->cube.layout), image->width, image->height);
     const struct node transfer = node_child(node, "transfer");
     bool has_srgb = false;
     for (size_t i = 0; i < image->count; i++) has_srgb |= image->sources[i].component.kind == COMPONENT_SRGB;
     if (!transfer.value && (has_srgb || image->is_ambiguous))
-        pack_note(pack, GLINT_PACK_DEFAULT, &transfer, "not said; %s",
+        node_note(&transfer, GLINT_PACK_DEFAULT, "not said; %s",
                   has_srgb ? "srgb, as the format's name has it: decoded to linear"
                            : "linear: numbers are taken as the file has them");
 }
@@ -143,7 +136,7 @@ static void apply_transfer(struct texture *texture) {
         }
 }
 
-static bool read_texture(const struct pack *pack, struct texture *texture, struct glint_error *err) {
+static bool read_texture(struct texture *texture, struct glint_error *err) {
     const char *rows = node_text(&texture->node, "rows");
     const bool files = node_has(&texture->node, "files");
     texture->is_read = true;
@@ -158,20 +151,20 @@ static bool read_texture(const struct pack *pack, struct texture *texture, struc
     texture->width = texture->is_cube ? texture->cube.size : image->width;
     texture->height = texture->is_cube ? 6 * texture->cube.size : image->height;
     if (!choose_layer(texture, err)) return false;
-    note_texture(pack, texture);
+    note_texture(texture);
     return true;
 }
 
-struct texture *texture_find(struct pack *pack, const struct node *user, const char *name, size_t length, bool cube,
-                             struct glint_error *err) {
+struct texture *texture_find(struct textures *textures, const struct node *user, const char *name, size_t length,
+                             bool cube, struct glint_error *err) {
     char wanted[256];
     snprintf(wanted, sizeof wanted, "%.*s", (int)(length < 255 ? length : 255), name);
     struct suggestion near = suggestion_for(wanted);
-    for (size_t i = 0; i < pack->texture_count; i += 2) {
-        struct texture *texture = &pack->textures[i + cube];
+    for (size_t i = 0; i < textures->count; i += 2) {
+        struct texture *texture = &textures->all[i + cube];
         suggestion_offer(&near, texture->node.key);
         if (strlen(texture->node.key) != length || memcmp(texture->node.key, name, length)) continue;
-        if (!texture->is_read && !read_texture(pack, texture, err)) return NULL;
+        if (!texture->is_read && !read_texture(texture, err)) return NULL;
         return texture;
     }
     node_fail(user, err, GLINT_ERROR_FORMAT, "texture \"%.100s\" is not listed%s", wanted, suggestion_text(&near));

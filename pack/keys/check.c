@@ -1,9 +1,9 @@
 /* Checks the keys and values of a manifest by keys_rows.h. */
+#include "check.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "manifest.h"
 
 static const char *kind_of(const json_t *value) {
     switch (json_typeof(value)) {

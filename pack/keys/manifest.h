@@ -1,60 +1,12 @@
-/* A manifest in memory: its values with their keys and lines. */
+/* Reads a manifest into memory. */
 #ifndef GLINT_PACK_MANIFEST_H
 #define GLINT_PACK_MANIFEST_H
 
-#include <jansson.h>
-#include <stdint.h>
-
-#include "glint/common.h"
-#include "keys.h"
-
-struct manifest {
-    const char *path; /* the caller's */
-    char *text;
-    size_t size;
-    json_t *root;
-};
+#include "node.h"
 
 /* Reads and parses the file, and checks every key and kind of value by keys_rows.h, but not the channels of parts. */
-bool manifest_open(struct manifest *manifest, const char *path, struct glint_error *err);
+bool manifest_open(struct manifest *manifest, const char *path, const struct glint_pack_options *options,
+                   struct glint_error *err);
 void manifest_close(struct manifest *manifest);
-
-/* A value and the way to it. Nodes live on the stack of those who read; a parent must outlive its children. */
-struct node {
-    const struct manifest *manifest;
-    const struct node *parent; /* NULL: the whole manifest */
-    const char *key;           /* in an object, */
-    size_t index;              /* or in a list */
-    json_t *value;             /* NULL: nothing was said */
-};
-
-struct node node_root(const struct manifest *manifest);
-struct node node_child(const struct node *parent, const char *key);
-struct node node_item(const struct node *parent, size_t index);
-/* "parts.gbuffer.normal.X" */
-const char *node_path(const struct node *node, char text[512]);
-/* The line of the value, or of the nearest value around it that was said. */
-unsigned node_line(const struct node *node);
-
-/* "FILE:LINE: PATH: MESSAGE". Returns false. */
-#if defined(__GNUC__)
-__attribute__((format(printf, 4, 5)))
-#endif
-bool node_fail(const struct node *node, struct glint_error *err, enum glint_code code, const char *format, ...);
-/* Puts file, line and path before the message of an error that something below reported. Returns false. */
-bool node_wrap(const struct node *node, struct glint_error *err);
-
-/* Whether the value is an object whose keys are all known, and of their kinds. */
-bool node_check(const struct node *node, const struct object *object, struct glint_error *err);
-
-/* Values of the node's key, which node_check has accepted. */
-bool node_has(const struct node *node, const char *key);
-const char *node_text(const struct node *node, const char *key); /* NULL: not said */
-double node_number(const struct node *node, const char *key, double fallback);
-/* Limited to UINT32_MAX by node_check, but for keys of bytes. */
-uint64_t node_count(const struct node *node, const char *key, uint64_t fallback);
-bool node_bool(const struct node *node, const char *key, bool fallback);
-/* False if nothing was said; `out` is then unchanged. */
-bool node_numbers(const struct node *node, const char *key, double *out);
 
 #endif

@@ -1,9 +1,11 @@
 /* The channels of a part: which keys name which, and the texture's components that they are made of. */
+#include "channels.h"
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "pack.h"
+#include "check.h"
 
 enum { MOST_CHANNELS = 1024, GROUP = 8 };
 
@@ -143,10 +145,10 @@ static bool check_size(struct part *part, const struct node *node, const struct 
                      part->width, part->height, texture->width, texture->height, texture->node.key);
 }
 
-static bool add_textured(struct pack *pack, struct part *part, const struct node *node, const struct names *names,
-                         const char *name, size_t length, const char *component, struct glint_error *err) {
+static bool add_textured(struct part *part, const struct node *node, const struct names *names, const char *name,
+                         size_t length, const char *component, struct glint_error *err) {
     size_t found[GROUP], count = 0;
-    const struct texture *texture = texture_find(pack, node, name, length, part->is_cube, err);
+    const struct texture *texture = texture_find(part->textures, node, name, length, part->is_cube, err);
     if (!texture || !check_size(part, node, texture, err) ||
         !choose_components(texture, node, component, names->count, found, &count, err))
         return false;
@@ -169,8 +171,7 @@ static bool add_constant(struct part *part, const struct node *node, const struc
     return true;
 }
 
-static bool add_object(struct pack *pack, struct part *part, const struct node *node, const struct names *names,
-                       struct glint_error *err) {
+static bool add_object(struct part *part, const struct node *node, const struct names *names, struct glint_error *err) {
     const char *texture = node_text(node, "texture"), *storage = node_text(node, "storage"),
                *type = node_text(node, "type");
     const bool constant = node_has(node, "value");
@@ -181,7 +182,7 @@ static bool add_object(struct pack *pack, struct part *part, const struct node *
     if (storage && (!storage[0] || strlen(storage) > 63))
         return node_fail(node, err, GLINT_ERROR_FORMAT, "storage: expected a format's name of 1 to 63 bytes");
     if (!(constant ? add_constant(part, node, names, node_number(node, "value", 0), err)
-                   : add_textured(pack, part, node, names, texture, strlen(texture), node_text(node, "channel"), err)))
+                   : add_textured(part, node, names, texture, strlen(texture), node_text(node, "channel"), err)))
         return false;
     for (size_t i = first; i < part->count; i++) {
         struct channel *channel = &part->channels[i];
@@ -198,43 +199,41 @@ static bool add_object(struct pack *pack, struct part *part, const struct node *
     return true;
 }
 
-static bool add_key(struct pack *pack, struct part *part, const struct node *node, bool exact,
-                    struct glint_error *err) {
+static bool add_key(struct part *part, const struct node *node, bool exact, struct glint_error *err) {
     struct names names;
     const char *text = json_string_value(node->value);
     if (!find_names(part, node, exact, &names, err)) return false;
     if (text) {
-        const size_t listed = texture_name_length(pack, text), dot = strcspn(text, "."), length = listed ? listed : dot;
-        return add_textured(pack, part, node, &names, text, length, text[length] ? text + length + 1 : NULL, err);
+        const size_t listed = texture_name_length(part->textures, text), dot = strcspn(text, "."),
+                     length = listed ? listed : dot;
+        return add_textured(part, node, &names, text, length, text[length] ? text + length + 1 : NULL, err);
     }
     if (json_is_number(node->value)) return add_constant(part, node, &names, json_number_value(node->value), err);
     if (json_is_object(node->value))
-        return node_check(node, pack_object("channel"), err) && add_object(pack, part, node, &names, err);
+        return node_check(node, pack_object("channel"), err) && add_object(part, node, &names, err);
     return node_fail(node, err, GLINT_ERROR_FORMAT,
                      "expected a channel: \"TEXTURE.COMPONENT\", a number or an object, found another value");
 }
 
 /* ---- All keys ---- */
 
-static bool add_keys(struct pack *pack, struct part *part, const struct node *object, bool exact,
-                     struct glint_error *err) {
+static bool add_keys(struct part *part, const struct node *object, bool exact, struct glint_error *err) {
     const struct object *part_keys = pack_object("part");
     for (void *at = json_object_iter(object->value); at; at = json_object_iter_next(object->value, at)) {
         const struct node node = node_child(object, json_object_iter_key(at));
         if (!exact && (pack_key(part_keys, node.key) || !strcmp(node.key, "comment"))) continue;
-        if (!add_key(pack, part, &node, exact, err)) return false;
+        if (!add_key(part, &node, exact, err)) return false;
     }
     return true;
 }
 
-bool channels_read(struct pack *pack, struct part *part, struct glint_error *err) {
+bool channels_read(struct part *part, struct glint_error *err) {
     const char *sibling = node_text(&part->node, "sibling");
     part->channels = calloc(MOST_CHANNELS, sizeof *part->channels);
-    if (!part->channels) return image_no_memory(&part->node, err);
+    if (!part->channels) return node_no_memory(&part->node, err);
     part->more = node_child(&part->node, "channels");
     const struct node *more = &part->more;
-    if (!add_keys(pack, part, &part->node, false, err) || (more->value && !add_keys(pack, part, more, true, err)))
-        return false;
+    if (!add_keys(part, &part->node, false, err) || (more->value && !add_keys(part, more, true, err))) return false;
     if (sibling && part->count)
         return node_fail(&part->channels[0].node, err, GLINT_ERROR_FORMAT, "expected no channels beside a sibling");
     if (!sibling && !part->count)

@@ -1,11 +1,12 @@
 /* The values of a part's channels: their types, their storage formats, and every texel. */
+#include "convert.h"
+
 #include <Imath/half.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "pack.h"
 #include "threads.h"
 
 /* ---- Types and storage ---- */
@@ -144,11 +145,11 @@ bool channels_choose(struct part *part, struct glint_error *err) {
         if (!choose_one(part, channel, err)) return false;
         const struct node node = node_child(&part->node, channel->name);
         if (channel->texture)
-            pack_note(part->pack, GLINT_PACK_SAID, &node, "%s.%s%s, stored as %s, precise as %s",
-                      channel->texture->node.key, channel->sources[0]->name, channel->is_scaled ? ", scaled" : "",
-                      types[channel->stored], channel->storage);
+            node_note(&node, GLINT_PACK_SAID, "%s.%s%s, stored as %s, precise as %s", channel->texture->node.key,
+                      channel->sources[0]->name, channel->is_scaled ? ", scaled" : "", types[channel->stored],
+                      channel->storage);
         else
-            pack_note(part->pack, GLINT_PACK_SAID, &node, "%.9g for all texels, stored as %s",
+            node_note(&node, GLINT_PACK_SAID, "%.9g for all texels, stored as %s",
                       channel->scale * channel->value + channel->offset, types[channel->stored]);
     }
     return true;
@@ -246,8 +247,8 @@ bool channels_convert(struct part *part, struct glint_error *err) {
         struct job job = {part, channel, channel->texture && decodes_srgb(part, channel)};
         const size_t bytes = channel->stored == GLINT_STORED_HALF ? 2 : 4;
         channel->data = malloc((size_t)part->width * part->height * bytes);
-        if (!channel->data) return image_no_memory(&channel->node, err);
-        if (!glint_loop(part->height, glint_loop_workers(part->height, part->pack->options.threads), convert_row, &job))
+        if (!channel->data) return node_no_memory(&channel->node, err);
+        if (!glint_loop(part->height, glint_loop_workers(part->height, part->threads), convert_row, &job))
             return not_integers(part, channel, err);
     }
     return true;

@@ -1,8 +1,10 @@
 /* How the channels of a part are encoded: what the manifest says, what follows from camera and textures, and what contradicts them. */
+#include "encodings.h"
+
 #include <stddef.h>
 #include <string.h>
 
-#include "pack.h"
+#include "camera.h"
 
 static const struct {
     const char *key;
@@ -48,12 +50,12 @@ static bool check_depth(struct part *part, const struct glint_camera *camera, st
     const struct channel *channel = find_channel(part, "depth.Z");
     const struct node encodings = node_child(&part->node, "encodings"), node = node_child(&encodings, "depth");
     if (!channel || !camera) return true;
-    const struct projection p = projection_of(camera->view_to_clip, part->pack->frame.clip_z);
+    const struct projection p = projection_of(camera->view_to_clip, part->frame->clip_z);
     const bool buffer = channel->texture && channel->sources[0]->component.letter == 'd';
     const enum glint_depth_encoding fits = projection_encoding(&p), said = part->encodings.depth;
     if (!node.value) {
         part->encodings.depth = buffer ? fits : GLINT_DEPTH_VIEW_LINEAR;
-        pack_note(part->pack, GLINT_PACK_DEFAULT, &node, "not said; %s, %s",
+        node_note(&node, GLINT_PACK_DEFAULT, "not said; %s, %s",
                   glint_encoding_name("depth", (int)part->encodings.depth),
                   buffer ? "as the projection has it" : "for the texture has no format of a depth buffer");
         return true;
@@ -70,7 +72,7 @@ static bool check_depth(struct part *part, const struct glint_camera *camera, st
                          glint_encoding_name("depth", (int)said), p.is_reversed, p.near,
                          p.is_infinite ? "has no far plane" : "has a far plane",
                          glint_encoding_name("depth", (int)fits));
-    const struct glint_frame *frame = &part->pack->frame;
+    const struct glint_frame *frame = part->frame;
     if (said >= GLINT_DEPTH_LOGARITHMIC && !(frame->depth_near > 0 && frame->depth_near < frame->depth_far))
         return node_fail(&node, err, GLINT_ERROR_FORMAT,
                          "logarithmic: expected frame.depth_near and depth_far, 0 < near < far, found %g and %g",
@@ -107,7 +109,7 @@ static bool check_normal(struct part *part, const char *layer, const char *key, 
     if (!first || node.value) return true;
     const bool fixed = first->texture && !first->is_scaled && first->sources[0]->component.kind == COMPONENT_UNORM;
     if (fixed) *encoding = GLINT_NORMAL_UNORM;
-    pack_note(part->pack, GLINT_PACK_DEFAULT, &node, "not said; %s%s%s", fixed ? "unorm, since " : "signed",
+    node_note(&node, GLINT_PACK_DEFAULT, "not said; %s%s%s", fixed ? "unorm, since " : "signed",
               fixed ? first->texture->images[0].format : "", fixed ? " holds [0, 1]" : "");
     return true;
 }
@@ -122,9 +124,9 @@ bool encodings_read(struct part *part, const struct glint_camera *camera, struct
             return node_fail(&key, err, GLINT_ERROR_FORMAT, "the part has no channel that this encoding applies to");
         set(&part->encodings, i, text ? glint_encoding_value(members[i].key, text) : 0);
         const bool later = !strcmp(members[i].key, "depth") || strstr(members[i].key, "normal");
-        if (needed && text) pack_note(part->pack, GLINT_PACK_SAID, &key, "%s", text);
+        if (needed && text) node_note(&key, GLINT_PACK_SAID, "%s", text);
         else if (needed && (!later || !strcmp(members[i].key, "normal_space")))
-            pack_note(part->pack, GLINT_PACK_DEFAULT, &key, "not said; %s", glint_encoding_name(members[i].key, 0));
+            node_note(&key, GLINT_PACK_DEFAULT, "not said; %s", glint_encoding_name(members[i].key, 0));
     }
     if (!part->role || !part->role->channels) return true;
     return check_depth(part, camera, err) && check_normal(part, "normal.", "normal", &part->encodings.normal, err) &&

@@ -1,11 +1,11 @@
 /* What capture-format's writer does not take: parts that glint does not know, and attributes of rarer types. A second file is written
    from the first, with them added. */
+#include "extras.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "pack.h"
 
 struct extra {
     char *part; /* the part that has the attribute, */
@@ -101,7 +101,7 @@ static bool read_numbers(struct extra *extra, const struct node *node, const jso
     if ((count && found != count) || (!count && !list)) return expected(node, what, err);
     double *numbers = calloc(found + 1, sizeof *numbers);
     extra->memory[1] = numbers;
-    if (!numbers) return image_no_memory(node, err);
+    if (!numbers) return node_no_memory(node, err);
     for (size_t i = 0; i < found; i++) {
         const json_t *item = list ? json_array_get(value, i) : value;
         if (!read_number(item, &numbers[i])) return expected(node, what, err);
@@ -118,7 +118,7 @@ static bool read_strings(struct extra *extra, const struct node *node, const jso
     const size_t count = json_array_size(value);
     const char **strings = calloc(count + 1, sizeof *strings);
     extra->memory[1] = strings;
-    if (!strings) return image_no_memory(node, err);
+    if (!strings) return node_no_memory(node, err);
     if (!json_is_array(value)) return expected(node, "a list of texts", err);
     for (size_t i = 0; i < count; i++) {
         strings[i] = json_string_value(json_array_get(value, i)); /* lives as long as the manifest */
@@ -144,7 +144,7 @@ static bool read_bytes(struct extra *extra, const struct node *node, const json_
         return node_fail(node, err, GLINT_ERROR_FORMAT, "opaque: expected a type_name of 1 to 255 bytes");
     uint8_t *bytes = calloc(digits / 2 + 1, 1);
     extra->memory[1] = bytes;
-    if (!bytes) return image_no_memory(node, err);
+    if (!bytes) return node_no_memory(node, err);
     for (size_t i = 0; i < digits; i += 2) {
         const int high = digit_of(text[i]), low = digit_of(text[i + 1]);
         if (high < 0 || low < 0) return expected(node, "hexadecimal bytes", err);
@@ -220,11 +220,11 @@ bool attributes_read(const struct part *part, struct extras *extras, struct glin
     const struct node all = node_child(&part->node, "attributes");
     *count = 0;
     *simple = calloc(json_object_size(all.value) + 1, sizeof **simple);
-    if (!*simple) return image_no_memory(&all, err);
+    if (!*simple) return node_no_memory(&all, err);
     for (void *at = json_object_iter(all.value); at; at = json_object_iter_next(all.value, at)) {
         const struct node node = node_child(&all, json_object_iter_key(at));
         struct extra *extra = add_extra(extras);
-        if (!extra) return image_no_memory(&node, err);
+        if (!extra) return node_no_memory(&node, err);
         if (!node.key[0] || strlen(node.key) > 255 || is_reserved(node.key))
             return node_fail(&node, err, GLINT_ERROR_FORMAT,
                              "expected a name of 1 to 255 bytes that neither OpenEXR nor glint. reserves");
@@ -239,7 +239,7 @@ bool attributes_read(const struct part *part, struct extras *extras, struct glin
                                          .number = extra->attribute.numbers ? extra->attribute.numbers[0] : 0};
             free(extra->memory[1]);
             extras->attribute_count--;
-        } else if (!(extra->part = strdup(part->name))) return image_no_memory(&node, err);
+        } else if (!(extra->part = strdup(part->name))) return node_no_memory(&node, err);
     }
     return true;
 }
@@ -248,17 +248,17 @@ bool attributes_read(const struct part *part, struct extras *extras, struct glin
 
 bool extras_add_part(struct extras *extras, struct part *part, struct glint_error *err) {
     struct unknown *more = realloc(extras->parts, (extras->part_count + 1) * sizeof *more);
-    if (!more) return image_no_memory(&part->node, err);
+    if (!more) return node_no_memory(&part->node, err);
     extras->parts = more;
     struct unknown *unknown = &more[extras->part_count++];
     *unknown = (struct unknown){.channels = calloc(part->count, sizeof *unknown->channels), .text = strdup(part->name)};
-    if (!unknown->channels || !unknown->text) return image_no_memory(&part->node, err);
+    if (!unknown->channels || !unknown->text) return node_no_memory(&part->node, err);
     unknown->part = (struct glint_exr_part){
         .name = unknown->text, .width = part->width, .height = part->height, .channels = unknown->channels};
     for (size_t i = 0; i < part->count; i++) {
         struct channel *channel = &part->channels[i];
         char *name = strdup(channel->name);
-        if (!name) return image_no_memory(&part->node, err);
+        if (!name) return node_no_memory(&part->node, err);
         unknown->channels[unknown->part.channel_count++] =
             (struct glint_exr_channel){.name = name, .stored = channel->stored, .data = channel->data};
         channel->data = NULL;

@@ -1,10 +1,27 @@
 /* glint_pack: reads a manifest and its textures, and writes the capture. */
-#include "pack.h"
+#include "glint/pack.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+
+#include "channels.h"
+#include "convert.h"
+#include "encodings.h"
+#include "extras.h"
+#include "frame.h"
+#include "keys.h"
+#include "manifest.h"
+
+struct pack {
+    struct manifest manifest;
+    struct node root, parts_node, frame_node;
+    struct glint_pack_options options;
+    struct textures textures;
+    bool has_frame;
+    struct glint_frame frame;
+};
 
 static bool report(const struct pack *pack, const char *what, double done, struct glint_error *err) {
     if (!pack->options.progress || pack->options.progress(pack->options.progress_user, what, done)) return true;
@@ -18,7 +35,7 @@ static bool place_sibling(const struct part *part, const char *out, const char *
                           struct glint_error *err) {
     const struct node node = node_child(&part->node, "sibling");
     char *target = file_beside(out, name);
-    if (!target) return image_no_memory(&node, err);
+    if (!target) return node_no_memory(&node, err);
     bool ok = true;
     if (file_same(from, target)) ok = true;
     else if (!access(target, F_OK)) {
@@ -37,8 +54,8 @@ static bool read_sibling(const struct part *part, const char *out, const char **
     if (!path) return true;
     if (!**name || !strcmp(*name, ".") || !strcmp(*name, "..") || strchr(*name, '\\') || strlen(*name) > 255)
         return node_fail(&node, err, GLINT_ERROR_FORMAT, "expected the path of a file, found \"%.100s\"", path);
-    char *from = file_beside(part->pack->manifest.path, path);
-    if (!from) return image_no_memory(&node, err);
+    char *from = file_beside(part->node.manifest->path, path);
+    if (!from) return node_no_memory(&node, err);
     bool ok = !access(from, R_OK) || node_fail(&node, err, GLINT_ERROR_IO, "%s cannot be read", from);
     ok = ok && (!out || place_sibling(part, out, from, *name, err));
     free(from);
@@ -47,8 +64,12 @@ static bool read_sibling(const struct part *part, const char *out, const char **
 
 /* ---- Parts ---- */
 
-static struct part part_of(const struct pack *pack, const char *name) {
-    struct part part = {.pack = pack, .node = node_child(&pack->parts_node, name), .name = name};
+static struct part part_of(struct pack *pack, const char *name) {
+    struct part part = {.textures = &pack->textures,
+                        .frame = pack->has_frame ? &pack->frame : NULL,
+                        .threads = pack->options.threads,
+                        .node = node_child(&pack->parts_node, name),
+                        .name = name};
     part.role = role_of(name, &part.is_previous);
     part.is_cube = part.role && part.role->shape == GLINT_SHAPE_CUBE;
     return part;
@@ -79,7 +100,7 @@ static bool hand_over(struct glint_writer *writer, const struct part *part, stru
                       struct glint_error *err) {
     struct glint_channel *channels = calloc(part->count + 1, sizeof *channels);
     static const enum glint_type types[] = {GLINT_F16, GLINT_F32, GLINT_U32};
-    if (!channels) return image_no_memory(&part->node, err);
+    if (!channels) return node_no_memory(&part->node, err);
     for (size_t i = 0; i < part->count; i++)
         channels[i] = (struct glint_channel){.name = part->channels[i].name,
                                              .type = types[part->channels[i].stored],
@@ -104,7 +125,7 @@ static bool add_part(struct pack *pack, struct part *part, struct glint_writer *
                                         : pack->frame.has_previous        ? &pack->frame.previous
                                                                           : NULL;
     if (node_has(&part->node, "cubemap") && !cubemap_read(&part->node, &cubemap, err)) return false;
-    if (node_has(&part->node, "planar") && !planar_read(pack, &part->node, &planar, err)) return false;
+    if (node_has(&part->node, "planar") && !planar_read(&pack->frame_node, &part->node, &planar, err)) return false;
     if (!encodings_read(part, camera, err) || !channels_choose(part, err) ||
         !read_sibling(part, out, &file.sibling, err) || !channels_convert(part, err))
         return false;
@@ -140,7 +161,7 @@ static bool add_parts(struct pack *pack, struct part *gbuffer, struct glint_writ
         const bool first = !strcmp(part.name, "gbuffer");
         ok = report(pack, part.name, 0.9 * (double)done++ / (double)count, err);
         if (first) take_part(&part, gbuffer);
-        else ok = ok && channels_read(pack, &part, err);
+        else ok = ok && channels_read(&part, err);
         ok = ok && check_part(&part, gbuffer->width, gbuffer->height, err) &&
              add_part(pack, &part, writer, extras, out, err);
         channels_finish(&part);
@@ -210,7 +231,7 @@ static bool is_input(const struct pack *pack, const char *out, const char *name)
 }
 
 static bool check_output(const struct pack *pack, const char *out, struct glint_error *err) {
-    json_t *textures = pack->textures_node.value, *parts = pack->parts_node.value;
+    json_t *textures = json_object_get(pack->root.value, "textures"), *parts = pack->parts_node.value;
     bool same = file_same(pack->manifest.path, out);
     for (void *at = json_object_iter(textures); at; at = json_object_iter_next(textures, at)) {
         const json_t *texture = json_object_iter_value(at), *files = json_object_get(texture, "files"),
@@ -238,7 +259,7 @@ static bool write_all(struct pack *pack, struct part *gbuffer, const char *out, 
     if (ok && writer && pack->has_frame)
         ok = glint_writer_set_frame(writer, &pack->frame, err) || node_wrap(&pack->frame_node, err);
     ok = ok && writer && add_parts(pack, gbuffer, writer, extras, out, err);
-    if (ok) textures_note(pack);
+    if (ok) textures_note(&pack->textures);
     if (ok && out) {
         ok = report(pack, "write", 0.9, err) &&
              (glint_writer_finish(writer, err) || node_wrap(&pack->parts_node, err)) &&
@@ -253,16 +274,17 @@ static bool write_all(struct pack *pack, struct part *gbuffer, const char *out, 
 
 static bool pack_opened(struct pack *pack, const char *out, struct glint_error *err) {
     pack->root = node_root(&pack->manifest);
-    pack->textures_node = node_child(&pack->root, "textures");
     pack->parts_node = node_child(&pack->root, "parts");
     pack->frame_node = node_child(&pack->root, "frame");
     if (!check_roles(pack, err) || !check_shared(pack, err) || (out && !check_output(pack, out, err)) ||
-        !textures_prepare(pack, err))
+        !textures_prepare(&pack->textures, &pack->root, err))
         return false;
+    pack->has_frame = pack->frame_node.value != NULL;
     struct part gbuffer = part_of(pack, "gbuffer");
     bool ok = true;
-    if (pack->frame_node.value)
-        ok = channels_read(pack, &gbuffer, err) && frame_read(pack, gbuffer.width, gbuffer.height, err);
+    if (pack->has_frame)
+        ok = channels_read(&gbuffer, err) &&
+             frame_read(&pack->frame_node, &pack->frame, gbuffer.width, gbuffer.height, err);
     ok = ok && write_all(pack, &gbuffer, out, err);
     channels_finish(&gbuffer);
     return ok;
@@ -274,8 +296,8 @@ bool glint_pack(const char *manifest, const char *out, const struct glint_pack_o
     struct glint_error own = {0};
     if (!err) err = &own; /* messages of what lies below are put together with lines */
     if (options) pack.options = *options;
-    const bool ok = manifest_open(&pack.manifest, manifest, err) && pack_opened(&pack, out, err);
-    textures_finish(&pack);
+    const bool ok = manifest_open(&pack.manifest, manifest, &pack.options, err) && pack_opened(&pack, out, err);
+    textures_finish(&pack.textures);
     manifest_close(&pack.manifest);
     return ok;
 }

@@ -1,6 +1,6 @@
-/* What the two files that extract share. */
-#ifndef GLINT_PACK_EXTRACT_H
-#define GLINT_PACK_EXTRACT_H
+/* Attributes of a capture as keys of a manifest. */
+#ifndef GLINT_PACK_ATTRIBUTES_H
+#define GLINT_PACK_ATTRIBUTES_H
 
 #include <jansson.h>
 

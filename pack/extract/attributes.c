@@ -1,11 +1,12 @@
 /* Attributes of a capture as keys of a manifest. */
+#include "attributes.h"
+
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "extract.h"
-#include "pack.h"
+#include "roles.h"
 
 enum kind { NUMBERS, NUMBER, COUNT, FLAG, TEXT, PLANE };
 
