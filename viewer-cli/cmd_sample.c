@@ -6,7 +6,7 @@
 
 #include "options/args.h"
 #include "glint/samples.h"
-#include "glint/nearest.h"
+#include "nearest.h"
 #include "io/pipe.h"
 #include "io/progress.h"
 #include "io/table.h"

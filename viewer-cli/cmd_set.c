@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "io/table.h"
-#include "glint/nearest.h"
+#include "nearest.h"
 
 struct arguments {
     const char *path, *out;

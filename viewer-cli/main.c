@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "glint/nearest.h"
+#include "nearest.h"
 
 static void print_help(FILE *out) {
     fputs(

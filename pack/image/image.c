@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "keys.h"
+#include "nearest.h"
 
 uint32_t read_u32(const uint8_t *at) {
     return at[0] | (uint32_t)at[1] << 8 | (uint32_t)at[2] << 16 | (uint32_t)at[3] << 24;
@@ -149,15 +149,15 @@ bool image_format(const struct node *texture, const struct format **format, stru
     if (!name || *format) return true;
     const struct node node = node_child(texture, "format");
     const char *advice = format_advice(name);
-    struct suggestion near = suggestion_for(name);
+    struct glint_nearest near = glint_nearest_to(name);
     char names[pack_format_count][2][80];
     for (size_t i = 0; i < pack_format_count; i++) {
         snprintf(names[i][0], 80, "VK_FORMAT_%s", pack_formats[i].vulkan);
         snprintf(names[i][1], 80, "DXGI_FORMAT_%s", pack_formats[i].dxgi);
-        if (pack_formats[i].vulkan[0]) suggestion_offer(&near, names[i][0]);
-        if (pack_formats[i].dxgi[0]) suggestion_offer(&near, names[i][1]);
-        if (pack_formats[i].other[0]) suggestion_offer(&near, pack_formats[i].other);
+        if (pack_formats[i].vulkan[0]) glint_nearest_offer(&near, names[i][0]);
+        if (pack_formats[i].dxgi[0]) glint_nearest_offer(&near, names[i][1]);
+        if (pack_formats[i].other[0]) glint_nearest_offer(&near, pack_formats[i].other);
     }
     return node_fail(&node, err, GLINT_ERROR_FORMAT, "there is no format \"%.60s\"%s", name,
-                     advice[0] ? advice : suggestion_text(&near));
+                     advice[0] ? advice : glint_nearest_text(&near));
 }

@@ -5,20 +5,20 @@
 #include <sys/stat.h>
 
 #include "glint/exr.h"
-#include "keys.h"
+#include "nearest.h"
 #include "readers.h"
 
 static bool find_part(struct glint_exr *exr, const struct node *texture, size_t *found, struct glint_error *err) {
     const char *wanted = node_text(texture, "part");
     const struct node node = node_child(texture, "part");
-    struct suggestion near = suggestion_for(wanted ? wanted : "");
+    struct glint_nearest near = glint_nearest_to(wanted ? wanted : "");
     for (*found = 0; *found < glint_exr_part_count(exr); ++*found) {
         const char *name = glint_exr_part(exr, *found)->name;
         if (!wanted || !strcmp(name, wanted)) return true;
-        suggestion_offer(&near, name);
+        glint_nearest_offer(&near, name);
     }
     return node_fail(&node, err, GLINT_ERROR_FORMAT, "the file has no part \"%.80s\"%s", wanted ? wanted : "",
-                     suggestion_text(&near));
+                     glint_nearest_text(&near));
 }
 
 static bool read_channel(struct image *image, const struct node *texture, struct glint_exr *exr, size_t part, size_t i,

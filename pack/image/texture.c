@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "keys.h"
+#include "nearest.h"
 #include "read.h"
 
 bool textures_prepare(struct textures *textures, const struct node *root, struct glint_error *err) {
@@ -159,14 +159,14 @@ struct texture *texture_find(struct textures *textures, const struct node *user,
                              bool cube, struct glint_error *err) {
     char wanted[256];
     snprintf(wanted, sizeof wanted, "%.*s", (int)(length < 255 ? length : 255), name);
-    struct suggestion near = suggestion_for(wanted);
+    struct glint_nearest near = glint_nearest_to(wanted);
     for (size_t i = 0; i < textures->count; i += 2) {
         struct texture *texture = &textures->all[i + cube];
-        suggestion_offer(&near, texture->node.key);
+        glint_nearest_offer(&near, texture->node.key);
         if (strlen(texture->node.key) != length || memcmp(texture->node.key, name, length)) continue;
         if (!texture->is_read && !read_texture(texture, err)) return NULL;
         return texture;
     }
-    node_fail(user, err, GLINT_ERROR_FORMAT, "texture \"%.100s\" is not listed%s", wanted, suggestion_text(&near));
+    node_fail(user, err, GLINT_ERROR_FORMAT, "texture \"%.100s\" is not listed%s", wanted, glint_nearest_text(&near));
     return NULL;
 }

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "nearest.h"
+
 static const char *kind_of(const json_t *value) {
     switch (json_typeof(value)) {
     case JSON_OBJECT:
@@ -82,18 +84,18 @@ static bool check_planes(const struct node *node, size_t most, struct glint_erro
 static bool check_choice(const struct node *node, const char *words, struct glint_error *err) {
     const char *found = json_string_value(node->value);
     char list[256], copy[256];
-    struct suggestion near = suggestion_for(found ? found : "");
+    struct glint_nearest near = glint_nearest_to(found ? found : "");
     size_t length = 0;
     snprintf(copy, sizeof copy, "%s", words);
     char *rest = NULL;
     for (char *word = strtok_r(copy, " ", &rest); word; word = strtok_r(NULL, " ", &rest)) {
         if (found && !strcmp(word, found)) return true;
-        suggestion_offer(&near, word);
+        glint_nearest_offer(&near, word);
         length += (size_t)snprintf(list + length, sizeof list - length, "%s%s", length ? ", " : "", word);
     }
     if (!found) return expected(node, list, err);
     return node_fail(node, err, GLINT_ERROR_FORMAT, "expected %s, found \"%.60s\"%s", list, found,
-                     suggestion_text(&near));
+                     glint_nearest_text(&near));
 }
 
 static bool check_choices(const struct node *node, const struct key *key, struct glint_error *err) {
@@ -170,9 +172,9 @@ static bool check_value(const struct node *node, const struct key *key, struct g
 }
 
 static bool unknown_key(const struct node *node, const struct object *object, struct glint_error *err) {
-    struct suggestion near = suggestion_for(node->key);
-    for (const struct key *key = object->keys; key->name; key++) suggestion_offer(&near, key->name);
-    return node_fail(node, err, GLINT_ERROR_FORMAT, "%s has no such key%s", object->name, suggestion_text(&near));
+    struct glint_nearest near = glint_nearest_to(node->key);
+    for (const struct key *key = object->keys; key->name; key++) glint_nearest_offer(&near, key->name);
+    return node_fail(node, err, GLINT_ERROR_FORMAT, "%s has no such key%s", object->name, glint_nearest_text(&near));
 }
 
 bool node_check(const struct node *node, const struct object *object, struct glint_error *err) {

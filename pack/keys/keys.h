@@ -41,14 +41,4 @@ extern const struct object pack_objects[];
 const struct object *pack_object(const char *name);
 const struct key *pack_key(const struct object *object, const char *name);
 
-/* "; did you mean "gbuf2"?" for the nearest of some names, "" if none is near. */
-struct suggestion {
-    const char *wanted, *best;
-    size_t distance;
-    char text[160];
-};
-struct suggestion suggestion_for(const char *wanted);
-void suggestion_offer(struct suggestion *suggestion, const char *name);
-const char *suggestion_text(struct suggestion *suggestion);
-
 #endif

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "check.h"
+#include "nearest.h"
 
 enum { MOST_CHANNELS = 1024, GROUP = 8 };
 
@@ -43,11 +44,11 @@ static bool name_layer(const struct part *part, const char *key, struct names *n
 }
 
 static bool unknown_channel(const struct part *part, const struct node *node, struct glint_error *err) {
-    struct suggestion near = suggestion_for(node->key);
-    for (size_t i = 0; i < part->role->channel_count; i++) suggestion_offer(&near, part->role->channels[i].name);
-    for (const struct key *key = pack_object("part")->keys; key->name; key++) suggestion_offer(&near, key->name);
+    struct glint_nearest near = glint_nearest_to(node->key);
+    for (size_t i = 0; i < part->role->channel_count; i++) glint_nearest_offer(&near, part->role->channels[i].name);
+    for (const struct key *key = pack_object("part")->keys; key->name; key++) glint_nearest_offer(&near, key->name);
     return node_fail(node, err, GLINT_ERROR_FORMAT, "%s has no such channel and a part no such key%s", part->role->name,
-                     suggestion_text(&near));
+                     glint_nearest_text(&near));
 }
 
 static bool find_names(const struct part *part, const struct node *node, bool exact, struct names *names,

@@ -26,10 +26,3 @@ bool faults_none(const struct faults *faults, const char *where, struct glint_er
         return glint_fail(err, faults->code, "%s: %s; and %zu more", where, faults->text, faults->left_out);
     return glint_fail(err, faults->code, "%s: %s", where, faults->text);
 }
-
-void text_list(char *text, size_t size, const char *item) {
-    size_t used = strlen(text), length = strlen(item);
-    if (used + length + 8 < size) snprintf(text + used, size - used, "%s%s", used ? ", " : "", item);
-    else if (used + 6 < size && (used < 3 || strcmp(text + used - 3, "…") != 0))
-        snprintf(text + used, size - used, ", …");
-}

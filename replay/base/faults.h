@@ -18,7 +18,4 @@ void faults_add(struct faults *faults, enum glint_code code, const char *format,
 /* True if there are none; otherwise fails with a message that lists all of them. */
 bool faults_none(const struct faults *faults, const char *where, struct glint_error *err);
 
-/* Appends to a list in a fixed buffer: "a, b, c". If items do not fit, the list ends in "…". */
-void text_list(char *text, size_t size, const char *item);
-
 #endif

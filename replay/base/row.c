@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "glint/nearest.h"
+#include "nearest.h"
 
 bool glint_row_is_output(const struct glint_row *row) {
     return row->kind == GLINT_ROW_WRITE || row->kind == GLINT_ROW_DIAGNOSTIC;

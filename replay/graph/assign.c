@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "faults.h"
-#include "glint/nearest.h"
+#include "nearest.h"
 #include "pipeline.h"
 #include "row.h"
 

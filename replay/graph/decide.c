@@ -1,5 +1,6 @@
 /* Decides which passes of a graph run, with the reason for each. */
 #include "graph.h"
+#include "nearest.h"
 
 #include <stdio.h>
 #include <stdlib.h>

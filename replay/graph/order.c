@@ -1,5 +1,6 @@
 /* Sorts passes, and finds the loop over rays and the passes whose work can be cached between frames. */
 #include "graph.h"
+#include "nearest.h"
 
 #include <string.h>
 

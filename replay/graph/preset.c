@@ -15,6 +15,7 @@ struct builtin_preset {
     const char *name, *text;
 };
 #include "builtin_presets.h"
+#include "nearest.h"
 enum { PATH_SIZE = 4096, BUILTIN = sizeof builtin_presets / sizeof builtin_presets[0] };
 
 const char *glint_preset(size_t i) {

@@ -23,14 +23,14 @@ def mistakes(base):
     g = "parts.gbuffer."
     short = {"file": "lit.raw", "format": "VK_FORMAT_R16G16B16_SFLOAT", "width": 24, "height": 17}
     return [
-        ({"texures": {}}, "texures", 'manifest has no such key; did you mean "textures"?'),
+        ({"texures": {}}, "texures", 'manifest has no such key (did you mean textures?)'),
         ({"glint": 2}, "glint", "expected version 1, found 2"),
         ({"glint": MISSING}, "", "expected 1, the version of the manifest, found nothing"),
         ({"frame": MISSING}, "", "frame is missing"),
         ({"parts.lit": MISSING}, "parts", "lit is missing"),
         ({"parts.lits": {"R": 1}}, None, "expected a channel with a texture"),
-        ({"frame.clip_z": "zero_to_on"}, "frame.clip_z", 'expected zero_to_one, minus_one_to_one, found "zero_to_on"; did you mean "zero_to_one"?'),
-        ({"frame.jiter": [0, 0]}, "frame.jiter", 'frame has no such key; did you mean "jitter"?'),
+        ({"frame.clip_z": "zero_to_on"}, "frame.clip_z", 'expected zero_to_one, minus_one_to_one, found "zero_to_on" (did you mean zero_to_one?)'),
+        ({"frame.jiter": [0, 0]}, "frame.jiter", 'frame has no such key (did you mean jitter?)'),
         ({"frame.jitter": [0]}, "frame.jitter", "expected 2 numbers, found 1"),
         ({"frame.exposure": -1}, "frame.exposure", "expected a number above 0, found -1"),
         ({"frame.view_to_clip": turned}, "frame.view_to_clip", "the matrix is transposed"),
@@ -40,14 +40,14 @@ def mistakes(base):
         ({"frame.view_to_clip": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]}, "frame.view_to_clip", "found an orthographic one"),
         ({"frame.camera": {"position": [0, 0, 0], "target": [0, 0, 1], "fov_y": 60, "near": 1}}, "frame.camera", "expected camera or matrices, found both"),
         ({g + "normal.X": "gbuf3.r"}, g + "normal.X", 'texture "gbuf3" is not listed'),
-        ({g + "normal.X": "litt.r"}, g + "normal.X", 'texture "litt" is not listed; did you mean "lit"?'),
+        ({g + "normal.X": "litt.r"}, g + "normal.X", 'texture "litt" is not listed (did you mean lit?)'),
         ({g + "normal.X": "lit.q"}, g + "normal.X", 'texture "lit" has no component "q"; it has r g b'),
         ({g + "normal.X": "lit"}, g + "normal.X", 'expected a component of texture "lit": r g b'),
         ({g + "normal.X": "lit.rg"}, g + "normal.X", 'expected at most 1 component, found 2 in "rg"'),
-        ({g + "normal.W": "lit.r"}, g + "normal.W", 'gbuffer has no such channel and a part no such key; did you mean "normal.X"?'),
+        ({g + "normal.W": "lit.r"}, g + "normal.W", 'gbuffer has no such channel and a part no such key (did you mean normal.X?)'),
         ({g + "normal": "lit.rgb"}, g + "normal", "once, found it also in normal."),
         ({g + "normal.X": True}, g + "normal.X", "expected a channel"),
-        ({g + "normal.X": {"texture": "lit", "chanel": "r"}}, g + "normal.X.chanel", 'channel has no such key; did you mean "channel"?'),
+        ({g + "normal.X": {"texture": "lit", "chanel": "r"}}, g + "normal.X.chanel", 'channel has no such key (did you mean channel?)'),
         ({g + "normal.X": {"channel": "r"}}, g + "normal.X", "expected a texture or a value, found none"),
         ({g + "normal.X": "sky.r"}, g + "normal.X", "expected 24 x 16 texels, as the part's other channels have, found 4 x 24"),
         ({g + "stencil.id": "lit.r"}, g + "stencil.id", "expected integers of 32 bits, found"),
@@ -56,7 +56,7 @@ def mistakes(base):
         ({g + "encodings.depth": "logarithmic", "frame.depth_far": 0}, g + "encodings.depth", "expected frame.depth_near and depth_far"),
         ({g + "encodings.normal": "octahedral"}, g + "normal.Z", "expected no Z beside a normal that is octahedral"),
         ({g + "encodings.color": "srgb"}, g + "encodings.color", "no channel that this encoding applies to"),
-        ({"textures.lit.format": "VK_FORMAT_R16G16B16_SFLOT"}, "textures.lit.format", 'did you mean "VK_FORMAT_R16G16B16_SFLOAT"?'),
+        ({"textures.lit.format": "VK_FORMAT_R16G16B16_SFLOT"}, "textures.lit.format", 'did you mean VK_FORMAT_R16G16B16_SFLOAT?'),
         ({"textures.lit": short}, "textures.lit", "the file has 2304 bytes; expected at least 2448 (offset 0, row_pitch 144, 17 rows of 24 texels of 6 bytes, 1 layer)"),
         ({"textures.lit.row_pitch": 100}, "textures.lit", "row_pitch: expected at least 144 bytes (24 texels of 6), found 100"),
         ({"textures.lit.row_pitch": 2 ** 62}, "textures.lit", "within 4 GiB"),
@@ -75,7 +75,7 @@ def mistakes(base):
         ({"parts.lit.attributes": {"channels": 1}}, ("parts", "lit", "attributes", "channels"), "neither OpenEXR nor glint. reserves"),
         ({"parts.lit.attributes": {"x": {"type": "v2d", "value": 1}}}, ("parts", "lit", "attributes", "x"), "value: expected 2 numbers"),
         ({"parts.ao": {"R": "lit.r"}}, "parts.ao", "the role is reserved"),
-        ({"parts.lit.encodings": {"color": "sRGB"}}, "parts.lit.encodings.color", 'did you mean "srgb"?'),
+        ({"parts.lit.encodings": {"color": "sRGB"}}, "parts.lit.encodings.color", 'did you mean srgb?'),
     ]
 
 

@@ -90,7 +90,7 @@ class Tests:
         assert checked > 70, checked
 
     def test_names_that_are_none(self):
-        for name, words in (("VK_FORMAT_R8G8B8A8_UNROM", 'did you mean "VK_FORMAT_R8G8B8A8_UNORM"'), ("R8_UNORM", "begins with VK_FORMAT_ or DXGI_FORMAT_"),
+        for name, words in (("VK_FORMAT_R8G8B8A8_UNROM", 'did you mean VK_FORMAT_R8G8B8A8_UNORM?'), ("R8_UNORM", "begins with VK_FORMAT_ or DXGI_FORMAT_"),
                             ("DXGI_FORMAT_R8G8B8A8_TYPELESS", "does not say how to read its bits"), ("VK_FORMAT_BC1_RGB_UNORM_BLOCK", "compressed blocks")):
             said = self.base.explain({"t": {"file": "x.raw", "format": name, "width": 1, "height": 1}}, {"engine.t": {"c": "t.r"}}, status=1, file=b"\0" * 16)
             assert words in said and "textures.t.format" in said, said

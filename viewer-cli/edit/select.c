@@ -7,7 +7,7 @@
 #include "capture/missing.h"
 #include "glint/capture.h"
 #include "io/table.h"
-#include "glint/nearest.h"
+#include "nearest.h"
 
 /* "gbuffer", "cubemap" (all of them), "previous" (all of them), "gbuffer:motion", "cubemap:distance.Z". */
 static bool begins(const char *name, const char *with, size_t length) {

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "glint/nearest.h"
+#include "nearest.h"
 
 void list_add(struct list *list, const char *item, struct argp_state *state) {
     const char **items = realloc(list->items, (list->count + 2) * sizeof *items);

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "glint/nearest.h"
+#include "nearest.h"
 
 const char *row_type(const struct glint_row *row) {
     if (row->kind == GLINT_ROW_CHOICE) return "choice";

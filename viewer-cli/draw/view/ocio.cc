@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "draw/blobs.h"
-#include "glint/nearest.h"
+#include "nearest.h"
 
 namespace OCIO = OCIO_NAMESPACE;
 

@@ -9,7 +9,7 @@
 #include "capture/channels.h"
 #include "glint/exr.h"
 #include "glint/replay.h"
-#include "glint/nearest.h"
+#include "nearest.h"
 
 void source_finish(struct source *source) {
     free(source->texels);

@@ -1,4 +1,4 @@
-/* "did you mean …?": finds the known name that is nearest to an unknown one. Beside the library's interface: not installed. */
+/* "did you mean …?": finds the known name that is nearest to an unknown one. For glint's own libraries and its program. */
 #ifndef GLINT_NEAREST_H
 #define GLINT_NEAREST_H
 
@@ -7,6 +7,9 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+/* Appends to a list in a fixed buffer: "a, b, c". If items do not fit, the list ends in "…". */
+void text_list(char *text, size_t size, const char *item);
 
 struct glint_nearest {
     const char *wanted, *best, *last;

@@ -1,11 +1,9 @@
-/* "did you mean …?" by edit distance: an insertion, removal, substitution or swap of neighbours counts one. */
-#include "glint/nearest.h"
+/* Names that are nearest to an unknown one, by edit distance: an insertion, removal, substitution or swap of neighbours counts one. */
+#include "nearest.h"
 
 #include <ctype.h>
 #include <stdio.h>
 #include <string.h>
-
-#include "faults.h"
 
 #define LONGEST 64
 
@@ -29,6 +27,13 @@ static size_t edit_distance(const char *a, const char *b) {
         }
     }
     return row[na % 3][nb];
+}
+
+void text_list(char *text, size_t size, const char *item) {
+    size_t used = strlen(text), length = strlen(item);
+    if (used + length + 8 < size) snprintf(text + used, size - used, "%s%s", used ? ", " : "", item);
+    else if (used + 6 < size && (used < 3 || strcmp(text + used - 3, "…") != 0))
+        snprintf(text + used, size - used, ", …");
 }
 
 struct glint_nearest glint_nearest_to(const char *wanted) {
