@@ -165,12 +165,39 @@ static void ranges_are_of_surfaces_alone(UNUSED void **state) {
     glint_exr_close(&exr);
 }
 
+/* What a preset leaves out is the list of the passes that its plan does not run, however many they are. */
+static void info_lists_what_presets_leave_out(UNUSED void **state) {
+    char *info_text = glint_ok("info", capture, "--json");
+    json_t *info = parse_json(info_text);
+    size_t longest = 0;
+    for (size_t i = 0; i < json_array_size(json_object_get(info, "presets")); i++) {
+        const json_t *preset = json_array_get(json_object_get(info, "presets"), i);
+        char *plan_text =
+            glint_ok("plan", capture, "--preset", json_string_value(json_object_get(preset, "preset")), "--json");
+        json_t *plan = parse_json(plan_text);
+        const json_t *passes = json_object_get(plan, "passes"), *left_out = json_object_get(preset, "left_out");
+        size_t count = 0;
+        assert_true(json_is_array(left_out) && json_is_array(json_object_get(preset, "effects")));
+        for (size_t k = 0; k < json_array_size(passes); k++) {
+            const json_t *pass = json_array_get(passes, k);
+            if (json_is_true(json_object_get(pass, "runs"))) continue;
+            assert_true(json_equal(json_array_get(left_out, count++), json_object_get(pass, "slot")));
+        }
+        assert_int_equal(count, json_array_size(left_out));
+        longest = count > longest ? count : longest;
+        json_decref(plan);
+        free(plan_text);
+    }
+    assert_true(longest > 0);
+    json_decref(info);
+    free(info_text);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(info_tells_the_camera_and_the_ranges),
-        cmocka_unit_test(info_tells_what_depth_resolves),
-        cmocka_unit_test(ranges_equal_those_of_oiiotool),
-        cmocka_unit_test(ranges_are_of_surfaces_alone),
+        cmocka_unit_test(info_tells_the_camera_and_the_ranges), cmocka_unit_test(info_tells_what_depth_resolves),
+        cmocka_unit_test(ranges_equal_those_of_oiiotool),       cmocka_unit_test(ranges_are_of_surfaces_alone),
+        cmocka_unit_test(info_lists_what_presets_leave_out),
     };
     return cmocka_run_group_tests(tests, make_capture, remove_folder);
 }

@@ -10,37 +10,50 @@
 struct carried {
     const char *preset;
     struct missing missing;
-    char effects[160], left_out[400];
+    json_t *effects, *left_out; /* lists of names */
 };
 
-static void list_add_name(char *text, size_t size, const char *name) {
-    const size_t used = strlen(text);
-    if (used + strlen(name) + 3 < size) snprintf(text + used, size - used, "%s%s", used ? ", " : "", name);
+static void add_name(json_t *names, const char *name) {
+    for (size_t i = 0; i < json_array_size(names); i++)
+        if (!strcmp(json_string_value(json_array_get(names, i)), name)) return;
+    json_array_append_new(names, json_string(name));
 }
 
-static bool has_name(const char *text, const char *name) {
-    const size_t length = strlen(name);
-    for (const char *at = strstr(text, name); at; at = strstr(at + 1, name))
-        if ((at == text || at[-1] == ' ') && (!at[length] || at[length] == ',')) return true;
-    return false;
+/* A cell of the names, or of `none` where there are none. */
+static void names_cell(struct table *table, const json_t *names, const char *none) {
+    char *text = NULL;
+    size_t size = 0;
+    FILE *stream = open_memstream(&text, &size);
+    for (size_t i = 0; stream && i < json_array_size(names); i++)
+        fprintf(stream, "%s%s", i ? ", " : "", json_string_value(json_array_get(names, i)));
+    if (stream) fclose(stream);
+    table_cell(table, "%s", size ? text : none);
+    free(text);
 }
 
 static bool plan_preset(struct carried *c, struct glint_replay *replay, const char *preset, struct glint_error *err) {
     struct glint_pipeline *pipeline = glint_pipeline_create(preset, err);
     const struct glint_plan_entry *entries;
     size_t count = 0;
-    *c = (struct carried){.preset = preset};
+    *c = (struct carried){.preset = preset, .effects = json_array(), .left_out = json_array()};
     const bool ok = pipeline && glint_replay_plan(replay, pipeline, NULL, &entries, &count, err);
     for (size_t i = 0; ok && i < count; i++) {
         const struct glint_pass *pass = entries[i].pass;
         const bool own = strncmp(pass->folder, "prepare/", 8) != 0; /* what several effects share is none itself */
-        if (entries[i].runs && own && !has_name(c->effects, pass->effect))
-            list_add_name(c->effects, sizeof c->effects, pass->effect);
-        if (!entries[i].runs) list_add_name(c->left_out, sizeof c->left_out, pass->slot);
+        if (entries[i].runs && own) add_name(c->effects, pass->effect);
+        if (!entries[i].runs) add_name(c->left_out, pass->slot);
     }
     if (ok) missing_add(&c->missing, replay);
     glint_pipeline_destroy(&pipeline);
     return ok;
+}
+
+static void carried_free(struct carried *list, size_t count) {
+    for (size_t i = 0; list && i < count; i++) {
+        json_decref(list[i].effects);
+        json_decref(list[i].left_out);
+    }
+    free(list);
 }
 
 /* malloc'd, one for each built-in preset. */
@@ -54,7 +67,7 @@ static struct carried *plan_presets(struct glint_capture *capture, size_t *count
         ok = plan_preset(&list[*count], replay, glint_preset(*count), err);
     glint_replay_destroy(&replay);
     if (ok) return list;
-    free(list);
+    carried_free(list, *count);
     return NULL;
 }
 
@@ -64,12 +77,12 @@ static bool misses(const struct carried *c, const struct glint_absence *absence)
     return false;
 }
 
-/* The presets that would read it, "" if none does. */
-static void readers_text(const struct carried *list, size_t count, const struct glint_absence *absence, char *text,
-                         size_t size) {
-    text[0] = '\0';
+/* The presets that would read it. */
+static json_t *readers_of(const struct carried *list, size_t count, const struct glint_absence *absence) {
+    json_t *readers = json_array();
     for (size_t i = 0; i < count; i++)
-        if (misses(&list[i], absence)) list_add_name(text, size, list[i].preset);
+        if (misses(&list[i], absence)) add_name(readers, list[i].preset);
+    return readers;
 }
 
 bool carries_print(struct glint_capture *capture, struct glint_error *err) {
@@ -82,29 +95,30 @@ bool carries_print(struct glint_capture *capture, struct glint_error *err) {
     putchar('\n');
     struct table *table = table_create(presets);
     for (size_t i = 0; i < count; i++) {
-        char without[300] = "";
-        for (size_t k = 0; k < list[i].missing.count; k++)
-            list_add_name(without, sizeof without, missing_name(list[i].missing.items[k]));
+        json_t *without = json_array();
+        for (size_t k = 0; k < list[i].missing.count; k++) add_name(without, missing_name(list[i].missing.items[k]));
         table_cell(table, "%s", list[i].preset);
-        table_cell(table, "%s", list[i].effects[0] ? list[i].effects : "nothing to do");
-        table_cell(table, "%s", without[0] ? without : "–");
+        names_cell(table, list[i].effects, "nothing to do");
+        names_cell(table, without, "–");
+        json_decref(without);
     }
     table_print(table, stdout);
     table_destroy(&table);
     table = table_create(roles);
     size_t rows = 0;
     for (size_t i = 0; i < absences; i++) {
-        char readers[300];
-        readers_text(list, count, &all[i], readers, sizeof readers);
-        if (!readers[0]) continue;
-        table_cell(table, "%s", missing_name(&all[i]));
-        table_cell(table, "%s", all[i].cost);
-        table_cell(table, "%s", readers);
-        rows++;
+        json_t *readers = readers_of(list, count, &all[i]);
+        if (json_array_size(readers)) {
+            table_cell(table, "%s", missing_name(&all[i]));
+            table_cell(table, "%s", all[i].cost);
+            names_cell(table, readers, "");
+            rows++;
+        }
+        json_decref(readers);
     }
     if (rows) putchar('\n'), table_print(table, stdout);
     table_destroy(&table);
-    free(list);
+    carried_free(list, count);
     return true;
 }
 
@@ -113,8 +127,8 @@ json_t *carries_json(struct glint_capture *capture, struct glint_error *err) {
     struct carried *list = plan_presets(capture, &count, err);
     json_t *json = list ? json_array() : NULL;
     for (size_t i = 0; list && i < count; i++)
-        json_array_append_new(json, json_pack("{ss ss ss so}", "preset", list[i].preset, "effects", list[i].effects,
+        json_array_append_new(json, json_pack("{ss sO sO so}", "preset", list[i].preset, "effects", list[i].effects,
                                               "left_out", list[i].left_out, "missing", missing_json(&list[i].missing)));
-    free(list);
+    carried_free(list, count);
     return json;
 }
