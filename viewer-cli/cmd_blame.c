@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "command.h"
 #include "blame/blame.h"
 #include "options/pass_names.h"
 #include "options/pipeline_args.h"

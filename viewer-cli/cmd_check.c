@@ -1,4 +1,5 @@
 /* glint check: compares runs with approved baselines. */
+#include "command.h"
 #include "check/check.h"
 #include "diff/options.h"
 

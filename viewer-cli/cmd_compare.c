@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "command.h"
 #include "compare/compare.h"
 #include "draw/page/page.h"
 #include "io/pipe.h"

@@ -1,4 +1,5 @@
 /* glint crop: a rectangle of a capture, with its camera. */
+#include "command.h"
 #include "edit/edit.h"
 
 #include <math.h>

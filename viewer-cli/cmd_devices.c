@@ -1,4 +1,5 @@
 /* glint devices: lists the Vulkan devices in the order of preference. */
+#include "command.h"
 #include "options/args.h"
 #include "glint/replay.h"
 #include "io/table.h"

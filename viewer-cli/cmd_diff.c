@@ -1,4 +1,5 @@
 /* glint diff: compares two images, two runs, or a run with the engine's own intermediate images. */
+#include "command.h"
 #include "diff/options.h"
 
 struct arguments {

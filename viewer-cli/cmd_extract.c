@@ -2,6 +2,7 @@
 #include "glint/pack.h"
 #include "io/pipe.h"
 #include "io/progress.h"
+#include "command.h"
 #include "options/args.h"
 
 enum { KEY_PROGRESS = 256 };

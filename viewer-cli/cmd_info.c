@@ -3,6 +3,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "command.h"
 #include "options/args.h"
 #include "capture/camera_facts.h"
 #include "capture/missing.h"

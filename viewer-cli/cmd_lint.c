@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "command.h"
 #include "options/args.h"
 #include "capture/depth_facts.h"
 #include "lint/lint.h"

@@ -5,6 +5,7 @@
 #include "io/pipe.h"
 #include "io/progress.h"
 #include "io/table.h"
+#include "command.h"
 #include "options/args.h"
 
 enum { KEY_PROGRESS = 256 };

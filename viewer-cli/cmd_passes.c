@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "command.h"
 #include "nearest.h"
 #include "options/pass_names.h"
 #include "io/table.h"

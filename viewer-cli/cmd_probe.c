@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "command.h"
 #include "options/opened.h"
 #include "draw/probe/draw.h"
 #include "probe/probe.h"

@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "command.h"
 #include "glint/reference.h"
 #include "options/opened.h"
 #include "io/progress.h"

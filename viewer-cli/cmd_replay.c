@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "command.h"
 #include "capture/missing.h"
 #include "replay/against.h"
 #include "options/pass_names.h"

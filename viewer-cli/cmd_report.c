@@ -3,6 +3,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "command.h"
 #include "options/args.h"
 #include "report/report.h"
 

@@ -3,6 +3,7 @@
 
 #include <jansson.h>
 
+#include "command.h"
 #include "options/args.h"
 #include "glint/selftest.h"
 #include "io/progress.h"

@@ -1,4 +1,5 @@
 /* glint set: changes attributes of a capture. */
+#include "command.h"
 #include "edit/edit.h"
 
 #include <stdio.h>

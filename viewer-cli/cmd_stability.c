@@ -1,4 +1,5 @@
 /* glint stability: measures how rounding of the captured values changes each pixel, pass by pass. */
+#include "command.h"
 #include "options/opened.h"
 #include "io/progress.h"
 #include "stability/stability.h"

@@ -1,4 +1,5 @@
 /* glint strip: a copy of a capture without some of its parts and channels. */
+#include "command.h"
 #include "edit/edit.h"
 
 struct arguments {

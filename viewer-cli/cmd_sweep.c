@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "command.h"
 #include "options/pipeline_args.h"
 #include "sweep/sweep.h"
 #include "io/text_file.h"

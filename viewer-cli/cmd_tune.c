@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "command.h"
 #include "options/pass_names.h"
 #include "options/pipeline_args.h"
 #include "tune/tune.h"

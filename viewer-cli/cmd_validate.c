@@ -1,6 +1,7 @@
 /* glint validate: every rule of FORMAT.md, every violation. */
 #include <stdlib.h>
 
+#include "command.h"
 #include "options/args.h"
 #include "capture/camera_facts.h"
 #include "glint/capture.h"

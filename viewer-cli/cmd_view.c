@@ -4,6 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "command.h"
 #include "options/args.h"
 #include "io/pipe.h"
 #include "draw/view/png_file.h"

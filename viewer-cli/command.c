@@ -28,7 +28,8 @@ static error_t command_parse_key(int key, char *arg, struct argp_state *state) {
         if (parsing->command->operand) argp_error(state, "no %s given", parsing->command->operand);
         break;
     }
-    if (args_store(parsing->command, key, arg, state, parsing->input)) return 0;
+    const struct arg_table table = {parsing->command->targets, parsing->command->options, parsing->command->operand};
+    if (args_store(&table, key, arg, state, parsing->input)) return 0;
     if (!parsing->command->parse) return ARGP_ERR_UNKNOWN;
     state->input = parsing->input;
     error_t result = parsing->command->parse(key, arg, state);

@@ -6,8 +6,7 @@
 #include <stddef.h>
 
 #include "glint/common.h"
-
-enum status { STATUS_DONE = 0, STATUS_CHECK = 1, STATUS_USAGE = 2, STATUS_INTERRUPTED = 130 };
+#include "status.h"
 
 struct example {
     const char *line, *what;

@@ -2,6 +2,7 @@
 #ifndef GLINT_VIEWER_DIFF_OPTIONS_H
 #define GLINT_VIEWER_DIFF_OPTIONS_H
 
+#include "command.h"
 #include "options/args.h"
 #include "diff/diff.h"
 #include "options/metric_args.h"

@@ -45,13 +45,15 @@ uint32_t arg_uint(const char *option, const char *text, uint32_t lowest, uint32_
     return (uint32_t)value;
 }
 
-static uint32_t number_of(const struct command *command, const struct arg_target *target, const char *text,
+static uint32_t number_of(const struct arg_table *table, const struct arg_target *target, const char *text,
                           struct argp_state *state) {
-    return arg_uint(command_option(command, target->key)->name, text, target->lowest, target->highest, state);
+    const struct argp_option *option = table->options;
+    while (option->key != target->key) option++;
+    return arg_uint(option->name, text, target->lowest, target->highest, state);
 }
 
-bool args_store(const struct command *command, int key, char *arg, struct argp_state *state, void *arguments) {
-    const struct arg_target *target = command->targets;
+bool args_store(const struct arg_table *table, int key, char *arg, struct argp_state *state, void *arguments) {
+    const struct arg_target *target = table->targets;
     while (target && target->kind && target->key != key) target++;
     if (!target || !target->kind) return false;
     void *field = (char *)arguments + target->offset;
@@ -63,7 +65,7 @@ bool args_store(const struct command *command, int key, char *arg, struct argp_s
         break;
     case STORES_TEXT:
         if (key == ARGP_KEY_ARG && *(const char **)field)
-            argp_error(state, "expected one %s, found %s and %s", command->operand, *(const char **)field, arg);
+            argp_error(state, "expected one %s, found %s and %s", table->operand, *(const char **)field, arg);
         *(const char **)field = arg;
         break;
     case STORES_ITEM:
@@ -73,10 +75,10 @@ bool args_store(const struct command *command, int key, char *arg, struct argp_s
         list_split(field, arg, state);
         break;
     case STORES_UINT32:
-        *(uint32_t *)field = number_of(command, target, arg, state);
+        *(uint32_t *)field = number_of(table, target, arg, state);
         break;
     case STORES_UINT64:
-        *(uint64_t *)field = number_of(command, target, arg, state);
+        *(uint64_t *)field = number_of(table, target, arg, state);
         break;
     }
     return true;

@@ -6,7 +6,8 @@
 #include <jansson.h>
 #include <stdint.h>
 
-#include "command.h"
+#include "glint/common.h"
+#include "status.h"
 
 /* A growing, NULL-terminated list of pointers into the program's arguments. */
 struct list {
@@ -38,8 +39,14 @@ struct arg_target {
 #define STORED_NUMBER(key, type, field, lowest, highest) \
     {key, _Generic(((type *)NULL)->field, uint32_t: STORES_UINT32, uint64_t: STORES_UINT64), offsetof(type, field), lowest, highest}
 /* clang-format on */
-/* Stores the argument where the command's targets say; false if they do not contain the key. */
-bool args_store(const struct command *command, int key, char *arg, struct argp_state *state, void *arguments);
+/* Where the arguments of a command go. */
+struct arg_table {
+    const struct arg_target *targets; /* may be NULL */
+    const struct argp_option *options;
+    const char *operand; /* what ARGP_KEY_ARG is, for messages */
+};
+/* Stores the argument where the targets say; false if they do not contain the key. */
+bool args_store(const struct arg_table *table, int key, char *arg, struct argp_state *state, void *arguments);
 
 uint32_t arg_uint(const char *option, const char *text, uint32_t lowest, uint32_t highest, struct argp_state *state);
 /* Parses exactly `count` numbers that are separated by commas. */

@@ -3,6 +3,7 @@
 #define GLINT_VIEWER_TUNE_H
 
 #include "options/answer_args.h"
+#include "command.h"
 #include "options/args.h"
 #include "glint/judge.h"
 #include "glint/search.h"

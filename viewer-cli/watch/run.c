@@ -4,6 +4,7 @@
 #include <time.h>
 
 #include "diff/diff.h"
+#include "command.h"
 #include "io/progress.h"
 #include "draw/view/sheet.h"
 #include "watch/watch.h"
