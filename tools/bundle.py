@@ -45,17 +45,21 @@ def main():
         shutil.move(os.path.join(prefix, part), os.path.join(temporary, part))
     lib = os.path.join(temporary, "lib")
     os.mkdir(lib)
-    needed = libraries(os.path.join(build, "viewer-cli", "glint"))
+    # glint pack loads the second one by its name when an image needs OpenImageIO; it brings most of the size.
+    loaded = os.path.join(build, "pack", "libglint-oiio.so")
+    needed = sorted({*libraries(os.path.join(build, "viewer-cli", "glint")), loaded, *libraries(loaded)})
     licences(needed, os.path.join(temporary, "licences"))
     for path in needed:
         target = os.path.join(lib, os.path.basename(path))
         shutil.copy(path, target)
+        os.chmod(target, 0o755)
         subprocess.run(["strip", "--strip-unneeded", target], check=True)
         subprocess.run(["patchelf", "--set-rpath", "$ORIGIN", target], check=True)
     program = os.path.join(temporary, "bin", "glint")
     subprocess.run(["strip", program], check=True)
     subprocess.run(["patchelf", "--set-rpath", "$ORIGIN/../lib", program], check=True)
-    strays = [p for p in libraries(program) if os.path.dirname(os.path.realpath(p)) != os.path.realpath(lib)]
+    strays = [p for start in (program, os.path.join(lib, os.path.basename(loaded))) for p in libraries(start)
+              if os.path.dirname(os.path.realpath(p)) != os.path.realpath(lib)]
     if strays:
         sys.exit("bundle: still taken from this machine: " + ", ".join(strays))
     shutil.copy(capture, os.path.join(temporary, "sample.exr"))
