@@ -1,7 +1,7 @@
 /* What a capture need not have, and what a replay loses without it. Rows only, read by C.
    ABSENCE(role, channels, cost): a part of the role, or of one that has it, the channels that begin so. A replay warns once of each that its
    passes would read, glint strip says what is left out, and glint info which role would open what. */
-ABSENCE("cubemap", "", "rays that leave the screen end in the sky, or find nothing where there is no sky either")
+ABSENCE("cubemap", "", "rays that leave the screen end in the sky where the picture shows it, and find nothing elsewhere")
 ABSENCE("cubemap", "distance", "rays that leave the screen are looked up by direction, as if everything were far away, and there is no cocoon")
 ABSENCE("sky", "", "rays to the sky take what the cube maps hold there, which may be black")
 ABSENCE("scene", "", "screen hits show the diffuse picture, without the reflections and translucency of what they hit")

@@ -23,9 +23,8 @@ def licences(paths, folder):
     """The copyright files of the packages of the libraries, and of the font in the program."""
     os.mkdir(folder)
     packages = {"fonts-dejavu-core"}
-    for path in paths:
-        found = subprocess.run(["dpkg", "-S", os.path.realpath(path)], capture_output=True, text=True)
-        packages.update(line.split(":")[0] for line in found.stdout.split("\n") if line)
+    found = subprocess.run(["dpkg", "-S", *map(os.path.realpath, paths)], capture_output=True, text=True)
+    packages.update(line.split(":")[0] for line in found.stdout.split("\n") if line)
     for package in packages:
         shutil.copy(f"/usr/share/doc/{package}/copyright", os.path.join(folder, package))
     # the charting library in the program

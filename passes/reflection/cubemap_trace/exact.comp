@@ -12,6 +12,7 @@
 #define LIST_WORD(place) (has_cubemap_list ? texelFetch(cubemap_list, place).x : texelFetch(tile_list, place).x)
 #include "shared/work_list.glsl"
 #include "place.glsl"
+#include "sky.glsl"
 #include "probe.glsl"
 #include "texels.glsl"
 
@@ -352,6 +353,7 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best) {
 
 void main() {
     load_active_centers();
+    look_for_sky();
     ivec2 pixel = tile_texel(reduction(frame.size));
     if (any(greaterThanEqual(pixel, imageSize(travelled)))) return;
     float depth_m = texelFetch(depth_half, pixel, 0).x;

@@ -7,6 +7,7 @@
 #include "march.pass.h"
 };
 #include "march.glsl"
+#include "sky.glsl"
 #define LIST_WORD(place) (has_cubemap_list ? texelFetch(cubemap_list, place).x : texelFetch(tile_list, place).x)
 #include "shared/work_list.glsl"
 
@@ -39,6 +40,7 @@ bool has_ray(ivec2 pixel, out float depth_m, out vec4 normal) {
 
 void main() {
     load_active_centers();
+    look_for_sky();
     ivec2 pixel = tile_texel(reduction(frame.size));
     if (any(greaterThanEqual(pixel, imageSize(travelled)))) return;
     float depth_m, start_m = texelFetch(screen_travelled, pixel, 0).x;

@@ -8,7 +8,4 @@ uint place_of_sky(uint place) { return frame.counts.w > 0u ? NO_PLACE : place; }
 
 // Where the capture's cube maps have no distances, cubemap_distance is a single texel.
 bool has_distances() { return textureSize(cubemap_distance, 0).x == int(frame.counts.z); }
-
-// What a ray finds that no cube map can continue: the sky, if the capture has one and no cube maps at all.
-float travelled_without_cubemaps(float start_m) { return frame.counts.x == 0u && frame.counts.w > 0u ? INFINITE : start_m; }
 #endif

@@ -6,6 +6,7 @@
 #define LIST_WORD(place) (has_cubemap_list ? texelFetch(cubemap_list, place).x : texelFetch(tile_list, place).x)
 #include "shared/work_list.glsl"
 #include "place.glsl"
+#include "sky.glsl"
 #include "probe.glsl"
 
 struct Result {
@@ -48,6 +49,7 @@ Result traced(ivec2 pixel, float depth_m, vec3 normal) {
 
 void main() {
     load_active_centers();
+    look_for_sky();
     ivec2 pixel = tile_texel(reduction(frame.size));
     if (any(greaterThanEqual(pixel, imageSize(travelled)))) return;
     float depth_m;

@@ -25,3 +25,4 @@ ROLE(RAY_DISTANCE, travelled)
 ROLE(CUBEMAP_END, cubemap_end)
 ROLE(CUBEMAP_FETCHES, cubemap_fetches)
 TRACER("cube map", cubemap_end)
+#include "no_cubemap_rows.h"

@@ -7,6 +7,7 @@
 #include "march.pass.h"
 };
 #include "reflection/cubemap_trace/march.glsl"
+#include "reflection/cubemap_trace/sky.glsl"
 #define LIST_WORD(place) texelFetch(transparent_tiles, place).x
 #include "shared/work_list.glsl"
 
@@ -15,13 +16,14 @@ Result trace(ivec2 texel, float depth_m, vec4 normal, float start_m) {
     precise vec3 origin = mat3(frame.world_from_view) * view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
     vec3 direction = mirror_direction(origin, normal.xyz);
     uint best = nearest_active(origin + start_m * direction);
-    if (best >= frame.counts.x) return Result(INFINITE, NO_PLACE, END_no_cubemap, 0u, 0u);
+    if (best >= frame.counts.x) return Result(travelled_without_cubemaps(start_m), NO_PLACE, END_no_cubemap, 0u, 0u);
     if (!has_distances()) return Result(INFINITE, best, END_fallback, 0u, 0u);
     return march(origin, direction, start_m, best, quality_of(normal.w, uvec2(texel)));
 }
 
 void main() {
     load_active_centers();
+    look_for_sky();
     ivec2 texel = tile_texel(reduction(frame.size));
     if (any(greaterThanEqual(texel, imageSize(transparent_travelled)))) return;
     float depth_m = texelFetch(transparent_depth_half, texel, 0).x;

@@ -2,3 +2,4 @@
 PASS("March along the chain", "Mafia DE article, Transparency and Glows; Global Illumination")
 #include "slot.h"
 #include "reflection/cubemap_trace/march_rows.h"
+#include "reflection/cubemap_trace/no_cubemap_rows.h"
