@@ -24,8 +24,8 @@ def mirrors(name: str) -> Callable[[type[_T]], type[_T]]:
     def checked(cls: type[_T]) -> type[_T]:
         kind = struct(name, "")
         theirs = {field for field, _ in kind._fields_}
-        ours = {field.name for field in dataclasses.fields(cls)}  # type: ignore[arg-type]
-        ours |= {field.metadata["count"] for field in dataclasses.fields(cls) if "count" in field.metadata}  # type: ignore[arg-type]
+        ours = {field.name for field in dataclasses.fields(cls)}
+        ours |= {field.metadata["count"] for field in dataclasses.fields(cls) if "count" in field.metadata}
         ours |= {f"has_{field}" for field in ours} & theirs
         if ours != theirs:
             raise mismatch(f"its struct {name} differs from {cls.__name__} in {', '.join(sorted(ours ^ theirs))}")
