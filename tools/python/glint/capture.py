@@ -12,7 +12,7 @@ from numpy.typing import DTypeLike, NDArray
 
 from glint.convert import from_struct
 from glint.frame import CubeMap, Encodings, Frame, Planar
-from glint.library import Error, enum, function, path_bytes, string, struct, text
+from glint.library import Error, callback, constant, enum, function, path_bytes, string, struct, text
 from glint.registry import Role, in_order, layer, roles
 
 ARRAY_BYTES = 4 << 30
@@ -28,6 +28,7 @@ _read = function("glint_capture_read", "capture part channels count type out thr
 _read_raw = function("glint_capture_read_raw", "capture part channels count type out threads")
 _can_read = function("glint_part_can_read", "part channel")
 _validate = function("glint_capture_validate", "path limits report user violations")
+_report = callback("glint_report")
 _notes = function("glint_frame_notes", "frame notes")
 _limits = struct("glint_limits", "file_bytes memory_bytes width parts")
 struct("glint_channel_info", "name stored storage")
@@ -254,8 +255,7 @@ class Capture:
 
     def notes(self) -> list[str]:
         """Warnings about a valid frame, such as a camera that is too imprecise for its distance from the origin."""
-        constants = enum("")
-        found = ((ctypes.c_char * constants["note_length"]) * constants["notes"])()
+        found = ((ctypes.c_char * constant("GLINT_NOTE_LENGTH")) * constant("GLINT_NOTES"))()
         with self._lock:
             count = _notes(_frame(self._open_handle()), found)
         return [string(found[i].value) for i in range(count)]
@@ -282,10 +282,8 @@ def validate(path: Path) -> list[Violation]:
     """Checks every rule of FORMAT.md, pixels included: what a file breaks, one Violation for each rule and channel; an empty list: it is valid.
     Raises Error when the file cannot be read at all."""
     found: list[Violation] = []
-    kind = next(k for k in _validate_parameters if issubclass(k, ctypes._CFuncPtr))
-
     def report(user: Any, rule: bytes, message: bytes) -> None:
         found.append(Violation(string(rule), string(message)))
     count = ctypes.c_size_t()
-    _validate(path_bytes(path), None, kind(report), None, ctypes.byref(count))
+    _validate(path_bytes(path), None, _report(report), None, ctypes.byref(count))
     return found

@@ -28,14 +28,16 @@ class Declarations:
     structs:   name to ctypes.Structure. One without a body in the text has no fields: it is only pointed to.
     enums:     name to a subclass of ctypes.c_int, whose `values` are the constants in lower case without what all their names begin with
     functions: name to Function. Functions of variable length, such as printf, are left out.
+    callbacks: name of a function pointer's type to its ctypes.CFUNCTYPE
+    constants: name to value, of all enums
     """
 
     def __init__(self, text: str) -> None:
         self.structs: dict[str, Any] = {}
         self.enums: dict[str, Any] = {}
         self.functions: dict[str, Function] = {}
-        self._constants: dict[str, int] = {}
-        self._callbacks: dict[str, Any] = {}
+        self.callbacks: dict[str, Any] = {}
+        self.constants: dict[str, int] = {}
         self._tokens = self._split(text)
         self._at = 0
         while self._peek():
@@ -95,8 +97,8 @@ class Declarations:
     def _number(self) -> int:
         sign = -1 if self._took("-") else 1
         token = self._take()
-        if token in self._constants:
-            return sign * self._constants[token]
+        if token in self.constants:
+            return sign * self.constants[token]
         if not token.isdigit():
             raise Unknown(f"expected a number, found {token}")
         return sign * int(token)
@@ -115,7 +117,7 @@ class Declarations:
             value += 1
             self._took(",")
         self._take(";")
-        self._constants.update(constants)
+        self.constants.update(constants)
         shared = os.path.commonprefix(list(constants)).rpartition("_")[0] + "_"
         self.enums[name] = type(name or "anonymous", (ctypes.c_int,),
                                 {"values": {c.removeprefix(shared).lower(): v for c, v in constants.items()}})
@@ -145,7 +147,7 @@ class Declarations:
         token = self._take()
         if token == "struct":
             return self._struct_named(self._take()), constant
-        known = self.enums if token == "enum" else _SCALARS | self._callbacks
+        known = self.enums if token == "enum" else _SCALARS | self.callbacks
         name = self._take() if token == "enum" else token
         if name not in known:
             raise Unknown(f"expected a type, found {name}")
@@ -200,4 +202,4 @@ class Declarations:
         self._take(")")
         parameters = self._parameters()
         self._take(";")
-        self._callbacks[name] = ctypes.CFUNCTYPE(result, *(parameters or {}).values())
+        self.callbacks[name] = ctypes.CFUNCTYPE(result, *(parameters or {}).values())

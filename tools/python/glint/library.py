@@ -88,6 +88,20 @@ def enum(name: str) -> dict[str, int]:
     return values
 
 
+def constant(name: str) -> int:
+    """The value of an enum's constant, by its full name."""
+    if name not in _declared.constants:
+        raise mismatch(f"it has no constant {name}")
+    return _declared.constants[name]
+
+
+def callback(name: str) -> Any:
+    """The ctypes type of a function pointer, which makes a Python function one."""
+    if name not in _declared.callbacks:
+        raise mismatch(f"it has no function type {name}")
+    return _declared.callbacks[name]
+
+
 _CODES = {value: name.removeprefix("error_") for name, value in enum("glint_code").items()}
 _error = struct("glint_error", "code message")
 
