@@ -27,7 +27,7 @@ def dumped(path):
     parts, part, names, values, size = {}, "", [], [], (0, 0)
     for line in said("oiiotool", "-a", "-v", "--dumpdata", path).splitlines() + [" subimage end"]:
         if line.startswith("    Pixel ("):
-            values.append(line.partition("): ")[2])
+            values.append(re.sub(r" \([^)]*\)", "", line.partition("): ")[2]))  # whole numbers: also as fractions, in brackets
             continue
         if values and re.match(r" ?\S", line):
             pixels = np.array(" ".join(values).split(), float).reshape(size[1], size[0], len(names))

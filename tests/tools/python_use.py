@@ -79,18 +79,19 @@ class Tests:
         composed, lit = glint.Run("written")["composed"].read(), glint.open("written.exr")["lit"].read()
         floor = self.examples["is_floor"]
         added = composed[..., :3].astype(float) - lit
-        assert added[floor].mean() > 0.01 and np.abs(added[~floor & ~self.examples["is_sky"]]).max() < 0.3, (added[floor].mean(), np.abs(added[~floor]).max())
+        # A dielectric reflects 4 % of what is about 0.3 bright; half of its rays leave the screen.
+        assert 0.001 < added[floor].mean() < 0.012 and np.abs(added[~floor]).max() < 0.002, (added[floor].mean(), np.abs(added[~floor]).max())
         # Just before the wall, the floor shows it upside down: its red and blue squares.
         row = added[np.nonzero(floor.any(1))[0][1] + 2]
         assert np.corrcoef(row[:, 0], row[:, 2])[0, 1] < -0.5, np.corrcoef(row[:, 0], row[:, 2])
 
     def test_the_copy_in_the_background_differs_in_lit_alone(self):
-        was, now = dumped("frame.exr"), dumped("background.exr")
-        assert set(was) == set(now)
-        for part in was:
-            for channel, values in was[part].items():
-                assert np.array_equal(now[part][channel], 2 * values if part == "lit" else values) or part == "lit" and \
-                    np.allclose(now[part][channel], 2 * values, atol=1.1e-9), (part, channel)
+        was, now = glint.open("frame.exr"), glint.open("background.exr")
+        assert set(was.parts) == set(now.parts) and len(was.parts) > 10
+        for part in was.parts.values():
+            for channel in part.channels:
+                values = part.read_raw(channel)
+                assert np.array_equal(now[part.name].read_raw(channel), 2 * values if part.name == "lit" else values), (part, channel)
 
     # ---- runs ----
 
@@ -112,7 +113,7 @@ class Tests:
     def test_images_are_those_that_oiiotool_prints(self):
         run, files, seen = glint.Run("run"), {}, set()
         for image in run.images.values():
-            if image.width * image.height > 20000:
+            if image.width * image.height > 9000:
                 continue
             path = os.path.join("run", image.file)
             if path not in files:
@@ -124,15 +125,10 @@ class Tests:
                 plane, bits = mine if len(image.channels) == 1 else mine[:, :, i], header[2][channel]
                 assert str(plane.dtype) == {("16", "floating-point"): "float16", ("32", "floating-point"): "float32", ("32", "unsigned"): "uint32"}[bits]
                 seen.add(str(plane.dtype))
-                if plane.dtype == np.uint32:
-                    continue  # printed as a fraction of 2³² − 1
                 finite = np.isfinite(plane)
                 assert np.array_equal(finite, np.isfinite(pixels[channel])), image
                 assert np.all(np.abs(plane[finite] - pixels[channel][finite]) <= 5.1e-10 + 6e-8 * np.abs(pixels[channel][finite])), image
         assert seen == {"float16", "float32", "uint32"} and len(files) > 10, (seen, files.keys())
-        # Integers against another image: where the screen trace finished, a ray ended on a surface or in the sky.
-        ends = run["screen_end"].read()
-        assert np.array_equal(run["screen_finished"].read() == 1, np.isin(ends, [run.end_reasons.index(r) for r in ("hit a surface", "ended in the sky")]))
 
     def test_broken_runs_are_refused(self):
         def broken(change, name="run.json"):
@@ -155,7 +151,7 @@ class Tests:
         raised(glint.Error, broken(lambda data: data.replace(b'"file": "', b'"file": "../run/', 1)), "expected the name of a file")
         raised(glint.Error, broken(lambda data: data.replace(b'"width": 120', b'"width": 121')), "expected 121 x")
         raised(glint.Error, broken(lambda data: data.replace(b'"channels": "Z"', b'"channels": "Y"')), "expected channels Y")
-        raised(glint.Error, broken(lambda data: re.sub(rb'"n": (\d+)', rb'"n": "\1"', data, 1)), "time_ns")
+        raised(glint.Error, broken(lambda data: re.sub(rb'"n": (\d+)', rb'"n": "\1"', data)), "time_ns")
         raised(glint.Error, lambda: glint.Run("run")["travelled"].read(array_bytes=10), "at most 10 bytes")
         raised(KeyError, lambda: glint.Run("run")["nothing"], "no image nothing", "travelled")
         trace = glint.Run("run")["travelled"].file
@@ -233,7 +229,7 @@ class Tests:
                 ("size_t x_stride_bytes, y_stride_bytes", "size_t y_stride_bytes", "its struct glint_channel has no x_stride_bytes"),
                 ("enum glint_type type, void *out, uint32_t threads", "void *out, enum glint_type type, uint32_t threads", "glint_capture_read takes"),
                 ("void glint_capture_close(struct glint_capture **capture);", "", "it has no function glint_capture_close"),
-                ("GLINT_STORED_HALF", "GLINT_STORED_F16", "KeyError"),
+                ("GLINT_STORED_HALF", "GLINT_STORED_F16", "an enum has no half; found f16, float, uint"),
                 ("struct glint_fog {", "union glint_fog {", "its declarations: expected")):
             if was not in text:
                 assert not words, was

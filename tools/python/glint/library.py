@@ -80,12 +80,16 @@ def struct(name: str, fields: str) -> Any:
     return found
 
 
+class _Constants(dict[str, int]):
+    def __missing__(self, name: str) -> int:
+        raise mismatch(f"an enum has no {name}; found {', '.join(self)}")
+
+
 def enum(name: str) -> dict[str, int]:
     """The constants of an enum by name: of enum glint_compression {"zip": 0, "none": 1, …}."""
     if name not in _declared.enums:
         raise mismatch(f"it has no enum {name}")
-    values: dict[str, int] = _declared.enums[name].values
-    return values
+    return _Constants(_declared.enums[name].values)
 
 
 def constant(name: str) -> int:
