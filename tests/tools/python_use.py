@@ -39,6 +39,7 @@ class Tests:
     def __init__(self):
         self.folder = tempfile.TemporaryDirectory()
         self.examples, self.printed = {}, {}
+        tap.programs.module("matplotlib")
         os.chdir(self.folder.name)
         with open(os.path.join(ROOT, "docs/python.md"), encoding="utf-8") as page:
             blocks = re.findall(r"^```(sh|python)\n(.*?)^```", page.read(), re.M | re.S)
