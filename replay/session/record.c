@@ -133,14 +133,15 @@ json_t *run_record(const struct glint_replay *replay, const struct run *run) {
     json_t *passes = json_array();
     for (size_t p = 0; p < run->graph->pass_count; p++)
         json_array_append_new(passes, pass_record(&replay->results, run, p));
-    return json_pack(
-        "{si s{ssss} so sI sI sI so s{s[ii]s[ii]} ss sb so so sI so sb so so so so}", "format", 1, "tool", "name", "glint",
-        "version", GLINT_VERSION, "device", device_record(&run->gpu->info), "frame", (json_int_t)frame->number, "rays",
-        (json_int_t)glint_pipeline_rays(run->plan->pipeline), "first_ray", (json_int_t)run->plan->pipeline->first_ray,
-        "preset", text_or_null(run->plan->pipeline->name), "resolution", "full", (int)full[0], (int)full[1], "half",
-        (int)half[0], (int)half[1], "precision", options->float_precision ? "float" : "half", "diagnostics",
-        options->diagnostics, "inputs", text_or_null(options->inputs), "history", text_or_null(options->history),
-        "active_cubemaps", (json_int_t)run->sizes->active, "cube_faces", faces_record(&run->plan->faces), "all",
-        options->all, "survey", surveyed ? survey_record(&replay->planner.survey, frame) : json_null(), "passes",
-        passes, "end_reasons", end_reasons_record(), "warnings", warnings_record(replay, run));
+    return json_pack("{si s{ssss} so sI sI sI so s{s[ii]s[ii]} ss sb so so sI so sb so so so so}", "format", 1, "tool",
+                     "name", "glint", "version", GLINT_VERSION, "device", device_record(&run->gpu->info), "frame",
+                     (json_int_t)frame->number, "rays", (json_int_t)glint_pipeline_rays(run->plan->pipeline),
+                     "first_ray", (json_int_t)run->plan->pipeline->first_ray, "preset",
+                     text_or_null(run->plan->pipeline->name), "resolution", "full", (int)full[0], (int)full[1], "half",
+                     (int)half[0], (int)half[1], "precision", options->float_precision ? "float" : "half",
+                     "diagnostics", options->diagnostics, "inputs", text_or_null(options->inputs), "history",
+                     text_or_null(options->history), "active_cubemaps", (json_int_t)run->sizes->active, "cube_faces",
+                     faces_record(&run->plan->faces), "all", options->all, "survey",
+                     surveyed ? survey_record(&replay->planner.survey, frame) : json_null(), "passes", passes,
+                     "end_reasons", end_reasons_record(), "warnings", warnings_record(replay, run));
 }
