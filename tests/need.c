@@ -11,8 +11,10 @@
 
 static const char *const programs[][2] = {
 #define PROGRAM(name, package) {name, package},
+#define MODULE(name, package)
 #include "programs.h"
 #undef PROGRAM
+#undef MODULE
 };
 
 static bool found(const char *name) {

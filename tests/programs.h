@@ -1,4 +1,4 @@
-/* Programs that tests run beside glint, and the Debian package that each comes in. Read by need.c, by programs.py and by ./dev,
+/* Programs that tests run beside glint, modules that their Python imports, and the Debian package that each comes in. Read by need.c, by programs.py and by ./dev,
    which installs the packages before it tests. What every Debian has (sh, awk, cmp) needs no row. */
 PROGRAM("chromium-headless-shell", "chromium-headless-shell")
 PROGRAM("exrheader", "openexr")
@@ -7,4 +7,6 @@ PROGRAM("idiff", "openimageio-tools")
 PROGRAM("iinfo", "openimageio-tools")
 PROGRAM("mandoc", "mandoc")
 PROGRAM("jsonschema", "python3-jsonschema")
+PROGRAM("mypy", "mypy")
 PROGRAM("oiiotool", "openimageio-tools")
+MODULE("matplotlib", "python3-matplotlib")

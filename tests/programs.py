@@ -1,10 +1,11 @@
 """Programs that tests run are looked for when they run: Meson may have configured before they were installed."""
+import importlib.util
 import os
 import re
 import shutil
 
 with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "programs.h"), encoding="utf-8") as file:
-    PACKAGES = dict(re.findall(r'^PROGRAM\("(.*)", "(.*)"\)', file.read(), re.M))
+    PACKAGES = dict(re.findall(r'^(?:PROGRAM|MODULE)\("(.*)", "(.*)"\)', file.read(), re.M))
 
 
 class Missing(Exception):
@@ -19,3 +20,9 @@ def find(name, *others):
         if path:
             return path
     raise Missing(name)
+
+
+def module(name):
+    """That Python can import the module."""
+    if importlib.util.find_spec(name) is None:
+        raise Missing(name)

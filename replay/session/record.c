@@ -111,6 +111,15 @@ static json_t *warnings_record(const struct glint_replay *replay, const struct r
     return list;
 }
 
+/* The values of images whose unit is the end reason. */
+static json_t *end_reasons_record(void) {
+    json_t *list = json_array();
+#define REASON(name, text) json_array_append_new(list, json_pack("{ssss}", "name", #name, "text", text));
+#include "shared/end_reasons.h"
+#undef REASON
+    return list;
+}
+
 static json_t *faces_record(const struct glint_cube_faces *faces) {
     return json_pack("{s[II]s[II]}", "uploaded", (json_int_t)faces->uploaded, (json_int_t)faces->uploaded_of,
                      "filtered", (json_int_t)faces->filtered, (json_int_t)faces->filtered_of);
@@ -124,14 +133,15 @@ json_t *run_record(const struct glint_replay *replay, const struct run *run) {
     json_t *passes = json_array();
     for (size_t p = 0; p < run->graph->pass_count; p++)
         json_array_append_new(passes, pass_record(&replay->results, run, p));
-    return json_pack(
-        "{si s{ssss} so sI sI sI so s{s[ii]s[ii]} ss sb so so sI so sb so so so}", "format", 1, "tool", "name", "glint",
-        "version", GLINT_VERSION, "device", device_record(&run->gpu->info), "frame", (json_int_t)frame->number, "rays",
-        (json_int_t)glint_pipeline_rays(run->plan->pipeline), "first_ray", (json_int_t)run->plan->pipeline->first_ray,
-        "preset", text_or_null(run->plan->pipeline->name), "resolution", "full", (int)full[0], (int)full[1], "half",
-        (int)half[0], (int)half[1], "precision", options->float_precision ? "float" : "half", "diagnostics",
-        options->diagnostics, "inputs", text_or_null(options->inputs), "history", text_or_null(options->history),
-        "active_cubemaps", (json_int_t)run->sizes->active, "cube_faces", faces_record(&run->plan->faces), "all",
-        options->all, "survey", surveyed ? survey_record(&replay->planner.survey, frame) : json_null(), "passes",
-        passes, "warnings", warnings_record(replay, run));
+    return json_pack("{si s{ssss} so sI sI sI so s{s[ii]s[ii]} ss sb so so sI so sb so so so so}", "format", 1, "tool",
+                     "name", "glint", "version", GLINT_VERSION, "device", device_record(&run->gpu->info), "frame",
+                     (json_int_t)frame->number, "rays", (json_int_t)glint_pipeline_rays(run->plan->pipeline),
+                     "first_ray", (json_int_t)run->plan->pipeline->first_ray, "preset",
+                     text_or_null(run->plan->pipeline->name), "resolution", "full", (int)full[0], (int)full[1], "half",
+                     (int)half[0], (int)half[1], "precision", options->float_precision ? "float" : "half",
+                     "diagnostics", options->diagnostics, "inputs", text_or_null(options->inputs), "history",
+                     text_or_null(options->history), "active_cubemaps", (json_int_t)run->sizes->active, "cube_faces",
+                     faces_record(&run->plan->faces), "all", options->all, "survey",
+                     surveyed ? survey_record(&replay->planner.survey, frame) : json_null(), "passes", passes,
+                     "end_reasons", end_reasons_record(), "warnings", warnings_record(replay, run));
 }

@@ -36,6 +36,10 @@ bool glint_fail(struct glint_error *err, enum glint_code code, const char *forma
 /* Creates a folder and its missing parents. It is no error if the folder exists. */
 bool glint_make_folder(const char *folder, struct glint_error *err);
 
+/* The declarations of libglint-capture's public headers, with which this library was compiled, as C without comments and macros. A binding
+   that takes the layout of structs and the parameters of functions from here fits every version of the library. */
+const char *glint_declarations(void);
+
 /* Called repeatedly during long work, on the thread that called glint. `done` is in [0, 1]; `what` is valid during the call only.
    Return false to stop the work, which then fails with GLINT_ERROR_INTERRUPTED and leaves only complete files behind. */
 typedef bool (*glint_progress)(void *user, const char *what, double done);

@@ -1,0 +1,152 @@
+"""What a capture says beside its pixels: cameras, fog, exposure, cube maps. FORMAT.md has the meaning, units and ranges of every value in
+full; where these classes say "0: 1", the library takes 0 for 1, as its C interface does.
+
+Positions, directions and lengths are float64, in the engine's units; `metres_per_unit` converts them. Arrays may be given as anything that
+numpy.asarray makes numbers of the stated shape. The objects belong to the caller and share nothing with a file or with the library."""
+import ctypes
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from glint.convert import counted, mirrors, to_struct
+from glint.library import function
+
+Floats = NDArray[np.float64]
+
+_position = function("glint_camera_position", "camera position")
+
+
+def _zeros(*shape: int) -> Any:
+    return field(default_factory=lambda: np.zeros(shape))
+
+
+@mirrors("glint_camera")
+@dataclass(eq=False)
+class Camera:
+    """A camera: clip = view_to_clip · world_to_view · world, for column vectors."""
+    world_to_view: Floats
+    """(4, 4): a rotation, which may mirror, and a translation; no scale"""
+    view_to_clip: Floats
+    """(4, 4): a perspective, jitter included: rows (a 0 c 0) (0 b d 0) (0 0 A B) (0 0 ±1 0)"""
+    rotation_error: float = 0.0
+    """set by the reader where the stored rotation R is only precise to a float: the deviation of R·Rᵀ from the identity"""
+
+    @property
+    def position(self) -> Floats:
+        """(3,): the camera's world position. Solved for, as a rotation need not be orthonormal to the last bit."""
+        found = (ctypes.c_double * 3)()
+        _position(ctypes.byref(to_struct(self)), found)
+        return np.array(found)
+
+
+@mirrors("glint_fog")
+@dataclass(eq=False)
+class Fog:
+    """Exponential height fog."""
+    color: Floats
+    """(3,): radiance far inside the fog, ≥ 0; stored as float32"""
+    density: float
+    """extinction per unit at `base`, ≥ 0"""
+    base: float = 0.0
+    """height along up at which the density applies, units"""
+    scale_height: float = 0.0
+    """units of height over which the density falls to 1/e; 0: the same at every height"""
+
+
+@mirrors("glint_stencil_class")
+@dataclass
+class StencilClass:
+    """Pixels with (stencil.id & mask) == value."""
+    value: int
+    mask: int
+    """0: all bits"""
+    name: str
+    """"sky", "foreground", "character" …; at most 31 bytes"""
+
+
+@mirrors("glint_frame")
+@dataclass(eq=False)
+class Frame:
+    """The frame's own attributes. Only the camera has no default."""
+    camera: Camera
+    previous: Camera | None = None
+    """the camera one frame earlier; needed with a part previous.gbuffer"""
+    cut: bool = False
+    """the previous frame belongs to another shot"""
+    player: Floats | None = None
+    """(3,): world position around which cube maps are selected; None: the camera's"""
+    jitter_px: Floats = _zeros(2)
+    """(2,): the sub-pixel offset that view_to_clip contains; +x right, +y down"""
+    exposure: float = 1.0
+    """factor from scene-referred to display, > 0; 0: 1"""
+    pre_exposure: float = 1.0
+    """factor that pre-exposed colour contains, > 0; 0: 1"""
+    metres_per_unit: float = 1.0
+    """> 0; 0: 1"""
+    depth_near: float = 0.0
+    """near plane of logarithmic depth, units"""
+    depth_far: float = 0.0
+    """far plane of logarithmic depth, units"""
+    motion_range: float = 1.0
+    """packed motion: the uv offset of the largest value; 0: 1"""
+    motion_depth_range: float = 1.0
+    """packed motion.Z: the depth difference of the largest value, units; 0: 1"""
+    number: int = 0
+    """frame number, 0 to 2³² − 1; seeds random numbers that differ from frame to frame"""
+    up: str = "+y"
+    """world axis that points up: +y, +z, +x, -y, -z, -x"""
+    clip_y: str = "up"
+    """where NDC y = +1 is: "up" (top of the picture) or "down\""""
+    clip_z: str = "zero_to_one"
+    """range of NDC z: "zero_to_one" or "minus_one_to_one\""""
+    fog: Fog | None = None
+    classes: list[StencilClass] = counted("class_count", list)
+    """at most 32"""
+
+
+@mirrors("glint_cubemap")
+@dataclass(eq=False)
+class CubeMap:
+    """The attributes of a part cubemap.NNN. The inner volume contains no surface at all: see FORMAT.md before you set one."""
+    center: Floats
+    """(3,): world position"""
+    outdoor: bool = False
+    fade: float = 1.0
+    """weight while it is faded in or out, (0, 1]; 0: 1"""
+    age_frames: int = 0
+    """0 to 2³² − 1"""
+    inner: str = "none"
+    """"none", "box", "sphere" or "hull"; positions below are relative to the centre, in units"""
+    box_min: Floats = _zeros(3)
+    box_max: Floats = _zeros(3)
+    sphere_center: Floats = _zeros(3)
+    sphere_radius: float = 0.0
+    planes: Floats = counted("plane_count", lambda: np.zeros((0, 4)))
+    """(n, 4), n ≤ 64: planes (n, d) of a hull, inside where n·p + d ≤ 0"""
+
+
+@mirrors("glint_planar")
+@dataclass(eq=False)
+class Planar:
+    """The attributes of a part planar.NNN: a render mirrored in a plane."""
+    plane: Floats
+    """(4,): (n, d) in world space, n·p + d = 0"""
+    camera: Camera
+    """the mirrored camera"""
+
+
+@mirrors("glint_encodings")
+@dataclass
+class Encodings:
+    """How the engine stored a part's channels. Each value is one of its list in FORMAT.md; the first, which is the default, is what the
+    reader decodes to."""
+    depth: str = "view_linear"
+    normal: str = "signed"
+    vertex_normal: str = "signed"
+    normal_space: str = "world"
+    roughness: str = "perceptual"
+    motion: str = "uv"
+    color: str = "linear"
+    motion_depth: str = "view_linear"
