@@ -86,41 +86,33 @@ function probePlaces(probes) {
     });
 }
 
-// One rendered frame at its end, while its textures are still there.
-function rendered(scene, camera, {advance, timeout}) {
+// Waits for the next frame of the camera, and does the work at its end, synchronously, before anything else is drawn.
+function atEndOfFrame(scene, camera, {advance, timeout}, stage, work) {
     return new Promise((resolve, reject) => {
         let matrices = null;
         const drawn = scene.onAfterDrawPhaseObservable.add(() => {
             if (scene.activeCamera !== camera) return;
             matrices = {view: scene.getViewMatrix().clone(), projection: scene.getProjectionMatrix().clone(), position: camera.globalPosition.clone()};
         });
-        const done = (settle, value) => {
+        const settle = (how, value) => {
             scene.onAfterDrawPhaseObservable.remove(drawn);
             scene.onAfterRenderObservable.remove(ended);
             clearTimeout(timer);
-            settle(value);
+            how(value);
         };
-        let work = null;
         const ended = scene.onAfterRenderObservable.add(() => {
-            if (matrices) done(resolve, work ? work(matrices) : matrices);
+            if (matrices) settle(resolve, work(matrices));
         });
-        const timer = setTimeout(() => done(reject, new CaptureError(`no frame was rendered within ${timeout} s; is a render loop running?`)), 1000 * timeout);
-        rendered.withWork = (f) => { work = f; };
-        if (advance) Promise.resolve().then(advance).catch((error) => done(reject, error));
+        const timer = setTimeout(() => settle(reject, new CaptureError(`no frame was rendered within ${timeout} s; is a render loop running?`)), 1000 * timeout);
+        // Not at once: shaders that compile beside the page are done in between.
+        if (advance) setTimeout(() => Promise.resolve(stage).then(advance).catch((error) => settle(reject, error)));
     });
-}
-
-// Waits for a frame and does work at its end, synchronously, before anything else is drawn.
-function atEndOfFrame(scene, camera, options, work) {
-    const frame = rendered(scene, camera, options);
-    rendered.withWork(work);
-    return frame;
 }
 
 async function untilReady(scene, camera, options, ready) {
     const until = performance.now() + 1000 * options.timeout;
     for (let frames = 0; frames < 3;) {
-        await rendered(scene, camera, options);
+        await atEndOfFrame(scene, camera, options, "ready", () => {});
         frames = ready() && scene.isReady() ? frames + 1 : 0;
         require(performance.now() < until, `shaders or textures were not ready within ${options.timeout} s`);
     }
@@ -162,7 +154,7 @@ function materials(reflectivity, albedo, isBase, size) {
         const at = 4 * i, key = [0, 1, 2].map((c) => reflectivity[at + c] * 256 + albedo[at + c]).join();
         let found = seen.get(key);
         if (!found) {
-            found = baseColor(Array.from(reflectivity.subarray(at, at + 3), (v) => v / 255), Array.from(albedo.subarray(at, at + 3), (v) => v / 255), isBase);
+            found = baseColor(Array.from(reflectivity.subarray(at, at + 3), (v) => v / 255), Array.from(albedo.subarray(at, at + 3), (v) => (v / 255) ** 2), isBase);
             seen.set(key, found);
         }
         base.set(found.base, at);
@@ -188,13 +180,12 @@ export async function captureFrame(scene, given = {}) {
         makeDiffuse(sorted.materials, views.passIds());
         await untilReady(scene, camera, options, () => prePass.isReady() && views.isReady());
         require(!prePass.fault(), prePass.fault());
-        const color = "color";
-        const before = await atEndOfFrame(scene, camera, options, (matrices) =>
-            Promise.all([matrices, prePass.read("depth", color), views.picture(matrices)]));
-        const now = await atEndOfFrame(scene, camera, options, (matrices) => {
+        const before = await atEndOfFrame(scene, camera, options, "previous", (matrices) =>
+            Promise.all([matrices, prePass.read("depth", "color"), views.picture(matrices)]));
+        const now = await atEndOfFrame(scene, camera, options, "now", (matrices) => {
             const {minZ, maxZ} = camera, far = maxZ || 1e5;
             return Promise.all([
-                matrices, prePass.read("depth", color, "normal", "reflectivity", "albedo", "velocity"),
+                matrices, prePass.read("depth", "color", "normal", "reflectivity", "albedo", "velocity"),
                 pipeline ? readReflections(scene, camera, pipeline, texture) : {textures: {}, parts: {}},
                 views.picture(matrices), views.sky(matrices.position, minZ, far),
                 Promise.all(probes.map((p) => views.probe(Vector3.FromArray(p.center), minZ, far))),
@@ -242,7 +233,7 @@ function record({scene, camera, options, notes, isBase, probes, size, before, no
         worldNormals: prePass.renderer.generateNormalsInWorldSpace,
         engine: {
             "gbuffer.reflectivity": {texture: "reflectivity", channels: "RGBA", attributes: {meaning: "F0; alpha: 1 - roughness"}},
-            "gbuffer.albedo": {texture: "albedo", channels: "RGB", attributes: {meaning: isBase ? "base colour" : "0.96 · base colour · (1 - metalness)"}},
+            "gbuffer.albedo_sqrt": {texture: "albedo", channels: "RGB", attributes: {meaning: `square root of ${isBase ? "base colour" : "0.96 · base colour · (1 - metalness)"}`}},
             ...engine.parts,
         },
     };

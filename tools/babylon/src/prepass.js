@@ -3,7 +3,7 @@
 //   depth         float view z: negative in a right-handed view; where nothing was drawn 0, or 1e8 if a pipeline asks for it
 //   normal        half  unit vector in view space, or in world space if `generateNormalsInWorldSpace`
 //   reflectivity  8 bit reflectance at normal incidence, linear; alpha: 1 - perceptual roughness
-//   albedo        8 bit linear; base colour times 1 - metalness (times 0.96) with `useLegacySpecularEnergyConservation`, else base colour
+//   albedo        8 bit square root of the linear albedo: base colour times 1 - metalness (times 0.96) with `useLegacySpecularEnergyConservation`, else base colour
 //   velocity      half  position in the previous frame minus position now, in uv, v up
 import {PassPostProcess} from "@babylonjs/core/PostProcesses/passPostProcess.js";
 import {Constants} from "@babylonjs/core/Engines/constants.js";
@@ -11,7 +11,7 @@ import "@babylonjs/core/Rendering/prePassRendererSceneComponent.js";
 
 const PURPOSES = {
     color: Constants.PREPASS_COLOR_TEXTURE_TYPE, depth: Constants.PREPASS_DEPTH_TEXTURE_TYPE, normal: Constants.PREPASS_NORMAL_TEXTURE_TYPE,
-    reflectivity: Constants.PREPASS_REFLECTIVITY_TEXTURE_TYPE, albedo: Constants.PREPASS_ALBEDO_TEXTURE_TYPE,
+    reflectivity: Constants.PREPASS_REFLECTIVITY_TEXTURE_TYPE, albedo: Constants.PREPASS_ALBEDO_SQRT_TEXTURE_TYPE,
     velocity: Constants.PREPASS_VELOCITY_LINEAR_TEXTURE_TYPE,
 };
 

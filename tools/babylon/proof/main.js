@@ -1,0 +1,24 @@
+// Captures the scene as the address asks for it, and sends the zip to the server: index.html?right=1&reverse=1.
+import {Engine} from "@babylonjs/core/Engines/engine.js";
+import {captureFrame} from "glint-babylon";
+import {makeScene} from "./scene.js";
+
+async function main() {
+    const asked = new URLSearchParams(location.search), canvas = document.getElementById("canvas");
+    const engine = new Engine(canvas, false, {preserveDrawingBuffer: true, stencil: false}, false);
+    engine.useReverseDepthBuffer = asked.has("reverse");
+    const {scene, pose, probes} = makeScene(engine, asked.has("right"));
+    const started = performance.now();
+    const zip = await captureFrame(scene, {
+        probes, probeSize: 128, skySize: 128, timeout: 500,
+        // The same two moments in every capture, however long shaders take to compile.
+        advance: (stage) => {
+            pose({previous: 1, now: 2}[stage] ?? 0);
+            scene.render();
+        },
+    });
+    console.log(`captured in ${((performance.now() - started) / 1000).toFixed(1)} s, ${zip.length} bytes, Babylon.js ${Engine.Version}`);
+    await fetch("/result", {method: "POST", body: zip});
+}
+
+main().catch((error) => fetch("/failed", {method: "POST", body: String(error?.stack ?? error)}));
