@@ -19,14 +19,15 @@ import "@babylonjs/core/PostProcesses/RenderPipeline/postProcessRenderPipelineMa
 
 // Name, size, place, yaw in radians, colour, metalness, roughness. The floor's top is at y = 0.
 const BOXES = [
-    ["floor", [16, 1, 16], [0, -0.5, 2], 0, [0.42, 0.4, 0.38], 0, 0.55],
+    ["floor", [16, 1, 16], [0, -0.5, 2], 0, [0.2, 0.19, 0.18], 0, 0.55],
     ["mirror", [3.2, 0.04, 2.6], [-1.4, 0, 1.2], 0, [0.9, 0.9, 0.92], 1, 0.03],
     ["gold inlay", [2.4, 0.04, 2.2], [2.1, 0, 0.9], 0.25, [1, 0.77, 0.34], 1, 0.15],
     ["satin inlay", [2, 0.04, 1.6], [0.4, 0, -1.6], -0.2, [0.6, 0.65, 0.75], 0.8, 0.3],
-    ["wall", [16, 4, 0.4], [0, 2, 6], 0, [0.75, 0.73, 0.7], 0, 0.8],
-    ["red stripe", [1, 3.6, 0.06], [-4, 1.8, 5.78], 0, [0.8, 0.06, 0.04], 0, 0.5],
-    ["green stripe", [1, 3.6, 0.06], [-1, 1.8, 5.78], 0, [0.1, 0.6, 0.12], 0, 0.5],
-    ["blue stripe", [1, 3.6, 0.06], [2, 1.8, 5.78], 0, [0.08, 0.16, 0.8], 0, 0.5],
+    ["wall", [16, 4, 0.4], [0, 2, 6], 0, [0.6, 0.58, 0.54], 0, 0.8],
+    ["dark skirting", [16, 0.5, 0.06], [0, 0.25, 5.78], 0, [0.12, 0.1, 0.09], 0, 0.6],
+    ["red stripe", [1, 3.2, 0.06], [-4, 2.1, 5.78], 0, [0.8, 0.06, 0.04], 0, 0.5],
+    ["green stripe", [1, 3.2, 0.06], [-1, 2.1, 5.78], 0, [0.1, 0.6, 0.12], 0, 0.5],
+    ["blue stripe", [1, 3.2, 0.06], [2, 2.1, 5.78], 0, [0.08, 0.16, 0.8], 0, 0.5],
     ["orange box", [1, 1, 1], [-2.4, 0.52, 2.2], 0.5, [0.95, 0.4, 0.05], 0, 0.4],
     ["white pillar", [0.5, 2.4, 0.5], [0.5, 1.2, 3.6], 0.3, [0.9, 0.9, 0.88], 0, 0.6],
     ["glossy box", [0.9, 1.3, 0.9], [3.6, 0.65, 2.6], -0.4, [0.05, 0.05, 0.06], 0, 0.05],
@@ -55,10 +56,10 @@ export function makeScene(engine, right) {
     camera.maxZ = 60;
     camera.fov = 0.9;
 
-    new HemisphericLight("sky light", Vector3.Up(), scene).intensity = 0.9;
+    new HemisphericLight("sky light", Vector3.Up(), scene).intensity = 0.55;
     const sun = new DirectionalLight("sun", at([-0.5, -1.1, 0.75]).normalize(), scene);
     sun.position = at([5, 9, -6]);
-    sun.intensity = 2.6;
+    sun.intensity = 2.2;
     const shadows = new ShadowGenerator(1024, sun);
     shadows.usePercentageCloserFiltering = true;
     shadows.bias = shadows.normalBias = 0.01;

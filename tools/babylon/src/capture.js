@@ -231,9 +231,9 @@ function record({scene, camera, options, notes, isBase, probes, size, before, no
         version: AbstractEngine.Version, notes, textures, probes, metresPerUnit: options.metresPerUnit, number: scene.getFrameId(),
         camera: {...nowCamera, rightHanded, halfZ: scene.getEngine().isNDCHalfZRange, ...size}, previous: previousCamera,
         worldNormals: prePass.renderer.generateNormalsInWorldSpace,
-        engine: {
-            "gbuffer.reflectivity": {texture: "reflectivity", channels: "RGBA", attributes: {meaning: "F0; alpha: 1 - roughness"}},
-            "gbuffer.albedo_sqrt": {texture: "albedo", channels: "RGB", attributes: {meaning: `square root of ${isBase ? "base colour" : "0.96 · base colour · (1 - metalness)"}`}},
+        others: {
+            "babylon.reflectivity": {texture: "reflectivity", channels: "RGBA", attributes: {meaning: "F0; alpha: 1 - roughness"}},
+            "babylon.albedo_sqrt": {texture: "albedo", channels: "RGB", attributes: {meaning: `square root of ${isBase ? "base colour" : "0.96 · base colour · (1 - metalness)"}`}},
             ...engine.parts,
         },
     };

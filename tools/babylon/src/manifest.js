@@ -35,8 +35,8 @@ export function manifestOf(frame) {
         const name = `cubemap.${String(i).padStart(3, "0")}`, cubemap = {center: probe.center, outdoor: probe.outdoor};
         parts[name] = {cubemap, RGB: `probe_${i}.rgb`, A: `probe_${i}_surface`, "distance.Z": {texture: `probe_${i}`, channel: "a"}};
     });
-    for (const [name, {texture, channels, attributes}] of Object.entries(frame.engine)) {
-        parts[`engine.${name}`] = {[channels]: `${texture}.${channels.toLowerCase()}`, attributes};
+    for (const [name, {texture, channels, attributes}] of Object.entries(frame.others)) {
+        parts[name] = {[channels]: `${texture}.${channels.toLowerCase()}`, attributes};
     }
     const listed = {}, files = {};
     for (const [name, {keys, bytes}] of Object.entries(textures)) {

@@ -37,11 +37,11 @@ export async function readReflections(scene, camera, pipeline, texture) {
         const pixels = await new BaseTexture(scene.getEngine(), internal).readPixels();
         const half = internal.type === Constants.TEXTURETYPE_HALF_FLOAT;
         textures[key] = texture(pixels, 4, {width: internal.width, height: internal.height, half});
-        parts[part] = {texture: key, channels, attributes: {...attributes, meaning}};
+        parts[`engine.${part}`] = {texture: key, channels, attributes: {...attributes, meaning}};
     };
     const after = (name) => chain[chain.indexOf(named(name)) + 1];
     if (pipeline.blurDispersionStrength > 0) {
-        await read("ssr", named("SSRblurX"), "resolve.reflection", "RGBA", "SSR before its blur; alpha: radius of the blur / 255");
+        await read("ssr", named("SSRblurX"), "resolve.reflection_half", "RGBA", "SSR before its blur; alpha: radius of the blur / 255");
         await read("ssr_blurred", named("SSRblurCombiner"), "upscale.reflection", "RGBA", "SSR after its blur; alpha: radius of the blur / 255");
         await read("ssr_picture", after("SSRblurCombiner"), "compose.composed", "RGB", "picture with SSR, before the post-processes that follow");
     } else {
