@@ -69,6 +69,7 @@ export function makeScene(engine, right) {
         made.albedoColor = new Color3(...color);
         made.metallic = metallic;
         made.roughness = roughness;
+        made.emissiveColor = new Color3(0.01, 0.01, 0.01); // no surface is black: a reflection without colour is one without a hit
         return made;
     };
     const solid = (mesh, place, look) => {

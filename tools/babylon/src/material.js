@@ -30,6 +30,9 @@ export function baseColor(f0, albedo, albedoIsBase) {
     // Grey and low: a dielectric, whatever its index of refraction.
     if (high - low <= STEP && high <= 0.08) return {base: diffuse.map(clamp), metalness: 0, specular: (low + high) / 2 / 0.08};
     const metalness = albedoIsBase ? fromBase(f0, albedo) : fromDiffuse(f0, diffuse);
-    if (metalness < STEP) return {base: [...f0], metalness: 1, specular: 0.5}; // a coloured reflectance that no metal explains
-    return {base: f0.map((v) => clamp((v - DIELECTRIC * (1 - metalness)) / metalness)), metalness, specular: 0.5};
+    if (metalness >= STEP) {
+        const base = f0.map((v) => (v - DIELECTRIC * (1 - metalness)) / metalness);
+        if (base.every((v) => v > -STEP && v < 1 + STEP)) return {base: base.map(clamp), metalness, specular: 0.5};
+    }
+    return {base: [...f0], metalness: 1, specular: 0.5}; // a coloured reflectance that no mixture with a metal explains
 }
