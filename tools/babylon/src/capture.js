@@ -2,38 +2,26 @@
 import {zipSync, strToU8} from "fflate";
 import {Vector3} from "@babylonjs/core/Maths/math.vector.js";
 import {Color4} from "@babylonjs/core/Maths/math.color.js";
-import {AbstractEngine} from "@babylonjs/core/Engines/abstractEngine.js";
 import {Constants} from "@babylonjs/core/Engines/constants.js";
 import "@babylonjs/core/Engines/Extensions/engine.readTexture.js";
 import {kindOf, makeDiffuse} from "./diffuse.js";
-import {fault, slant} from "./camera.js";
-import {baseColor} from "./material.js";
+import {CaptureError, require} from "./errors.js";
 import {manifestOf} from "./manifest.js";
 import {PrePass} from "./prepass.js";
 import {findPipeline, readReflections} from "./ssr.js";
-import {take, texture} from "./texels.js";
+import {record} from "./record.js";
+import {texture} from "./texels.js";
 import {Views} from "./views.js";
 
 const DEFAULTS = {probes: [], probeSize: 128, skySize: 256, metresPerUnit: 1, sky: null, ignore: [], advance: null, timeout: 120};
-
-class CaptureError extends Error {
-    constructor(message) {
-        super(`glint: ${message}`);
-        this.name = "CaptureError";
-    }
-}
-
-function require(condition, message) {
-    if (!condition) throw new CaptureError(message);
-}
 
 // What cannot be captured, before anything is changed.
 function check(scene, camera) {
     const engine = scene.getEngine(), caps = engine.getCaps();
     require(camera, "the scene has no active camera");
     require(!engine.isWebGPU, "WebGPU is not supported yet; use the WebGL 2 engine");
-    require(engine.version >= 2 || engine.webGLVersion >= 2, `WebGL ${engine.webGLVersion} is not enough; expected 2`);
-    require(caps.textureFloatRender && caps.colorBufferFloat !== false, "this device cannot render to float textures (EXT_color_buffer_float)");
+    require(engine.version >= 2, `WebGL ${engine.version} is not enough; expected 2`);
+    require(caps.textureFloatRender && caps.colorBufferFloat, "this device cannot render to float textures (EXT_color_buffer_float)");
     require(!scene.floatingOriginMode, "floatingOriginMode moves the world; switch it off");
     require(!(scene.activeCameras?.length > 1), `the scene has ${scene.activeCameras?.length} active cameras; expected one`);
     require(!camera.rigCameras?.length, "cameras with rigs (stereo, VR) are not supported; capture one eye's camera");
@@ -101,7 +89,12 @@ function atEndOfFrame(scene, camera, {advance, timeout}, stage, work) {
             how(value);
         };
         const ended = scene.onAfterRenderObservable.add(() => {
-            if (matrices) settle(resolve, work(matrices));
+            if (!matrices) return;
+            try {
+                settle(resolve, work(matrices));
+            } catch (error) {
+                settle(reject, error);
+            }
         });
         const timer = setTimeout(() => settle(reject, new CaptureError(`no frame was rendered within ${timeout} s; is a render loop running?`)), 1000 * timeout);
         // Not at once: shaders that compile beside the page are done in between.
@@ -118,52 +111,6 @@ async function untilReady(scene, camera, options, ready) {
     }
 }
 
-const plain = ({view, projection, position}) => ({view: view.asArray(), projection: projection.asArray(), position: position.asArray()});
-
-// View depth in units from distances; the pre-pass's own has the sign of the view and no sky.
-function depthOf(pixels, projection, width, height) {
-    const depth = new Float32Array(width * height);
-    for (let i = 0; i < depth.length; ++i) depth[i] = pixels[4 * i + 3] / slant(projection, width, height, i % width, Math.floor(i / width));
-    return depth;
-}
-
-// The pre-pass's depth, +inf under sky. It must be that of the surfaces that were drawn again for `lit`.
-function checkedDepth(raw, pixels, projection, width, height) {
-    const again = depthOf(pixels, projection, width, height), depth = take(raw, [0]);
-    let surfaces = 0, others = 0;
-    for (let i = 0; i < depth.length; ++i) {
-        if (again[i] === Infinity) {
-            depth[i] = Infinity;
-            continue;
-        }
-        depth[i] = Math.abs(depth[i]);
-        ++surfaces;
-        if (!(Math.abs(depth[i] - again[i]) <= 1e-3 * again[i])) {
-            ++others;
-            depth[i] = again[i];
-        }
-    }
-    require(others <= 0.01 * surfaces, `the pre-pass and a second rendering of the same frame disagree in depth on ${others} of ${surfaces} pixels; `
-        + "are there meshes that are drawn in one of them alone?");
-    return {depth, others};
-}
-
-function materials(reflectivity, albedo, isBase, size) {
-    const count = reflectivity.length / 4, base = new Float32Array(4 * count), level = new Float32Array(count), seen = new Map();
-    for (let i = 0; i < count; ++i) {
-        const at = 4 * i, key = [0, 1, 2].map((c) => reflectivity[at + c] * 256 + albedo[at + c]).join();
-        let found = seen.get(key);
-        if (!found) {
-            found = baseColor(Array.from(reflectivity.subarray(at, at + 3), (v) => v / 255), Array.from(albedo.subarray(at, at + 3), (v) => (v / 255) ** 2), isBase);
-            seen.set(key, found);
-        }
-        base.set(found.base, at);
-        base[at + 3] = found.metalness;
-        level[i] = found.specular;
-    }
-    return {material: texture(base, 4, size), specular: texture(level, 1, size)};
-}
-
 export async function captureFrame(scene, given = {}) {
     for (const name of Object.keys(given)) {
         require(name in DEFAULTS || name === "camera", `no option is called "${name}"; there are camera, ${Object.keys(DEFAULTS).join(", ")}`);
@@ -174,12 +121,16 @@ export async function captureFrame(scene, given = {}) {
     const isBase = albedoIsBase(sorted.materials, notes), pipeline = findPipeline(scene, camera);
     const width = engine.getRenderWidth(), height = engine.getRenderHeight(), size = {width, height};
     const clear = scene.clearColor.toLinearSpace();
-    const prePass = new PrePass(scene, camera);
-    const views = new Views(scene, {...sorted, ...size, clear: new Color4(clear.r, clear.g, clear.b, 1), probeSize: options.probeSize, skySize: options.skySize});
+    const undo = [];
     try {
+        const prePass = new PrePass(scene, camera);
+        undo.push(() => prePass.dispose());
+        const views = new Views(scene, {...sorted, ...size, clear: new Color4(clear.r, clear.g, clear.b, 1), probeSize: options.probeSize, skySize: options.skySize});
+        undo.push(() => views.dispose());
         makeDiffuse(sorted.materials, views.passIds());
+        undo.push(() => makeDiffuse(sorted.materials, []));
         await untilReady(scene, camera, options, () => prePass.isReady() && views.isReady());
-        require(!prePass.fault(), prePass.fault());
+        require(!prePass.fault(size), prePass.fault(size));
         const before = await atEndOfFrame(scene, camera, options, "previous", (matrices) =>
             Promise.all([matrices, prePass.read("depth", "color"), views.picture(matrices)]));
         const now = await atEndOfFrame(scene, camera, options, "now", (matrices) => {
@@ -192,51 +143,10 @@ export async function captureFrame(scene, given = {}) {
             ]);
         });
         require(engine.getRenderWidth() === width && engine.getRenderHeight() === height, "the canvas changed its size during the capture");
-        return zipOf(await record({scene, camera, options, notes, isBase, probes, size, before, now, pipeline, prePass}));
+        return zipOf(record({scene, options, notes, isBase, probes, size, before, now, pipeline, prePass}));
     } finally {
-        makeDiffuse(sorted.materials, []);
-        views.dispose();
-        prePass.dispose();
+        for (const step of undo.reverse()) step();
     }
-}
-
-function record({scene, camera, options, notes, isBase, probes, size, before, now, pipeline, prePass}) {
-    const [matrices, [depth, scenePixels, normal, reflectivity, albedo, velocity], engine, lit, sky, faces] = now;
-    const [previous, [previousDepth, previousScene], previousLit] = before, {width, height} = size;
-    const nowCamera = plain(matrices), previousCamera = plain(previous), rightHanded = scene.useRightHandedSystem;
-    require(!fault(nowCamera.projection), fault(nowCamera.projection));
-    const checked = checkedDepth(depth, lit, nowCamera.projection, width, height);
-    const checkedBefore = checkedDepth(previousDepth, previousLit, previousCamera.projection, width, height);
-    if (checked.others) notes.push(`depth of ${checked.others} pixels is that of a second rendering`);
-    if (!pipeline) notes.push("no SSRRenderingPipeline: no reflections of the engine's own");
-    if (scene.fogMode) notes.push("fog is in the colours, and is not declared");
-    const half = {...size, half: true}, cube = {rows: "bottom_first", ...(rightHanded ? {cube: {mirror: true}} : {})};
-    const halfColor = prePass.texture("color").textureType === Constants.TEXTURETYPE_HALF_FLOAT;
-    const pixels = {...size, half: halfColor};
-    const textures = {
-        depth: texture(checked.depth, 1, size), normal: texture(normal, 4, half), velocity: texture(velocity, 4, half),
-        reflectivity: texture(reflectivity, 4, size), albedo: texture(albedo, 4, size), ...materials(reflectivity, albedo, isBase, size),
-        lit: texture(take(lit, [0, 1, 2]), 3, size), scene: texture(scenePixels, 4, pixels),
-        previous_depth: texture(checkedBefore.depth, 1, size), previous_lit: texture(take(previousLit, [0, 1, 2]), 3, size),
-        previous_scene: texture(previousScene, 4, pixels),
-        sky: texture(take(sky, [0, 1, 2]), 3, {width: options.skySize, height: options.skySize, layers: 6, ...cube}),
-        ...engine.textures,
-    };
-    faces.forEach((face, i) => {
-        const shape = {width: options.probeSize, height: options.probeSize, layers: 6, ...cube};
-        textures[`probe_${i}`] = texture(face, 4, shape);
-        textures[`probe_${i}_surface`] = texture(take(face, [3], Uint8Array).map((_, j) => (face[4 * j + 3] === Infinity ? 0 : 255)), 1, shape);
-    });
-    return {
-        version: AbstractEngine.Version, notes, textures, probes, metresPerUnit: options.metresPerUnit, number: scene.getFrameId(),
-        camera: {...nowCamera, rightHanded, halfZ: scene.getEngine().isNDCHalfZRange, ...size}, previous: previousCamera,
-        worldNormals: prePass.renderer.generateNormalsInWorldSpace,
-        others: {
-            "babylon.reflectivity": {texture: "reflectivity", channels: "RGBA", attributes: {meaning: "F0; alpha: 1 - roughness"}},
-            "babylon.albedo_sqrt": {texture: "albedo", channels: "RGB", attributes: {meaning: `square root of ${isBase ? "base colour" : "0.96 · base colour · (1 - metalness)"}`}},
-            ...engine.parts,
-        },
-    };
 }
 
 function zipOf(frame) {

@@ -45,7 +45,9 @@ export class PrePass {
         return this.renderer.enabled && Object.values(PURPOSES).every((purpose) => this.renderer.getIndex(purpose) >= 0);
     }
 
-    fault() {
+    fault({width, height}) {
+        const {width: w, height: h} = this.texture("depth").getSize();
+        if (w !== width || h !== height) return `the pre-pass renderer draws ${w} x ${h} pixels, expected the canvas's ${width} x ${height}`;
         if (this.renderer.samples > 1) return `the pre-pass renderer has ${this.renderer.samples} samples a pixel, expected 1 (prePassRenderer.samples = 1)`;
         return null;
     }
