@@ -7,8 +7,10 @@ import {ShadowGenerator} from "@babylonjs/core/Lights/Shadows/shadowGenerator.js
 import "@babylonjs/core/Lights/Shadows/shadowGeneratorSceneComponent.js";
 import {PBRMaterial} from "@babylonjs/core/Materials/PBR/pbrMaterial.js";
 import {Constants} from "@babylonjs/core/Engines/constants.js";
+import "@babylonjs/core/Materials/Textures/baseTexture.polynomial.js";
 import {RawCubeTexture} from "@babylonjs/core/Materials/Textures/rawCubeTexture.js";
 import {Color3} from "@babylonjs/core/Maths/math.color.js";
+import {SphericalPolynomial} from "@babylonjs/core/Maths/sphericalPolynomial.js";
 import {Vector3} from "@babylonjs/core/Maths/math.vector.js";
 import {VertexBuffer} from "@babylonjs/core/Buffers/buffer.js";
 import {CreateBox} from "@babylonjs/core/Meshes/Builders/boxBuilder.js";
@@ -46,6 +48,24 @@ function sky(x, y) {
     return y < 0 ? [0.16, 0.15, 0.14] : [0.18 + 0.75 * low + 0.2 * Math.max(0, x) * low, 0.34 + 0.45 * low, 0.75 + 0.1 * low];
 }
 
+// What metals reflect in Babylon.js's picture, so that none is black: a reflection without colour is then one without a hit. It is specular
+// light alone, which `lit` must not contain; diffuse light comes from the lights.
+function environment(scene) {
+    const size = 32, faces = [0, 1, 2, 3, 4, 5].map((face) => {
+        const texels = new Float32Array(4 * size * size);
+        for (let i = 0; i < size * size; ++i) {
+            const s = (2 * (i % size) + 1) / size - 1, t = (2 * Math.floor(i / size) + 1) / size - 1, length = Math.hypot(1, s, t);
+            const [x, y] = [[1, -t], [-1, -t], [s, 1], [s, -1], [s, -t], [-s, -t]][face]; // the formula does without z
+            texels.set([...sky(x / length, y / length), 1], 4 * i);
+        }
+        return texels;
+    });
+    const texture = new RawCubeTexture(scene, faces, size, Constants.TEXTUREFORMAT_RGBA, Constants.TEXTURETYPE_FLOAT, false, false, Constants.TEXTURE_BILINEAR_SAMPLINGMODE);
+    texture.gammaSpace = false;
+    texture.sphericalPolynomial = new SphericalPolynomial();
+    return texture;
+}
+
 export function makeScene(engine, right) {
     const scene = new Scene(engine);
     scene.useRightHandedSystem = right;
@@ -69,7 +89,6 @@ export function makeScene(engine, right) {
         made.albedoColor = new Color3(...color);
         made.metallic = metallic;
         made.roughness = roughness;
-        made.emissiveColor = new Color3(0.01, 0.01, 0.01); // no surface is black: a reflection without colour is one without a hit
         return made;
     };
     const solid = (mesh, place, look) => {
@@ -97,6 +116,7 @@ export function makeScene(engine, right) {
     dome.material.backFaceCulling = false;
     dome.infiniteDistance = true;
 
+    scene.environmentTexture = environment(scene);
     reflections(scene, camera);
     new ImageProcessingPostProcess("tone mapping", 1, camera).toneMappingEnabled = true;
     const pose = (frame) => {
