@@ -19,6 +19,7 @@ RUNS = {
     "like_babylon": (*TRACED, "--use", "screen_trace=dda", *(word for setting in ("thickness=0", "thickness_m=0.5", "seam=0", "solid=0", "sky=false")
                                                             for word in ("--set", f"screen_trace.{setting}"))),
 }
+LOOP = "loop"  # frames of the page's own render loop, wherever it is
 EVERYWHERE = ("kf2",)  # the other worlds are replayed with this alone
 
 
@@ -39,7 +40,7 @@ def world(glint, folder, name, runs):
     steps, proof = Steps(folder), folder.parent / "package/proof"
     print(f"babylon, {name}: {folder}", flush=True)
     steps.do("capture", ["frame.zip"], lambda: call(
-        "node", "capture.js", folder / "frame.zip", *WORLDS[name], into=folder / "browser.log", cwd=proof))
+        "node", "capture.js", folder / "frame.zip", *WORLDS.get(name, (name,)), into=folder / "browser.log", cwd=proof))
     steps.do("unzip", ["dump/manifest.json"], lambda: unpack(folder))
     steps.do("pack", ["frame.exr"], lambda: call(glint, "pack", folder / "dump/manifest.json", "-o", folder / "frame.exr", into=folder / "pack.log"))
     for what in ("validate", "lint", "info"):
@@ -57,10 +58,12 @@ def prove(glint, folder):
     folder.mkdir(parents=True, exist_ok=True)
     steps = Steps(folder)
     steps.do("install", ["package/proof/node_modules/playwright-core/package.json"], lambda: install(folder))
-    call("node", "--test", "test/", into=folder / "test.log", cwd=PACKAGE)
-    for name in WORLDS:
+    call("node", "--test", *sorted((PACKAGE / "test").glob("*.test.js")), into=folder / "test.log", cwd=PACKAGE)
+    steps.do("faults", ["faults.txt"], lambda: call(
+        "node", "capture.js", folder / "faults.txt", "faults", into=folder / "faults.log", cwd=folder / "package/proof"))
+    for name in (*WORLDS, LOOP):
         (folder / name).mkdir(exist_ok=True)
-        world(glint, folder / name, name, RUNS if name == "left" else EVERYWHERE)
+        world(glint, folder / name, name, {"left": RUNS, LOOP: ()}.get(name, EVERYWHERE))
     figures = babylon_figures.measure(folder)
     (folder / "figures.json").write_text(json.dumps(figures, indent=1) + "\n")
     print(babylon_figures.tables(figures), flush=True)
