@@ -19,7 +19,8 @@ RUNS = {
     "like_babylon": (*TRACED, "--use", "screen_trace=dda", *(word for setting in ("thickness=0", "thickness_m=0.5", "seam=0", "solid=0", "sky=false")
                                                             for word in ("--set", f"screen_trace.{setting}"))),
 }
-LOOP = "loop"  # frames of the page's own render loop, wherever it is
+# Captured and checked, not replayed: a picture that jitters, and frames of the page's own render loop, wherever it is.
+OTHERS = ("jittered", "loop")
 EVERYWHERE = ("kf2",)  # the other worlds are replayed with this alone
 
 
@@ -61,9 +62,9 @@ def prove(glint, folder):
     call("node", "--test", *sorted((PACKAGE / "test").glob("*.test.js")), into=folder / "test.log", cwd=PACKAGE)
     steps.do("faults", ["faults.txt"], lambda: call(
         "node", "capture.js", folder / "faults.txt", "faults", into=folder / "faults.log", cwd=folder / "package/proof"))
-    for name in (*WORLDS, LOOP):
+    for name in (*WORLDS, *OTHERS):
         (folder / name).mkdir(exist_ok=True)
-        world(glint, folder / name, name, {"left": RUNS, LOOP: ()}.get(name, EVERYWHERE))
+        world(glint, folder / name, name, RUNS if name == "left" else EVERYWHERE if name in WORLDS else ())
     figures = babylon_figures.measure(folder)
     (folder / "figures.json").write_text(json.dumps(figures, indent=1) + "\n")
     print(babylon_figures.tables(figures), flush=True)

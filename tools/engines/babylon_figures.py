@@ -72,7 +72,7 @@ def measure(folder):
     return {"ends": {run: ends(left, run) for run in ("like_babylon", "traced", "kf2")},
             "final": {run: final(left, run) for run in ("kf2", "mafia3")},
             "worlds": {world: same_picture(folder, world) for world in ("right", "left_reversed", "right_reversed")},
-            "lint": {world: (folder / world / "lint.txt").read_text().strip().split(": ")[-1] for world in ("left", "right", "left_reversed", "right_reversed")},
+            "lint": {path.parent.name: path.read_text().strip().split(": ")[-1] for path in sorted(folder.glob("*/lint.txt"))},
             "seconds": {path.parent.name: json.loads(path.read_text()) for path in [folder / "times.json", *sorted(folder.glob("*/times.json"))]}}
 
 

@@ -1,4 +1,4 @@
-// Captures the scene as the address asks for it, and sends the zip to the server: index.html?right=1&reverse=1. With loop=1 the frames are
+// Captures the scene as the address asks for it, and sends the zip to the server: index.html?right=1&reverse=1&jittered=1. With loop=1 the frames are
 // those of a render loop; with faults=1 the text of faults.js is sent.
 import {Engine} from "@babylonjs/core/Engines/engine.js";
 import {captureFrame} from "glint-babylon";
@@ -9,7 +9,7 @@ async function main() {
     const asked = new URLSearchParams(location.search), canvas = document.getElementById("canvas");
     const engine = new Engine(canvas, false, {preserveDrawingBuffer: true, stencil: false}, false);
     engine.useReverseDepthBuffer = asked.has("reverse");
-    const {scene, pose, probes} = makeScene(engine, asked.has("right"));
+    const {scene, pose, probes} = makeScene(engine, {right: asked.has("right"), jittered: asked.has("jittered")});
     if (asked.has("faults")) {
         await fetch("/result", {method: "POST", body: await provoke(engine, scene)});
         return;

@@ -66,7 +66,7 @@ function environment(scene) {
     return texture;
 }
 
-export function makeScene(engine, right) {
+export function makeScene(engine, {right, jittered}) {
     const scene = new Scene(engine);
     scene.useRightHandedSystem = right;
     const z = right ? -1 : 1; // the same picture in either world: z is turned over
@@ -119,7 +119,18 @@ export function makeScene(engine, right) {
     scene.environmentTexture = environment(scene);
     reflections(scene, camera);
     new ImageProcessingPostProcess("tone mapping", 1, camera).toneMappingEnabled = true;
+    let offset = [0, 0];
+    if (jittered) {
+        // As temporal antialiasing does it: the picture moves by parts of a pixel, to the right and down.
+        scene.onBeforeDrawPhaseObservable.add(() => {
+            const projection = camera.getProjectionMatrix(true), w = projection.m[11];
+            projection.addAtIndex(8, (w * 2 * offset[0]) / engine.getRenderWidth());
+            projection.addAtIndex(9, (-w * 2 * offset[1]) / engine.getRenderHeight());
+            scene.updateTransformMatrix();
+        });
+    }
     const pose = (frame) => {
+        offset = [[0, 0], [0.25, -0.3], [-0.35, 0.15]][frame % 3];
         camera.position = at([0.3 + 0.04 * frame, 1.75, -5.2 + 0.03 * frame]);
         camera.setTarget(at([0.1, 0.75, 1.5]));
         moving.position = at([2.6 - 0.03 * frame, 0.32, 0.6]);

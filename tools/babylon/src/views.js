@@ -77,20 +77,28 @@ export class Views {
     }
 
     isReady() {
-        return this.targets.every((t) => t.renderList.length === 0 || t.isReadyForRendering());
+        return this.#keeping(() => this.targets.every((t) => t.renderList.length === 0 || t.isReadyForRendering()));
     }
 
-    // Floats of a picture by the given matrices, bottom row first.
-    async #render(texture, position, view, projection) {
-        const {scene} = this, before = scene.activeCamera;
-        this.camera.place(position, view, projection);
-        scene.incrementRenderId();
-        scene.resetCachedMaterial();
-        texture.render();
-        scene.activeCamera = before;
-        const pixels = texture.readPixels();
-        if (before) scene.setTransformMatrix(before.getViewMatrix(), before.getProjectionMatrix());
-        return pixels;
+    // Render targets with a camera of their own compute the projection of the scene's camera anew, and its jitter would be lost.
+    #keeping(work) {
+        const {scene} = this, camera = scene.activeCamera, kept = camera.getProjectionMatrix().clone();
+        const result = work();
+        scene.activeCamera = camera;
+        camera.getProjectionMatrix().copyFrom(kept);
+        scene.setTransformMatrix(camera.getViewMatrix(), camera.getProjectionMatrix());
+        return result;
+    }
+
+    // Floats of a picture by the given matrices, bottom row first. All is drawn and read before this returns.
+    #render(texture, position, view, projection) {
+        return this.#keeping(() => {
+            this.camera.place(position, view, projection);
+            this.scene.incrementRenderId();
+            this.scene.resetCachedMaterial();
+            texture.render();
+            return texture.readPixels();
+        });
     }
 
     // The engine's view without specular: radiance, and in alpha the distance, infinite where there is sky.
