@@ -1,0 +1,1 @@
+export {captureFrame} from "./src/capture.js";
