@@ -15,6 +15,7 @@ struct output {
     int axis;     /* X, Y, Z: 0, 1, 2 */
     int plane[3]; /* of the file's requested channels; a normal has X, Y, Z, the others one; -1 for none */
     float absent; /* without a plane: the value of every pixel */
+    int mask;     /* the plane of the roughness by which values are read as 0, or -1 */
 };
 
 struct job {
@@ -73,15 +74,23 @@ static bool plan_normal(struct job *job, const struct glint_part_info *part, con
     return true;
 }
 
+/* Surfaces that are too rough for the engine to reflect anything have neither metalness nor specular. */
+static bool is_masked(const struct job *job, const struct glint_part_info *part, const char *name) {
+    return job->decoder.frame->has_material && job->decoder.frame->material.roughest_reflection > 0 && part->role &&
+           !strcmp(part->role->name, "gbuffer") &&
+           (!strcmp(name, "material.metalness") || !strcmp(name, "material.specular"));
+}
+
 static bool plan_output(struct job *job, const struct glint_part_info *part, const struct glint_exr_part_info *file,
                         const char *name, struct output *to) {
-    *to = (struct output){.plane = {-1, -1, -1}};
+    *to = (struct output){.plane = {-1, -1, -1}, .mask = -1};
     if (!name) return true;
     const struct glint_role_channel *row = glint_role_channel_find(part->role, name);
     to->decoding = decoding_of(part, row);
     to->axis = axis_of(name);
     if (to->decoding == NORMAL) return plan_normal(job, part, file, row, to);
     to->plane[0] = want_channel(job, file, name);
+    if (is_masked(job, part, name) && (to->mask = want_channel(job, file, "material.roughness")) < 0) return false;
     if (row && !isnan(row->absent)) to->absent = (float)row->absent;
     return to->plane[0] >= 0 || (row && !isnan(row->absent));
 }
@@ -108,6 +117,7 @@ static void put_absent(const struct job *job, const struct output *from, size_t 
 /* Values that are not decoded keep every bit if the types agree. */
 static bool put_as_stored(const struct job *job, const struct output *from, const uint8_t *in, size_t count,
                           uint8_t *out) {
+    if (from->mask >= 0) return false;
     if (from->plane[0] < 0) {
         put_absent(job, from, count, out);
         return true;
@@ -164,6 +174,15 @@ static void decode_packed(const struct job *job, const struct output *from, cons
         v[i] += (float)(0.5 * glint_perturbation_sign(&job->coins[from->plane[0]], pixel + i)) * (line[1] - line[0]);
 }
 
+static void mask_values(const struct job *job, const struct output *from, const uint8_t *roughness, uint64_t pixel,
+                        float *v, size_t count) {
+    float r[GLINT_BLOCK];
+    load_values(job, roughness, pixel, count, from->mask, r);
+    glint_decode_roughness(&job->decoder, r, count);
+    for (size_t i = 0; i < count; i++)
+        if ((double)r[i] >= job->decoder.frame->material.roughest_reflection) v[i] = 0;
+}
+
 static void decode_values(const struct job *job, const struct output *from, const uint8_t *in, uint64_t pixel, float *v,
                           size_t count) {
     if (from->decoding == PACKED) {
@@ -217,7 +236,13 @@ static bool decode_rows(void *user, uint32_t y, uint32_t lines, const uint8_t *c
                 if (from->decoding == NORMAL) {
                     store_values(job, normal_of(job, from, planes, line, x, pixel, count, &block), count, out);
                 } else {
-                    decode_values(job, from, in, pixel, values, count);
+                    if (in) decode_values(job, from, in, pixel, values, count);
+                    else
+                        for (size_t k = 0; k < count; k++) values[k] = from->absent;
+                    if (from->mask >= 0)
+                        mask_values(job, from,
+                                    planes[from->mask] + line + x * glint_stored_bytes(job->stored[from->mask]), pixel,
+                                    values, count);
                     store_values(job, values, count, out);
                 }
             }

@@ -65,6 +65,12 @@ void glint_decode_length(const struct glint_decoder *d, float *v, size_t count) 
     for (size_t i = 0; i < count; i++) v[i] = (float)((double)v[i] * unit);
 }
 
+/* A frame without the group has its fallbacks. */
+static struct glint_material_model material_of(const struct glint_decoder *d) {
+    const struct glint_material_model usual = {.gloss_scale = 10, .gloss_offset = 1};
+    return d->frame->has_material ? d->frame->material : usual;
+}
+
 void glint_decode_roughness(const struct glint_decoder *d, float *v, size_t count) {
     switch (d->encodings.roughness) {
     case GLINT_ROUGHNESS_PERCEPTUAL:
@@ -77,6 +83,11 @@ void glint_decode_roughness(const struct glint_decoder *d, float *v, size_t coun
         break;
     case GLINT_ROUGHNESS_POWER:
         for (size_t i = 0; i < count; i++) v[i] = sqrtf(sqrtf(2 / ((v[i] < 0 ? 0 : v[i]) + 2)));
+        break;
+    case GLINT_ROUGHNESS_LOG2_POWER:
+        for (size_t i = 0; i < count; i++)
+            v[i] = (float)sqrt(
+                sqrt(2 / (exp2(material_of(d).gloss_scale * (double)v[i] + material_of(d).gloss_offset) + 2)));
         break;
     }
 }
@@ -135,6 +146,22 @@ static void from_view_xy(const struct glint_decoder *d, float *const n[3], size_
     }
 }
 
+/* With half the angle θ from the direction towards the camera: |e| = sin(θ/2). Codes outside of the disc are moved to its rim. */
+static void from_spheremap(const struct glint_decoder *d, float *const n[3], size_t count) {
+    const float side = d->camera->view_to_clip[14] < 0 ? 1 : -1;
+    for (size_t i = 0; i < count; i++) {
+        const float x = 2 * n[0][i] - 1, y = 2 * n[1][i] - 1, square = fminf(x * x + y * y, 1);
+        const float wide = 2 * sqrtf(1 - square);
+        n[0][i] = wide * x;
+        n[1][i] = wide * y;
+        n[2][i] = side * (1 - 2 * square);
+    }
+}
+
+static bool is_of_view(enum glint_normal_encoding encoding) {
+    return encoding == GLINT_NORMAL_VIEW_XY || encoding == GLINT_NORMAL_SPHEREMAP;
+}
+
 static void to_world(const double *m, float *const n[3], size_t count) {
     for (size_t i = 0; i < count; i++) {
         const double x = (double)n[0][i], y = (double)n[1][i], z = (double)n[2][i];
@@ -149,11 +176,12 @@ void glint_decode_normal(const struct glint_decoder *d, enum glint_normal_encodi
             for (size_t i = 0; i < count; i++) n[axis][i] = 2 * n[axis][i] - 1;
     if (encoding == GLINT_NORMAL_OCTAHEDRAL) from_octahedral(n, count);
     if (encoding == GLINT_NORMAL_VIEW_XY) from_view_xy(d, n, count);
+    if (encoding == GLINT_NORMAL_SPHEREMAP) from_spheremap(d, n, count);
     for (size_t i = 0; lengths && i < count; i++)
         lengths[i] = encoding == GLINT_NORMAL_OCTAHEDRAL && isfinite(n[2][i])
                          ? 1
                          : sqrtf(n[0][i] * n[0][i] + n[1][i] * n[1][i] + n[2][i] * n[2][i]);
-    if (d->encodings.normal_space == GLINT_SPACE_VIEW || encoding == GLINT_NORMAL_VIEW_XY)
+    if (d->encodings.normal_space == GLINT_SPACE_VIEW || is_of_view(encoding))
         to_world(d->camera->world_to_view, n, count);
     for (size_t i = 0; i < count; i++) {
         const float square = n[0][i] * n[0][i] + n[1][i] * n[1][i] + n[2][i] * n[2][i];

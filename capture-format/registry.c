@@ -148,6 +148,7 @@ int glint_encoding_value(const char *which, const char *name) {
 #define GROUP_has_previous offsetof(struct glint_frame, has_previous)
 #define GROUP_has_player offsetof(struct glint_frame, has_player)
 #define GROUP_has_fog offsetof(struct glint_frame, has_fog)
+#define GROUP_has_material offsetof(struct glint_frame, has_material)
 #define NEED_REQUIRED true
 #define NEED_OPTIONAL false
 

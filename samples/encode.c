@@ -46,11 +46,17 @@ static float sign_of(float v) {
 vec3 encode_normal(enum glint_normal_encoding encoding, enum glint_normal_space space, const struct view *view,
                    vec3 normal) {
     vec3 n = unit(normal);
-    if (space == GLINT_SPACE_VIEW || encoding == GLINT_NORMAL_VIEW_XY) n = to_view(view, n);
+    if (space == GLINT_SPACE_VIEW || encoding == GLINT_NORMAL_VIEW_XY || encoding == GLINT_NORMAL_SPHEREMAP)
+        n = to_view(view, n);
     if (encoding == GLINT_NORMAL_VIEW_XY) {
         /* A normal that faces away, as normals near the border of the image may, is moved to the rim of the hemisphere. */
         if (n.z < 0) n = unit(v3(n.x, n.y, 0));
         return v3(0.5f + 0.5f * n.x, 0.5f + 0.5f * n.y, 0);
+    }
+    if (encoding == GLINT_NORMAL_SPHEREMAP) {
+        const float flat = sqrtf(n.x * n.x + n.y * n.y), half = sqrtf(fmaxf((1 - n.z) / 2, 0)),
+                    wide = flat > 0 ? half / flat : 0;
+        return v3(0.5f + 0.5f * wide * n.x, 0.5f + 0.5f * wide * n.y, 0);
     }
     if (encoding == GLINT_NORMAL_UNORM) {
         vec3 u = scale(add(n, gray(1)), 0.5f);
@@ -69,8 +75,11 @@ vec3 encode_normal(enum glint_normal_encoding encoding, enum glint_normal_space 
 }
 
 struct storage storage_normal(enum glint_normal_encoding encoding) {
-    static const struct storage of[] = {
-        {GLINT_F16, "RGBA16F"}, {GLINT_F32, "R10G10B10A2"}, {GLINT_UNORM16, "RG16"}, {GLINT_UNORM8, "RG8"}};
+    static const struct storage of[] = {{GLINT_F16, "RGBA16F"},
+                                        {GLINT_F32, "R10G10B10A2"},
+                                        {GLINT_UNORM16, "RG16"},
+                                        {GLINT_UNORM8, "RG8"},
+                                        {GLINT_UNORM8, "RG8"}};
     return of[encoding];
 }
 
@@ -86,13 +95,16 @@ float encode_roughness(enum glint_roughness_encoding encoding, float roughness) 
     case GLINT_ROUGHNESS_POWER:
         power = 2 / (r * r * r * r) - 2;
         return (float)fmin(power, 3e38); /* the power of a mirror is infinite */
+    case GLINT_ROUGHNESS_LOG2_POWER:
+        power = 2 / (r * r * r * r) - 2;
+        return (float)fmin(fmax((log2(power) - 1) / 10, 0), 1); /* 8 bits, from a power of 2 to one of 2048 */
     }
     return roughness;
 }
 
 struct storage storage_roughness(enum glint_roughness_encoding encoding) {
     static const struct storage of[] = {
-        {GLINT_F16, "R16F"}, {GLINT_F16, "R16F"}, {GLINT_UNORM8, "R8"}, {GLINT_F32, "R32F"}};
+        {GLINT_F16, "R16F"}, {GLINT_F16, "R16F"}, {GLINT_UNORM8, "R8"}, {GLINT_F32, "R32F"}, {GLINT_UNORM8, "R8"}};
     return of[encoding];
 }
 

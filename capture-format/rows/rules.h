@@ -7,7 +7,7 @@ RULE(NAMES,     "unique-names",     "No two parts have the same name.")
 RULE(REQUIRED,  "required-parts",   "A capture holds every required role. A file of cube maps alone, which other captures may name as a sibling, needs none.")
 RULE(STORAGE,   "scanline",         "Parts of known roles are flat scanline images without subsampling, compressed by NONE, RLE, ZIPS, ZIP, PIZ, PXR24 or B44.")
 RULE(RESERVED,  "reserved-roles",   "A reserved role is not used before a version defines it.")
-RULE(CHANNELS,  "channels",         "A part holds its role's required channels (no Z of a normal that is octahedral or view_xy) and no channel that the role does not list.")
+RULE(CHANNELS,  "channels",         "A part holds its role's required channels (no Z of a normal that is octahedral, view_xy or spheremap) and no channel that the role does not list.")
 RULE(TYPES,     "channel-types",    "`stencil.id`, packed motion and its packed depth are uint; every other listed channel is half or float.")
 RULE(SHAPE,     "shape",            "Parts of shape `frame` have the size of `gbuffer`; cube maps are N × 6N.")
 RULE(ENCODING,  "encoding",         "A declared encoding is one of the values of its table; where nothing is declared, the first one holds.")
@@ -20,7 +20,7 @@ RULE(SIBLING,   "sibling",          "A sibling is a plain file name in the captu
 /* ---- pixels: checked by validate alone ---- */
 RULE(PIXEL_FINITE,    "pixels-finite",    "No NaN, and no infinity but +inf in view-linear depth and in distances under sky. Where depth says sky (or no surface), the other channels are not checked.")
 RULE(PIXEL_NORMAL,    "pixels-normal",    "Decoded normals have a length of 1 within 0.02 before the reader normalises them.")
-RULE(PIXEL_RANGE,     "pixels-range",     "Decoded roughness and every channel of unit 1 without an encoding lie in [0, 1] (within 0.001); radiance, metres (but motion.Z) and relative errors are not negative; encoded depth, unorm, octahedral and view_xy values lie in [0, 1].")
+RULE(PIXEL_RANGE,     "pixels-range",     "Decoded roughness and every channel of unit 1 without an encoding lie in [0, 1] (within 0.001); radiance, metres (but motion.Z) and relative errors are not negative; encoded depth, unorm, octahedral, view_xy, spheremap and log2_power values lie in [0, 1].")
 RULE(PIXEL_SKY,       "pixels-sky",       "In cube maps, where A is 0 (sky), R G B are 0 and distance.Z is +inf; where A is 1, distance.Z is a number. Where A is between 0 and 1, as after filtering, both are free.")
 /* clang-format on */
 #undef RULE

@@ -39,6 +39,11 @@ static const struct row rows[] = {
     {"fog", "glint.fogDensity", "density", NUMBER},
     {"fog", "glint.fogBase", "base", NUMBER},
     {"fog", "glint.fogScaleHeight", "scale_height", NUMBER},
+    {"fog", "glint.fogAdds", "adds", FLAG},
+    {"material", "glint.metalReflectance", "metal_reflectance", NUMBER},
+    {"material", "glint.roughestReflection", "roughest_reflection", NUMBER},
+    {"material", "glint.glossScale", "gloss_scale", NUMBER},
+    {"material", "glint.glossOffset", "gloss_offset", NUMBER},
     {"cubemap", "glint.center", "center", NUMBERS},
     {"cubemap", "glint.outdoor", "outdoor", FLAG},
     {"cubemap", "glint.fade", "fade", NUMBER},
@@ -112,12 +117,15 @@ static json_t *classes_of(const struct glint_exr_attribute *a) {
 }
 
 json_t *extract_frame(const struct glint_exr_part_info *gbuffer) {
-    json_t *frame = scope_of(gbuffer, "frame"), *fog = scope_of(gbuffer, "fog");
+    json_t *frame = scope_of(gbuffer, "frame"), *fog = scope_of(gbuffer, "fog"),
+           *material = scope_of(gbuffer, "material");
     const struct glint_exr_attribute *classes = glint_exr_attribute(gbuffer, "glint.stencilClasses");
     json_object_set_new(frame, "layout", json_string("row_major"));
     json_object_set_new(frame, "vectors", json_string("column"));
     json_object_set_new(frame, "jitter_in_matrix", json_true());
     if (json_object_size(fog)) json_object_set(frame, "fog", fog);
+    if (json_object_size(material)) json_object_set(frame, "material", material);
+    json_decref(material);
     if (classes) json_object_set_new(frame, "stencil_classes", classes_of(classes));
     json_decref(fog);
     return frame;

@@ -16,9 +16,9 @@ static int choice_of(const struct node *node, const char *key, const char *const
 
 /* Says which keys of the frame were not said, and what holds in their place. */
 static void note_defaults(const struct node *frame_node) {
-    static const char *const told[] = {"clip_y", "clip_z",   "up",           "metres_per_unit",
-                                       "jitter", "exposure", "pre_exposure", "player",
-                                       "number", "fog",      "cut",          "stencil_classes"};
+    static const char *const told[] = {
+        "clip_y", "clip_z", "up",  "metres_per_unit", "jitter", "exposure",       "pre_exposure",
+        "player", "number", "fog", "material",        "cut",    "stencil_classes"};
     const struct object *object = pack_object("frame");
     for (size_t i = 0; i < sizeof told / sizeof *told; i++) {
         const struct node node = node_child(frame_node, told[i]);
@@ -58,15 +58,30 @@ static bool read_fog(const struct node *fog, struct glint_frame *frame, struct g
     frame->fog.density = node_number(fog, "density", 0);
     frame->fog.base = node_number(fog, "base", 0);
     frame->fog.scale_height = node_number(fog, "scale_height", 0);
+    frame->fog.adds = node_bool(fog, "adds", false);
     if (color[0] < 0 || color[1] < 0 || color[2] < 0 || frame->fog.density < 0 || frame->fog.scale_height < 0)
         return node_fail(fog, err, GLINT_ERROR_FORMAT, "expected no negative color, density and scale_height");
+    return true;
+}
+
+static bool read_material(const struct node *material, struct glint_frame *frame, struct glint_error *err) {
+    struct glint_material_model *m = &frame->material;
+    frame->has_material = material->value != NULL;
+    m->metal_reflectance = node_number(material, "metal_reflectance", 1);
+    m->roughest_reflection = node_number(material, "roughest_reflection", 0);
+    m->gloss_scale = node_number(material, "gloss_scale", 10);
+    m->gloss_offset = node_number(material, "gloss_offset", 1);
+    if (!(m->metal_reflectance > 0) || !(m->gloss_scale > 0) || !(m->roughest_reflection >= 0))
+        return node_fail(material, err, GLINT_ERROR_FORMAT,
+                         "expected metal_reflectance and gloss_scale above 0 and roughest_reflection from 0");
     return true;
 }
 
 static bool read_values(const struct node *node, struct glint_frame *frame, struct glint_error *err) {
     static const char *const ups[] = {"+y", "+z", "+x", "-y", "-z", "-x"}, *const ys[] = {"up", "down"},
                              *const zs[] = {"zero_to_one", "minus_one_to_one"};
-    const struct node fog = node_child(node, "fog"), classes = node_child(node, "stencil_classes");
+    const struct node fog = node_child(node, "fog"), material = node_child(node, "material"),
+                      classes = node_child(node, "stencil_classes");
     frame->up = (enum glint_axis)choice_of(node, "up", ups);
     frame->clip_y = (enum glint_clip_y)choice_of(node, "clip_y", ys);
     frame->clip_z = (enum glint_clip_z)choice_of(node, "clip_z", zs);
@@ -81,7 +96,7 @@ static bool read_values(const struct node *node, struct glint_frame *frame, stru
            read_positive(node, "metres_per_unit", &frame->metres_per_unit, err) &&
            read_positive(node, "motion_range", &frame->motion_range, err) &&
            read_positive(node, "motion_depth_range", &frame->motion_depth_range, err) && read_fog(&fog, frame, err) &&
-           read_classes(&classes, frame, err);
+           read_material(&material, frame, err) && read_classes(&classes, frame, err);
 }
 
 /* ---- Cameras ---- */

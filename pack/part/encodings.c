@@ -95,13 +95,13 @@ static bool check_normal(struct part *part, const char *layer, const char *key, 
         found[i] = find_channel(part, name);
     }
     const struct channel *first = found[0];
-    const bool two = *encoding == GLINT_NORMAL_OCTAHEDRAL || *encoding == GLINT_NORMAL_VIEW_XY;
+    const bool two = *encoding >= GLINT_NORMAL_OCTAHEDRAL; /* without Z */
     if (first && found[1] && !found[2] && !two)
-        return node_fail(
-            &first->node, err, GLINT_ERROR_FORMAT,
-            "expected X, Y and Z of a normal, found X and Y: say encodings.%s octahedral or view_xy, or name "
-            "three components",
-            key);
+        return node_fail(&first->node, err, GLINT_ERROR_FORMAT,
+                         "expected X, Y and Z of a normal, found X and Y: say encodings.%s octahedral, view_xy or "
+                         "spheremap, or name "
+                         "three components",
+                         key);
     if (found[2] && two)
         return node_fail(&found[2]->node, err, GLINT_ERROR_FORMAT,
                          "expected no Z beside a normal that is %s, found one",

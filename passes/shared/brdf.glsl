@@ -3,9 +3,12 @@
 #define GLINT_BRDF
 
 // Reflectance at normal incidence. Dielectrics: 0.08 · specular (B. Burley, Physically Based Shading at Disney, 2012).
-vec3 reflectance_at_normal(vec3 albedo, float metalness, float specular) {
-    return mix(vec3(0.08 * specular), albedo, metalness);
+// scale: of metals, for engines whose metals reflect more than their albedo.
+vec3 reflectance_at_normal(vec3 albedo, float metalness, float specular, float scale) {
+    vec3 metal = scale == 1.0 ? albedo : min(scale * albedo, vec3(1.0));
+    return mix(vec3(0.08 * specular), metal, metalness);
 }
+vec3 reflectance_at_normal(vec3 albedo, float metalness, float specular) { return reflectance_at_normal(albedo, metalness, specular, 1.0); }
 
 // Reflectance at grazing incidence: 1, faded out below 2 %, which no real dielectric has, so that a material without specular reflects
 // nothing. S. Lagarde, C. de Rousiers, Moving Frostbite to PBR, 2014, 3.2.2: saturate(50 · F0). Deviation: the largest component of F0 is used.

@@ -71,7 +71,7 @@ float weight_of(ivec2 pixel, float depth_m, vec4 surface, vec4 base, float specu
     vec3 view = view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
     float cosine = clamp(dot(-normalize(mat3(frame.world_from_view) * view), normalize(surface.xyz)), 0.0, 1.0);
     float rise = texelFetch(fresnel_full, min(pixel, textureSize(fresnel_full, 0) - 1), 0).x;
-    vec3 weight = environment_reflectance(reflectance_at_normal(base.rgb, base.a, specular), clamped(surface.w), cosine, rise);
+    vec3 weight = environment_reflectance(reflectance_at_normal(base.rgb, base.a, specular, frame.material.x), clamped(surface.w), cosine, rise);
     return max(weight.r, max(weight.g, weight.b));
 }
 

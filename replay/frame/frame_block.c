@@ -73,6 +73,9 @@ static void fill_fog(struct frame_block *block, const struct glint_frame *frame,
     float up[3] = {0};
     up[axis] = (float)sign;
     block->up = (vec4){up[0], up[1], up[2], 0};
+    const double scale = frame->material.metal_reflectance;
+    block->material =
+        (vec4){frame->has_material && scale > 0 ? (float)scale : 1, frame->has_fog && frame->fog.adds, 0, 0};
     if (!frame->has_fog) return;
     const struct glint_fog *fog = &frame->fog;
     block->fog_color = (vec4){fog->color[0], fog->color[1], fog->color[2], (float)(fog->density / metres)};

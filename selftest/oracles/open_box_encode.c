@@ -86,11 +86,18 @@ void open_box_encode_normal(const struct open_box *c, const double normal[3], do
     double n[3], v[3] = {0}, rows[3][3];
     const enum glint_normal_encoding encoding = c->encodings.normal;
     open_box_to_engine(c, normal, n);
-    if (c->encodings.normal_space == GLINT_SPACE_VIEW || encoding == GLINT_NORMAL_VIEW_XY) {
+    if (c->encodings.normal_space == GLINT_SPACE_VIEW || encoding == GLINT_NORMAL_VIEW_XY ||
+        encoding == GLINT_NORMAL_SPHEREMAP) {
         open_box_view_rows(c, rows);
         for (int r = 0; r < 3; r++)
             for (int k = 0; k < 3; k++) v[r] += rows[r][k] * n[k];
         for (int k = 0; k < 3; k++) n[k] = v[k];
+    }
+    if (encoding == GLINT_NORMAL_SPHEREMAP) { /* the angle from the camera's side of view space, halved */
+        const double half = acos(fmax(-1, fmin(1, (c->depth_grows ? -1 : 1) * n[2]))) / 2, flat = hypot(n[0], n[1]);
+        for (int k = 0; k < 2; k++) out[k] = 0.5 + 0.5 * (flat > 0 ? sin(half) * n[k] / flat : 0);
+        out[2] = 0;
+        return;
     }
     const double sum = fabs(n[0]) + fabs(n[1]) + fabs(n[2]);
     for (int k = 0; k < 3; k++) out[k] = encoding == GLINT_NORMAL_SIGNED ? n[k] : 0.5 + 0.5 * n[k];
@@ -110,6 +117,8 @@ double open_box_encode_roughness(const struct open_box *c, double r) {
         return 1 - r;
     case GLINT_ROUGHNESS_POWER:
         return fmin(2 / (r * r * r * r) - 2, 3e38);
+    case GLINT_ROUGHNESS_LOG2_POWER: /* power 2^(10 v + 1), as read where nothing else is said */
+        return (log2(2 / (r * r * r * r) - 2) - 1) / 10;
     default:
         return r;
     }

@@ -96,7 +96,7 @@ static bool add_picture(struct glint_writer *writer, const struct open_box *c, s
     static const char *const rest[] = {"material.roughness", "material.metalness", "material.specular",
                                        "albedo.R",           "albedo.G",           "albedo.B",
                                        "motion.X",           "motion.Y",           "motion.Z"};
-    const bool two = c->encodings.normal == GLINT_NORMAL_OCTAHEDRAL || c->encodings.normal == GLINT_NORMAL_VIEW_XY;
+    const bool two = c->encodings.normal >= GLINT_NORMAL_OCTAHEDRAL; /* without Z */
     struct layer layer = {.name = "gbuffer",
                           .channels = {"depth.Z", "normal.X", "normal.Y", "normal.Z"},
                           .count = two ? 3 : 4,

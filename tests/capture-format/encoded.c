@@ -8,9 +8,8 @@
 double encoded_bits[3][FIX_W * FIX_H];
 
 static bool is_left_out(const char *channel, const struct glint_encodings *encodings) {
-    if (!strcmp(channel, "normal.Z")) return encodings->normal == GLINT_NORMAL_OCTAHEDRAL;
-    return !strcmp(channel, "vertexNormal.Z") &&
-           (encodings->vertex_normal == GLINT_NORMAL_OCTAHEDRAL || encodings->vertex_normal == GLINT_NORMAL_VIEW_XY);
+    if (!strcmp(channel, "normal.Z")) return encodings->normal >= GLINT_NORMAL_OCTAHEDRAL;
+    return !strcmp(channel, "vertexNormal.Z") && encodings->vertex_normal >= GLINT_NORMAL_OCTAHEDRAL;
 }
 
 static void encode(struct glint_part *part, struct fixture_channels *channels, const char *const *names, size_t count,

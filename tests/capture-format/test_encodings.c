@@ -198,24 +198,36 @@ static void check_normals(enum glint_normal_encoding e, enum glint_normal_space 
             n[1] = (y + 1) / 2;
         } else if (e == GLINT_NORMAL_UNORM) {
             for (int a = 0; a < 3; a++) n[a] = (n[a] + 1) / 2;
+        } else if (e == GLINT_NORMAL_SPHEREMAP) {
+            /* As engines write it: n.xy, made a unit, by √(1/2 - f/2); f is towards the camera, +z where the view looks along -z. */
+            const double wide = hypot(n[0], n[1]), f = frame.camera.view_to_clip[14] < 0 ? n[2] : -n[2];
+            for (int a = 0; a < 2; a++) n[a] = 0.5 + 0.5 * (wide > 0 ? n[a] / wide * sqrt(fmax(0.5 - 0.5 * f, 0)) : 0);
         }
-        for (int a = 0; a < 3; a++) store(s, e == GLINT_NORMAL_OCTAHEDRAL && a == 2 ? 0 : n[a], i, encoded_bits[a]);
+        for (int a = 0; a < 3; a++) store(s, e >= GLINT_NORMAL_OCTAHEDRAL && a == 2 ? 0 : n[a], i, encoded_bits[a]);
     }
     struct glint_encodings encodings = {.normal_space = space};
     if (at == 1) encodings.normal = e;
     else encodings.vertex_normal = e;
     /* The other images are in world space then, but are not tested here. */
     struct glint_capture *capture = encoded_capture(fixture_path(path, "normal.exr"), part, &encodings, pointers,
-                                                    e == GLINT_NORMAL_OCTAHEDRAL ? 2 : 3, s->type, s->name, &frame);
+                                                    e >= GLINT_NORMAL_OCTAHEDRAL ? 2 : 3, s->type, s->name, &frame);
     assert_true(glint_part_has_channel(glint_capture_find(capture, part), names[2]));
     encoded_read(capture, part, pointers, 3, out);
     /* Half a step in each component rotates a unit normal by at most √3 half steps (1 for signed, 2 for unorm, whose scale is 2). The
        octahedral mapping stretches angles by at most 2√3 · 2: at the centre of a face |n| = 1/√3 of its L1 norm, where the slope is 3,
        its maximum; both components have errors. */
     const double stretch = e == GLINT_NORMAL_SIGNED ? sqrt(3) : e == GLINT_NORMAL_UNORM ? 2 * sqrt(3) : 2 * 3 * sqrt(2);
-    const double bound = stretch * half_step(s, 1) + 4 * ldexp(1, -23);
     for (size_t i = 0; i < COUNT; i++) {
-        double cross = 0, length = 0;
+        double cross = 0, length = 0, bound = stretch * half_step(s, 1) + 4 * ldexp(1, -23);
+        /* The error in e is at most 2√2 half steps, in any direction. With |e| = sin(θ/2), that moves θ by 2 / cos(θ/2) times as much,
+           and the azimuth's part of the normal by 2 cos(θ/2); within some steps of the rim of the disc, by 2 √(2 · error). */
+        if (e == GLINT_NORMAL_SPHEREMAP) {
+            const float *w = fixture.gbuffer + 17 * i + at;
+            const double error = 2 * sqrt(2) * half_step(s, 1) + ldexp(1, -22);
+            const double z = m[8] * (double)w[0] + m[9] * (double)w[1] + m[10] * (double)w[2];
+            const double half = sqrt(fmax(0.5 + 0.5 * (frame.camera.view_to_clip[14] < 0 ? z : -z), 0));
+            bound = fmin(2 * error / fmax(half - sqrt(2 * error), 1e-9), 4 * sqrt(2 * error)) + 4 * ldexp(1, -23);
+        }
         for (int a = 0; a < 3; a++) {
             const double d = (double)out[3 * i + (size_t)a] - (double)fixture.gbuffer[17 * i + at + (size_t)a];
             cross += d * d;
@@ -240,6 +252,7 @@ static void normals(UNUSED void **state) {
             for (size_t i = 0; i < 5; i++) {
                 check_normals(GLINT_NORMAL_UNORM, in, positive[i], families[f], "gbuffer");
                 check_normals(GLINT_NORMAL_OCTAHEDRAL, in, positive[i], families[f], "gbuffer");
+                check_normals(GLINT_NORMAL_SPHEREMAP, GLINT_SPACE_VIEW, positive[i], families[f], "gbuffer");
             }
         }
     check_normals(GLINT_NORMAL_OCTAHEDRAL, GLINT_SPACE_VIEW, &UNORM16, "normal", "previous.gbuffer");
@@ -257,6 +270,8 @@ static double stored_roughness(enum glint_roughness_encoding e, double r) {
         return 1 - r;
     case GLINT_ROUGHNESS_POWER:
         return 2 / pow(r, 4) - 2;
+    case GLINT_ROUGHNESS_LOG2_POWER: /* the power 2^(10 v + 1) */
+        return (log2(2 / pow(r, 4) - 2) - 1) / 10;
     }
     return NAN;
 }
@@ -271,6 +286,8 @@ static double back_to_roughness(enum glint_roughness_encoding e, double v) {
         return 1 - v;
     case GLINT_ROUGHNESS_POWER:
         return pow(2 / (fmax(v, 0) + 2), 0.25);
+    case GLINT_ROUGHNESS_LOG2_POWER:
+        return pow(2 / (pow(2, 10 * v + 1) + 2), 0.25);
     }
     return NAN;
 }
@@ -280,10 +297,12 @@ static void check_roughness(enum glint_roughness_encoding e, const struct storag
     static float out[COUNT];
     static const char *const names[] = {"material.roughness"};
     /* The smallest roughness whose power a half can hold: below r = 0.0743 it exceeds 65504. */
-    const double lowest = e == GLINT_ROUGHNESS_POWER ? 0.08 : 0;
+    const double lowest = e == GLINT_ROUGHNESS_POWER ? 0.08 : e == GLINT_ROUGHNESS_LOG2_POWER ? 0.18 : 0;
+    /* Codes in [0, 1] stand for powers from 2 to 2048, r from 0.84 to 0.177. */
+    const double highest = e == GLINT_ROUGHNESS_LOG2_POWER ? 0.84 : 1;
     double r[COUNT];
     for (size_t i = 0; i < COUNT; i++) {
-        r[i] = fmax((double)fixture.gbuffer[17 * i + 4], lowest);
+        r[i] = fmin(fmax((double)fixture.gbuffer[17 * i + 4], lowest), highest);
         store(s, stored_roughness(e, r[i]), i, encoded_bits[0]);
     }
     const struct glint_encodings encodings = {.roughness = e};
@@ -309,6 +328,38 @@ static void roughness(UNUSED void **state) {
         for (int e = 0; e < 3; e++) check_roughness((enum glint_roughness_encoding)e, all[i]);
     check_roughness(GLINT_ROUGHNESS_POWER, &R16F);
     check_roughness(GLINT_ROUGHNESS_POWER, &R32F);
+    for (size_t i = 0; i < 4; i++) check_roughness(GLINT_ROUGHNESS_LOG2_POWER, all[i]);
+}
+
+/* ---- materials ---- */
+
+/* Catches: surfaces that reflect although the engine draws no reflection on them, and others that lose theirs. */
+static void rough_surfaces_reflect_nothing(UNUSED void **state) {
+    char path[512];
+    static float out[3 * COUNT];
+    static const char *const names[] = {"material.metalness", "material.roughness", "material.specular"};
+    const struct glint_encodings encodings = {.roughness = GLINT_ROUGHNESS_PERCEPTUAL};
+    struct glint_frame frame = fixture_frame();
+    for (int on = 0; on < 2; on++) {
+        frame.has_material = on;
+        frame.material = (struct glint_material_model){.metal_reflectance = 4, .roughest_reflection = 0.5};
+        struct glint_capture *capture = encoded_capture(fixture_path(path, "materials.exr"), "gbuffer", &encodings,
+                                                        NULL, 0, GLINT_F32, NULL, &frame);
+        const struct glint_material_model *read = &glint_capture_frame(capture)->material;
+        assert_int_equal(glint_capture_frame(capture)->has_material, on);
+        if (on) assert_true(read->metal_reflectance == 4 && read->gloss_scale == 10 && read->gloss_offset == 1);
+        encoded_read(capture, "gbuffer", names, 3, out);
+        size_t masked = 0, kept = 0;
+        for (size_t i = 0; i < COUNT; i++) {
+            const float *w = fixture.gbuffer + 17 * i;
+            const bool rough = on && out[3 * i + 1] >= 0.5f;
+            assert_true(out[3 * i + 1] == w[4]);
+            assert_true(out[3 * i] == (rough ? 0 : w[5]) && out[3 * i + 2] == (rough ? 0 : w[6]));
+            masked += rough, kept += !rough;
+        }
+        assert_true(kept > 100 && (masked > 100) == on);
+        close_and_remove(&capture, path);
+    }
 }
 
 /* ---- motion ---- */
@@ -411,8 +462,9 @@ static void color(UNUSED void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(depth),  cmocka_unit_test(normals), cmocka_unit_test(roughness),
-        cmocka_unit_test(motion), cmocka_unit_test(color),
+        cmocka_unit_test(depth),     cmocka_unit_test(normals),
+        cmocka_unit_test(roughness), cmocka_unit_test(rough_surfaces_reflect_nothing),
+        cmocka_unit_test(motion),    cmocka_unit_test(color),
     };
     return cmocka_run_group_tests(tests, fixture_setup, NULL);
 }

@@ -14,8 +14,8 @@ import programs  # noqa: E402
 GLINT, SCHEMA = sys.argv[1:]
 SMALL = ("--size=40x24", "--cube-size=8", "--planar-size=24x12", "--light=1")
 ENCODINGS = {"depth": ["view_linear", "device", "reversed", "reversed_infinite", "logarithmic", "logarithmic_reversed"],
-             "normal": ["signed", "unorm", "octahedral", "view_xy"], "normal_space": ["world", "view"],
-             "roughness": ["perceptual", "alpha", "gloss", "power"], "motion": ["uv", "ndc", "pixels", "packed16"],
+             "normal": ["signed", "unorm", "octahedral", "view_xy", "spheremap"], "normal_space": ["world", "view"],
+             "roughness": ["perceptual", "alpha", "gloss", "power", "log2_power"], "motion": ["uv", "ndc", "pixels", "packed16"],
              "motion_depth": ["view_linear", "packed16"], "color": ["linear", "pre_exposed", "srgb"]}
 
 

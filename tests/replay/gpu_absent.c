@@ -260,15 +260,17 @@ static float *image_of(const struct pair *pair, const char *name, size_t *count)
 }
 
 /* Rays that no surface on screen ends: all of them, by a length of 0 on screen. */
-static void run_off_screen(struct pair *pair, const char *preset, const char *variant, uint32_t which) {
+static void run_off_screen(struct pair *pair, const char *scene, const char *preset, const char *variant,
+                           const char *setting, uint32_t which) {
     char path[256];
     struct glint_error err = {0};
     pair_use(pair, preset);
     if (variant) pair_check(glint_pipeline_use(pair->pipeline, variant, &err), &err);
     pair_check(glint_pipeline_use(pair->pipeline, "cubemap_select=nearest", &err), &err); /* not by distances */
     pair_check(glint_pipeline_set(pair->pipeline, "screen_trace.length_m=0", &err), &err);
+    if (setting) pair_check(glint_pipeline_set(pair->pipeline, setting, &err), &err);
     unload(pair);
-    loaded = without(pair, sampled(pair->fixture, "room", path), which);
+    loaded = without(pair, sampled(pair->fixture, scene, path), which);
     pair_check(glint_replay_load(pair->planned, loaded, &err) &&
                    glint_replay_run(pair->planned, pair->pipeline, NULL, NULL, NULL, &err),
                &err);
@@ -280,9 +282,9 @@ static void rays_without_distances_are_looked_up(void **state) {
     static const char *const with_distances[] = {"mafia3", "mafia3_shipped", "mafia3_talk"};
     for (size_t p = 0; p < 3; p++) {
         size_t counts[2];
-        run_off_screen(pair, with_distances[p], NULL, 1u << 1);
+        run_off_screen(pair, "room", with_distances[p], NULL, NULL, 1u << 1);
         float *found = image_of(pair, "reflection_half", &counts[0]);
-        run_off_screen(pair, with_distances[p], "cubemap_trace=lookup", 0);
+        run_off_screen(pair, "room", with_distances[p], "cubemap_trace=lookup", NULL, 0);
         float *expected = image_of(pair, "reflection_half", &counts[1]);
         assert_int_equal(counts[0], counts[1]);
         size_t differ = 0, lit = 0;
@@ -295,23 +297,47 @@ static void rays_without_distances_are_looked_up(void **state) {
     unload(pair);
 }
 
-/* Catches: rays that leave the screen and find nothing, although there is a sky. */
-static void rays_without_cubemaps_end_in_the_sky(void **state) {
-    struct pair *pair = pair_of(state);
-    size_t count;
-    run_off_screen(pair, "mafia3", NULL, 1u << 0);
+/* The number of rays of the last run that end in the sky; they have its colour, and no other ray has a colour. */
+static size_t rays_to_the_sky(struct pair *pair) {
+    size_t count, endless = 0;
     float *travelled = image_of(pair, "travelled", &count), *color = image_of(pair, "reflection_half", &count);
-    size_t endless = 0, lit = 0;
-    for (size_t i = 0; i < count / 4; i++)
-        endless += travelled[i] == INFINITY, lit += color[4 * i + 3] == 1 && color[4 * i + 2] > 0;
-    print_message("# %zu rays end in the sky, %zu have its colour\n", endless, lit);
-    assert_true(endless > 20 && lit == endless);
+    for (size_t i = 0; i < count / 4; i++) {
+        const bool lit = color[4 * i + 3] == 1 && color[4 * i + 2] > 0;
+        assert_int_equal(lit, travelled[i] == INFINITY);
+        assert_true(lit ||
+                    (color[4 * i] == 0 && color[4 * i + 1] == 0 && color[4 * i + 2] == 0 && color[4 * i + 3] == 0));
+        endless += lit;
+    }
     free(travelled);
     free(color);
-    run_off_screen(pair, "mafia3", NULL, 1u << 0 | 1u << 2);
-    color = image_of(pair, "reflection_half", &count);
-    for (size_t i = 0; i < count; i++) assert_true(color[i] == 0);
-    free(color);
+    return endless;
+}
+
+/* Catches: rays that leave the screen and find nothing, although the picture shows the sky; a sky indoors; an off switch that leaves some. */
+static void rays_without_cubemaps_end_in_the_sky(void **state) {
+    struct pair *pair = pair_of(state);
+    static const char *const SKY = "cubemap_trace.no_cubemap=sky", *const BLACK = "cubemap_trace.no_cubemap=black",
+                             *const SHARE = "cubemap_trace.open_share=0.95";
+    static const struct {
+        const char *scene, *setting;
+        uint32_t which;
+        bool expected; /* as many as with SKY, the first case of its scene; or none */
+    } cases[] = {
+        {"room", SKY, 1u << 0, true},    {"room", NULL, 1u << 0, false},
+        {"room", BLACK, 1u << 0, false}, {"room", SKY, 1u << 0 | 1u << 2, false},
+        {"lake", SKY, 1u << 0, true},    {"lake", NULL, 1u << 0, true},
+        {"lake", SHARE, 1u << 0, false}, {"lake", BLACK, 1u << 0, false},
+    };
+    size_t all = 0;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        run_off_screen(pair, cases[i].scene, "mafia3", NULL, cases[i].setting, cases[i].which);
+        const size_t rays = rays_to_the_sky(pair);
+        print_message("# %s, %s: %zu rays end in the sky\n", cases[i].scene, cases[i].setting ? cases[i].setting : "-",
+                      rays);
+        if (!i || strcmp(cases[i].scene, cases[i - 1].scene)) all = rays;
+        assert_true(all > 5);
+        assert_int_equal(rays, cases[i].expected ? all : 0);
+    }
     unload(pair);
 }
 

@@ -194,6 +194,12 @@ static void decode_normal(const struct lint_reading *reading, const double *v, c
         n[1] = 2 * y - 1;
         n[2] = -view->s * sqrt(fmax(0, 1 - n[0] * n[0] - n[1] * n[1]));
         break;
+    case GLINT_NORMAL_SPHEREMAP: {
+        const double e[2] = {2 * x - 1, 2 * y - 1}, square = fmin(e[0] * e[0] + e[1] * e[1], 1);
+        for (int i = 0; i < 2; i++) n[i] = 2 * e[i] * sqrt(1 - square);
+        n[2] = -view->s * (1 - 2 * square);
+        break;
+    }
     }
 }
 
@@ -206,14 +212,14 @@ static bool normal_of(const struct lint_reading *reading, const struct lint_view
     const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     if (!(length > 1e-6) || !isfinite(length)) return false;
     for (int i = 0; i < 3; i++) n[i] /= length;
-    if (reading->space == GLINT_SPACE_VIEW || reading->normal == GLINT_NORMAL_VIEW_XY) turn_to_world(view, n, out);
+    if (reading->space == GLINT_SPACE_VIEW || reading->normal >= GLINT_NORMAL_VIEW_XY) turn_to_world(view, n, out);
     else memcpy(out, n, sizeof n);
     return true;
 }
 
 bool lint_normal(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
                  size_t pixel, double out[3]) {
-    const bool two = reading->normal == GLINT_NORMAL_OCTAHEDRAL || reading->normal == GLINT_NORMAL_VIEW_XY;
+    const bool two = reading->normal >= GLINT_NORMAL_OCTAHEDRAL; /* without Z */
     const float *v = &data->normal[3 * pixel];
     return two == data->two_channels && normal_of(reading, view, (const double[]){v[0], v[1], v[2]}, out);
 }

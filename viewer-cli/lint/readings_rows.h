@@ -23,6 +23,7 @@ READING("normal.world_space", r->space = GLINT_SPACE_WORLD, "normals are in worl
 READING("normal.unorm", r->normal = GLINT_NORMAL_UNORM, "normals are stored as (n + 1) / 2", "glint.normal", "unorm")
 READING("normal.signed", r->normal = GLINT_NORMAL_SIGNED, "normals are stored without encoding, in [-1, 1]", "glint.normal", "signed")
 READING("normal.octahedral", r->normal = GLINT_NORMAL_OCTAHEDRAL, "normals are octahedral-encoded", "glint.normal", "octahedral")
+READING("normal.spheremap", r->normal = GLINT_NORMAL_SPHEREMAP, "normals are stored as two codes of a spheremap in view space", "glint.normal", "spheremap")
 READING("normal.view_xy", r->normal = GLINT_NORMAL_VIEW_XY, "normals are stored as X and Y in view space", "glint.normal", "view_xy")
 READING("normal.view_handedness", (r->space = GLINT_SPACE_VIEW, r->normal_sign[2] = -r->normal_sign[2]), "normals are in view space of the other handedness: Z points the other way", "", "")
 READING("normal.negated", negate_axes(r->normal_sign, 7), "normals point into the surfaces", "", "")

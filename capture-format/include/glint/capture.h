@@ -32,14 +32,16 @@ enum glint_normal_encoding {
     GLINT_NORMAL_SIGNED,     /* X Y Z in [-1, 1] */
     GLINT_NORMAL_UNORM,      /* (n + 1)/2 in X Y Z */
     GLINT_NORMAL_OCTAHEDRAL, /* octahedral map in [0, 1]², channels X Y */
-    GLINT_NORMAL_VIEW_XY /* view-space (n + 1)/2 in channels X Y; Z is reconstructed and points towards the camera */
+    GLINT_NORMAL_VIEW_XY,  /* view-space (n + 1)/2 in channels X Y; Z is reconstructed and points towards the camera */
+    GLINT_NORMAL_SPHEREMAP /* view-space X Y: (e + 1)/2 with |e|² = (1 - cosine towards the camera) / 2 */
 };
 enum glint_normal_space { GLINT_SPACE_WORLD, GLINT_SPACE_VIEW };
 enum glint_roughness_encoding {
     GLINT_ROUGHNESS_PERCEPTUAL, /* r in [0, 1]; GGX alpha = r² */
     GLINT_ROUGHNESS_ALPHA,      /* r² */
     GLINT_ROUGHNESS_GLOSS,      /* 1 - r */
-    GLINT_ROUGHNESS_POWER       /* Blinn-Phong power 2/r⁴ - 2 */
+    GLINT_ROUGHNESS_POWER,      /* Blinn-Phong power 2/r⁴ - 2 */
+    GLINT_ROUGHNESS_LOG2_POWER  /* (log2 of that power - gloss_offset) / gloss_scale */
 };
 enum glint_motion_encoding {
     GLINT_MOTION_UV,      /* previous uv of the surface point minus its current uv, each with the jitter of its frame */
@@ -90,6 +92,15 @@ struct glint_fog {
     double density;      /* extinction per unit at `base` */
     double base;         /* height at which `density` applies, in units along up */
     double scale_height; /* units of height over which density falls to 1/e; 0: uniform fog */
+    bool adds;           /* its colour is added, and what lies behind it loses nothing */
+};
+
+/* How the engine's materials differ from those of this format. */
+struct glint_material_model {
+    double
+        metal_reflectance; /* reflectance of a metal at normal incidence as a multiple of its albedo, at most 1; 0: 1 */
+    double roughest_reflection;       /* surfaces of at least this roughness reflect nothing in the engine; 0: all do */
+    double gloss_scale, gloss_offset; /* log2_power: power = 2^(scale · stored + offset); 0: 10 and 1 */
 };
 
 struct glint_stencil_class {
@@ -119,6 +130,8 @@ struct glint_frame {
     enum glint_clip_z clip_z;  /* default: [0, 1] */
     bool has_fog;
     struct glint_fog fog;
+    bool has_material;
+    struct glint_material_model material;
     struct glint_stencil_class classes[GLINT_MAX_STENCIL_CLASSES];
     uint32_t class_count;
 };

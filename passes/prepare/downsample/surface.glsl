@@ -17,7 +17,7 @@ bool is_worth(ivec2 pixel, uint chosen, vec3 normal, float roughness, vec3 to_vi
     if (!(min_weight > 0.0) || frame.work.y != 0u) return true;
     ivec2 at = min(ivec2(picked_position(pixel, chosen, frame.size)), ivec2(frame.size.xy) - 1);
     vec4 base = texelFetch(albedo_full, at, 0);
-    vec3 f0 = reflectance_at_normal(base.rgb, base.a, texelFetch(specular_full, at, 0).x);
+    vec3 f0 = reflectance_at_normal(base.rgb, base.a, texelFetch(specular_full, at, 0).x, frame.material.x);
     vec3 weight = environment_reflectance(f0, roughness, clamp(dot(normal, to_viewer), 0.0, 1.0));
     return max(weight.r, max(weight.g, weight.b)) >= min_weight;
 }

@@ -20,7 +20,7 @@ bool worth(ivec2 pixel) {
     vec2 at = picked_position(pixel, chosen, frame.size);
     ivec2 full = min(ivec2(at), ivec2(frame.size.xy) - 1);
     vec4 base = texelFetch(albedo_full, full, 0);
-    vec3 f0 = reflectance_at_normal(base.rgb, base.a, texelFetch(specular_full, full, 0).x);
+    vec3 f0 = reflectance_at_normal(base.rgb, base.a, texelFetch(specular_full, full, 0).x, frame.material.x);
     if (max(f0.r, max(f0.g, f0.b)) <= min_reflectance) return false;
     if (!by_view) return true;
     vec3 position = mat3(frame.world_from_view) *

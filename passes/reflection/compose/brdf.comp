@@ -15,7 +15,7 @@
 vec3 weight_of(ivec2 pixel, float depth_m, vec4 surface) {
     vec4 base = texelFetch(albedo_full, pixel, 0);
     float specular = texelFetch(specular_full, pixel, 0).x;
-    vec3 f0 = reflectance_at_normal(base.rgb, base.a, specular);
+    vec3 f0 = reflectance_at_normal(base.rgb, base.a, specular, frame.material.x);
     if (!fresnel) return f0;
     vec2 uv = (vec2(pixel) + 0.5) / vec2(frame.size.xy);
     vec3 view = view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);

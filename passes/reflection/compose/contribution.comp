@@ -15,7 +15,7 @@
 vec3 weight(ivec2 pixel, float depth_m, vec4 surface) {
     if (!brdf) return vec3(1.0);
     vec4 base = texelFetch(albedo_full, pixel, 0);
-    vec3 f0 = reflectance_at_normal(base.rgb, base.a, texelFetch(specular_full, pixel, 0).x);
+    vec3 f0 = reflectance_at_normal(base.rgb, base.a, texelFetch(specular_full, pixel, 0).x, frame.material.x);
     vec2 uv = (vec2(pixel) + 0.5) / vec2(frame.size.xy);
     vec3 view = view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
     float cosine = clamp(dot(-normalize(mat3(frame.world_from_view) * view), normalize(surface.xyz)), 0.0, 1.0);

@@ -157,7 +157,8 @@ vec3 through_fog(vec3 color, Ray ray) {
     float depth = fog_optical_depth(frame.fog_color.w, height, dot(ray.direction, frame.up.xyz), frame.fog_height.y,
                                     ray.travelled_m);
     vec3 target = fog_target == fog_target_sky && frame.counts.w > 0u ? sky_color(ray) : frame.fog_color.rgb;
-    return mix(color, target, fog_factor(depth));
+    float covered = fog_factor(depth);
+    return frame.material.y != 0.0 ? color + covered * target : mix(color, target, covered);
 }
 
 // finished: it ended on screen; place: otherwise the cube map in which it ended, or none. a: 0 if there is no source.

@@ -277,7 +277,7 @@ static bool add_part(struct glint_writer *writer, const char *name, const struct
     struct glint_channel list[13];
     size_t count = 0;
     for (const char *const *channel = strcmp(name, "lit") == 0 ? lit : gbuffer; *channel; channel++) {
-        const bool flat = d->encodings.normal == GLINT_NORMAL_OCTAHEDRAL || d->encodings.normal == GLINT_NORMAL_VIEW_XY;
+        const bool flat = d->encodings.normal >= GLINT_NORMAL_OCTAHEDRAL; /* without Z */
         if (own && flat && strcmp(*channel, "normal.Z") == 0) continue;
         const bool surface = strcmp(*channel, "depth.Z") == 0 || strcmp(*channel, "normal.Z") == 0;
         list[count] = (struct glint_channel){.name = *channel, .type = GLINT_F32, .data = surface ? t->one : t->other};

@@ -98,6 +98,8 @@ static const struct convention_case lobes[] = {
     {"normals of view x and y", "view z follows", {.encodings.normal = GLINT_NORMAL_VIEW_XY}, 2e-5, .reason = ROUNDED},
     {"alpha", "the square of roughness", {.encodings.roughness = GLINT_ROUGHNESS_ALPHA}, 2e-5, .reason = ROUNDED},
     {"gloss of a rough floor", "one less roughness", {.encodings.roughness = GLINT_ROUGHNESS_GLOSS}, 2e-5, .reason = ROUNDED},
+    {"spheremap normals", "view z follows", {.encodings.normal = GLINT_NORMAL_SPHEREMAP}, 2e-5, .reason = ROUNDED},
+    {"log2 of a power", "of a rough floor", {.encodings.roughness = GLINT_ROUGHNESS_LOG2_POWER}, 2e-5, .reason = ROUNDED},
     {"power of a rough floor", "Blinn-Phong's", {.encodings.roughness = GLINT_ROUGHNESS_POWER}, 2e-5, .reason = ROUNDED},
     {"view-space normals of a rough floor", "x to the left, y down, z away from the viewer, clip y down", {0}, 2e-5, .reason = ROUNDED, .variants = 16, .vary = set_handedness},
     {"anything on a rough floor", "random conventions, all at once", {0}, 6.5e-5, .reason = STORED, .variants = 24, .vary = anything_unturned},
