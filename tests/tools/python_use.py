@@ -149,6 +149,8 @@ class Tests:
         raised(glint.Error, broken(lambda data: b" " * (1 << 24) + data), "bytes")
         raised(glint.Error, broken(lambda data: data.replace(b'"format": 1', b'"format": 7', 1)), "expected format 1, found 7")
         raised(glint.Error, broken(lambda data: data.replace(b'"file": "', b'"file": "../run/', 1)), "expected the name of a file")
+        raised(glint.Error, broken(lambda data: data.replace(b'"part": "', b'"part": "\\ud800', 1)), "part: expected text")
+        raised(glint.Error, broken(lambda data: data.replace(b'"file": "', b'"file": "\\u0000', 1)), "file: expected text")
         raised(glint.Error, broken(lambda data: data.replace(b'"width": 120', b'"width": 121')), "expected 121 x")
         raised(glint.Error, broken(lambda data: data.replace(b'"channels": "Z"', b'"channels": "Y"')), "expected channels Y")
         raised(glint.Error, broken(lambda data: re.sub(rb'"n": (\d+)', rb'"n": "\1"', data)), "time_ns")
