@@ -23,7 +23,7 @@ def main():
     output, *words = sys.argv[1:]
     split = words.index("--")
     text = declarations(words[:split], words[split + 1:])
-    numbers = ",".join(map(str, text.encode() + b"\0"))
+    numbers = ",".join(map(str, text.encode("ascii") + b"\0"))
     with open(output, "w", encoding="utf-8") as file:
         file.write('#include "glint/common.h"\n\n'
                    f"static const char text[] = {{{numbers}}};\n\nconst char *glint_declarations(void) {{\n    return text;\n}}\n")

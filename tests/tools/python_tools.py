@@ -45,7 +45,8 @@ def dumped(path):
 def headers(path):
     """Parts as exrheader prints them: {name: (width, height, {channel: (bits, type)}, {attribute: text})}."""
     parts = {}
-    for text in re.split(r"^ part \d+:$", said("exrheader", path), flags=re.M)[1:]:
+    whole = said("exrheader", path)
+    for text in re.split(r"^ part \d+:$", whole, flags=re.M)[1:] or [whole]:  # a file of one part has no such line
         channels = {name: (bits, kind) for name, bits, kind in re.findall(r"^    (\S+), (\d+)-bit (\S+)", text, re.M)}
         right, bottom = re.search(r"dataWindow .*: \(0 0\) - \((\d+) (\d+)\)", text).groups()
         attributes = dict(re.findall(r"^(\S+) \(type \w+\): (.*)$", text, re.M))

