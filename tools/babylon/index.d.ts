@@ -32,6 +32,7 @@ export interface CaptureOptions {
 
 /**
  * Captures two consecutive frames of a running scene: a zip of `manifest.json` and raw textures, for `glint pack`. The scene is as before
- * afterwards. Throws an Error whose message begins with "glint: " where a frame cannot be captured; nothing is left behind then, either.
+ * afterwards, but for a plugin of its materials that does nothing then. Throws an Error whose message begins with "glint: " where a frame
+ * cannot be captured; the scene is as before then, too.
  */
 export function captureFrame(scene: Scene, options?: CaptureOptions): Promise<Uint8Array>;
