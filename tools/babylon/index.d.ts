@@ -19,7 +19,7 @@ export interface CaptureOptions {
     metresPerUnit?: number;
     /** The meshes that make the sky; when absent, those with `infiniteDistance` or with a texture in skybox mode. */
     sky?: AbstractMesh[];
-    /** Meshes to leave out of diffuse light, cube maps and sky. They stay in the pre-pass: hide those whose material cannot be told apart. */
+    /** Meshes to leave out of diffuse light, cube maps and sky: those with materials that the pre-pass does not draw, which are in `scene` alone. */
     ignore?: AbstractMesh[];
     /**
      * Renders one frame. When absent, the frames of the page's own render loop are captured. `stage` is "ready" for frames that only wait for
