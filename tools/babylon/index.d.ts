@@ -19,7 +19,7 @@ export interface CaptureOptions {
     metresPerUnit?: number;
     /** The meshes that make the sky; when absent, those with `infiniteDistance` or with a texture in skybox mode. */
     sky?: AbstractMesh[];
-    /** Meshes to leave out of diffuse light, cube maps and sky. They stay in the pre-pass: hide those whose material cannot be told apart. */
+    /** Meshes to leave out of diffuse light, cube maps and sky: those with materials that the pre-pass does not draw, which are in `scene` alone. */
     ignore?: AbstractMesh[];
     /**
      * Renders one frame. When absent, the frames of the page's own render loop are captured. `stage` is "ready" for frames that only wait for
@@ -32,6 +32,7 @@ export interface CaptureOptions {
 
 /**
  * Captures two consecutive frames of a running scene: a zip of `manifest.json` and raw textures, for `glint pack`. The scene is as before
- * afterwards. Throws an Error whose message begins with "glint: " where a frame cannot be captured; nothing is left behind then, either.
+ * afterwards, but for a plugin of its materials that does nothing then. Throws an Error whose message begins with "glint: " where a frame
+ * cannot be captured; the scene is as before then, too.
  */
 export function captureFrame(scene: Scene, options?: CaptureOptions): Promise<Uint8Array>;

@@ -78,15 +78,15 @@ def measure(folder):
 
 def tables(figures):
     """As in docs/engines/babylon.md."""
-    def percent(share):
-        return f"{100 * share:.1f} %"
+    def percent(share, digits=1):
+        return f"{100 * share:.{digits}f} %"
     lines = ["| run | both found a surface | Babylon.js alone | glint alone | neither | same colour where both | RMS where both |", "| --- | --- | --- | --- | --- | --- | --- |"]
     for run, f in figures["ends"].items():
         lines.append(f"| `{run}` | {percent(f['both'])} | {percent(f['engine_alone'])} | {percent(f['glint_alone'])} | {percent(f['neither'])} | "
                      f"{percent(f['same_color'])} | {f['rms_both']:.3f} (mean {f['mean']:.3f}) |")
     lines += ["", "| world | lit | kf2's reflection | kf2's picture | Babylon.js's own reflection |", "| --- | --- | --- | --- | --- |"]
     for world, f in figures["worlds"].items():
-        cells = " | ".join(f"{f[k]['rms']:.2g}, {percent(f[k]['within_1_percent'])}" for k in ("lit", "reflection", "composed", "engine"))
+        cells = " | ".join(f"{f[k]['rms']:.2g}, {percent(f[k]['within_1_percent'], 3)}" for k in ("lit", "reflection", "composed", "engine"))
         lines.append(f"| {world.replace('_', ', ')} | {cells} |")
     lines += ["", *(f"{run}: RMS of the blurred reflection {f['reflection']:.3f}, of the picture {f['composed']:.3f}" for run, f in figures["final"].items()),
               *(f"lint, {world}: {said}" for world, said in figures["lint"].items())]

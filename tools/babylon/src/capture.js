@@ -36,10 +36,10 @@ function check(scene, camera) {
 const isSkybox = (mesh) => mesh.infiniteDistance || mesh.material?.reflectionTexture?.coordinatesMode === Constants.TEXTURE_SKYBOX_MODE;
 
 // The meshes that make surfaces, and those that make the sky.
-function sort(scene, options) {
+function sort(scene, camera, options) {
     const sky = [], surfaces = [];
     for (const mesh of scene.meshes) {
-        if (!mesh.isEnabled() || !mesh.isVisible || !mesh.subMeshes?.length || options.ignore.includes(mesh)) continue;
+        if (!mesh.isEnabled() || !mesh.isVisible || !mesh.subMeshes?.length || !(mesh.layerMask & camera.layerMask) || options.ignore.includes(mesh)) continue;
         if (options.sky ? options.sky.includes(mesh) : isSkybox(mesh)) sky.push(mesh);
         else surfaces.push(mesh);
     }
@@ -117,7 +117,7 @@ export async function captureFrame(scene, given = {}) {
     }
     const options = {...DEFAULTS, ...given}, engine = scene.getEngine(), camera = options.camera ?? scene.activeCamera;
     check(scene, camera);
-    const notes = [], probes = probePlaces(options.probes), sorted = sort(scene, options);
+    const notes = [], probes = probePlaces(options.probes), sorted = sort(scene, camera, options);
     const isBase = albedoIsBase(sorted.materials, notes), pipeline = findPipeline(scene, camera);
     const width = engine.getRenderWidth(), height = engine.getRenderHeight(), size = {width, height};
     const clear = scene.clearColor.toLinearSpace();
