@@ -52,7 +52,11 @@ READING("lit.linear", r->lit = GLINT_COLOR_LINEAR, "lit is linear", "lit:glint.c
 READING("lit.pre_exposed", r->lit = GLINT_COLOR_PRE_EXPOSED, "lit is pre-exposed", "lit:glint.color", "pre_exposed")
 READING("lit.upside_down", r->lit_upside_down = !r->lit_upside_down, "lit is upside down; the G-buffer is not", "", "")
 READING("lit.bgr", r->lit_bgr = !r->lit_bgr, "red and blue of lit are swapped", "", "")
+READING("lit.swapped", r->lit_swapped = data->before_lit != NULL, "lit is that of the previous frame, and previous.lit that of this frame", "", "")
 READING("cubemap.srgb", r->cube = GLINT_COLOR_SRGB, "cube-map colours are sRGB-encoded", "cubemap:glint.color", "srgb")
 READING("cubemap.linear", r->cube = GLINT_COLOR_LINEAR, "cube-map colours are linear", "cubemap:glint.color", "linear")
 READING("cubemap.pre_exposed", r->cube = GLINT_COLOR_PRE_EXPOSED, "cube-map colours are pre-exposed", "cubemap:glint.color", "pre_exposed")
+READING("sky.srgb", r->sky = GLINT_COLOR_SRGB, "colours of the sky cube map are sRGB-encoded", "sky:glint.color", "srgb")
+READING("sky.linear", r->sky = GLINT_COLOR_LINEAR, "colours of the sky cube map are linear", "sky:glint.color", "linear")
+READING("sky.pre_exposed", r->sky = GLINT_COLOR_PRE_EXPOSED, "colours of the sky cube map are pre-exposed", "sky:glint.color", "pre_exposed")
 /* clang-format on */
