@@ -66,7 +66,7 @@ struct seen {
 static bool seen_before(const struct lint_data *data, const struct lint_reading *reading, const struct lint_eyes *eyes,
                         uint32_t pixel, struct seen *s) {
     const float *of[2] = {data->lit, data->before_lit};
-    const float *before = of[!reading->lit_swapped];
+    const float *before = of[!reading->swapped_lit];
     double world[3], place[2], moved[2], depth;
     if (!lint_moved(data, reading, eyes, pixel, moved) || !(hypot(moved[0], moved[1]) > LINT_MOVES_PX) ||
         !lint_place(data, reading, &eyes->now, pixel, world) ||
@@ -74,7 +74,7 @@ static bool seen_before(const struct lint_data *data, const struct lint_reading 
         return false;
     const double fx = floor(place[0] - 0.5), fy = floor(place[1] - 0.5);
     if (!(fx >= 0 && fy >= 0 && fx + 1 < data->width && fy + 1 < data->height)) return false;
-    *s = (struct seen){of[reading->lit_swapped] + 3 * (size_t)pixel, before + 3 * (size_t)pixel, {0, 0, 0}};
+    *s = (struct seen){of[reading->swapped_lit] + 3 * (size_t)pixel, before + 3 * (size_t)pixel, {0, 0, 0}};
     for (int corner = 0; corner < 4; corner++) {
         const double u = place[0] - 0.5 - fx, v = place[1] - 0.5 - fy;
         const double weight = (corner & 1 ? u : 1 - u) * (corner & 2 ? v : 1 - v);

@@ -114,11 +114,11 @@ static bool depth_in(const struct lint_data *data, const struct lint_reading *re
 
 bool lint_depth(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
                 uint32_t x, uint32_t y, double *depth) {
-    return depth_in(data, reading, view, data->depth, x, y, depth);
+    return depth_in(data, reading, view, reading->swapped_depth ? data->before_depth : data->depth, x, y, depth);
 }
 
 bool lint_is_sky(const struct lint_data *data, const struct lint_reading *reading, uint32_t x, uint32_t y) {
-    const double v = (double)data->depth[(size_t)y * data->width + x];
+    const double v = (double)(reading->swapped_depth ? data->before_depth : data->depth)[(size_t)y * data->width + x];
     switch (reading->depth) {
     case GLINT_DEPTH_VIEW_LINEAR:
         return isinf(v) && v > 0;
@@ -135,7 +135,7 @@ bool lint_depth_before(const struct lint_data *data, const struct lint_reading *
                        uint32_t x, uint32_t y, double *depth) {
     struct lint_reading own = *reading;
     if (data->before_encoding != data->encodings.depth) own.depth = data->before_encoding;
-    return depth_in(data, &own, view, data->before_depth, x, y, depth);
+    return depth_in(data, &own, view, reading->swapped_depth ? data->depth : data->before_depth, x, y, depth);
 }
 
 double lint_depth_error(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,

@@ -72,6 +72,7 @@ struct lint_reading {
     enum glint_clip_z clip_z;
     double view_sign[3]; /* -1: this axis of view space is negated */
     bool inverse_camera, inverse_current /* of the current frame only */, swapped_cameras;
+    bool swapped_depth /* depth of gbuffer and previous.gbuffer */, swapped_lit /* lit and previous.lit */;
     bool cube_planar; /* stored distance is along the face's axis */
     double cube_scale, center_scale;
     double center_offset[LINT_CUBES][3]; /* engine units */
@@ -79,7 +80,7 @@ struct lint_reading {
     enum glint_color_encoding lit, cube, sky;
     double sky_scale; /* the sky in lit is this many times as bright as the sky cube map */
     int sky_face[6], sky_turn[6];
-    bool lit_upside_down, lit_bgr, lit_swapped /* lit and previous.lit */;
+    bool lit_upside_down, lit_bgr;
 };
 struct lint_reading lint_declared(const struct lint_data *data);
 

@@ -193,7 +193,7 @@ double lint_linear(const struct lint_data *data, enum glint_color_encoding encod
 const float *lint_lit(const struct lint_data *data, const struct lint_reading *reading, uint32_t pixel) {
     const uint32_t x = pixel % data->width, y = pixel / data->width,
                    row = reading->lit_upside_down ? data->height - 1 - y : y;
-    return (reading->lit_swapped ? data->before_lit : data->lit) + 3 * ((size_t)row * data->width + x);
+    return (reading->swapped_lit ? data->before_lit : data->lit) + 3 * ((size_t)row * data->width + x);
 }
 
 static struct lint_tally compare_colors(const struct lint_data *data, const struct lint_reading *reading) {

@@ -56,15 +56,18 @@ static void apply_reading(const struct lint_data *data, struct lint_reading *r, 
     (void)data;
 }
 
-/* A mirrored camera and mirrored faces of the sky look alike, and cameras have other comparisons: the sky is for colours and faces. */
-static const unsigned ALL_MEASURES = (1u << LINT_MEASURES) - 1 - (1u << LINT_SKY);
+/* What cameras and depth are judged by. A mirrored camera and mirrored faces of the sky look alike, and colours match at fewer places than
+   depth, so that they add no certainty. */
+static const unsigned ALL_MEASURES = (1u << LINT_MEASURES) - 1 - (1u << LINT_SKY) - (1u << LINT_LIGHT);
 
 /* The measures that a convention can influence, as bits. */
 static unsigned measures_of(const char *id) {
     static const struct {
         const char *of;
         unsigned measures;
-    } kinds[] = {{"normal.", 1u << LINT_FACETS},
+    } kinds[] = {{"depth.swapped", ALL_MEASURES | 1u << LINT_LIGHT}, /* light tells these two apart */
+                 {"camera.swapped", ALL_MEASURES | 1u << LINT_LIGHT},
+                 {"normal.", 1u << LINT_FACETS},
                  {"motion.", 1u << LINT_MOTION},
                  {"cubemap.", 1u << LINT_CUBEMAPS | 1u << LINT_COLORS},
                  {"lit.", 1u << LINT_COLORS | 1u << LINT_BEFORE | 1u << LINT_LIGHT | 1u << LINT_SKY},
@@ -138,8 +141,10 @@ static void declare(struct lint_finding *f, const struct row *row, const struct 
 /* ---- What can be found ---- */
 
 static void describe_measures(unsigned measures, char *text, size_t size) {
-    size_t length = (size_t)snprintf(text, size, measures == ALL_MEASURES ? "all comparisons but that of the sky" : "comparison of ");
-    for (int m = 0; m < LINT_MEASURES && measures != ALL_MEASURES; m++)
+    const bool all = (measures & ALL_MEASURES) == ALL_MEASURES;
+    size_t length = (size_t)snprintf(text, size, "%s", all ? "all comparisons, without colours of sky and previous frame" : "comparison of ");
+    if (measures & ~ALL_MEASURES && all) snprintf(text, size, "all comparisons, without colours of the sky");
+    for (int m = 0; m < LINT_MEASURES && !all; m++)
         if (measures & 1u << m)
             length += (size_t)snprintf(text + length, size - length, "%s%s", measures & ((1u << m) - 1) ? "; of " : "",
                                        lint_measure_names[m]);

@@ -24,12 +24,12 @@ struct sample {
 
 static bool sample_of(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
                       uint32_t pixel, struct sample *s) {
-    double at[3];
+    double at[3], to[3];
     if (!is_open_sky(data, reading, pixel)) return false;
     lint_view_position(data, reading, view, pixel % data->width + 0.5, pixel / data->width + 0.5, 1, at);
-    lint_to_world(view, at, at);
-    for (int k = 0; k < 3; k++) at[k] -= view->position[k];
-    s->face = cube_face_of(at, &s->u, &s->v);
+    lint_to_world(view, at, to);
+    for (int k = 0; k < 3; k++) to[k] -= view->position[k];
+    s->face = cube_face_of(to, &s->u, &s->v);
     const float *lit = lint_lit(data, reading, pixel);
     for (int k = 0; k < 3; k++) s->color[k] = lint_linear(data, reading->lit, lit[reading->lit_bgr ? 2 - k : k]);
     return true;
