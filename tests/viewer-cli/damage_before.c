@@ -109,3 +109,8 @@ bool before_mirrored(struct rewrite *r, UNUSED double strength) {
     }
     return true;
 }
+
+bool before_depth(struct rewrite *r, UNUSED double strength) {
+    leave_the_frame_before(r);
+    return damage_swap(r, "gbuffer", "previous.gbuffer", "depth.Z");
+}

@@ -73,15 +73,15 @@ static struct lint_tally compare_scene(const struct lint_data *data, const struc
 
 static void check_specular(const struct lint_data *data, const struct lint_reading *reading,
                            const struct lint_view *view, struct lint_findings *findings) {
-    const bool told = check_metals(data, reading, view, findings);
     const struct lint_tally same = data->scene ? compare_scene(data, reading, view) : (struct lint_tally){0, 0};
-    if (same.count < LINT_ENOUGH && !told)
+    if (same.count >= LINT_ENOUGH && 50 * same.agree >= 49 * same.count) {
+        struct lint_finding *f = lint_add(findings, "lit.scene", "likely");
+        snprintf(f->evidence, sizeof f->evidence,
+                 "lit and scene have the same colour at %zu of %zu samples of surfaces that reflect", same.agree,
+                 same.count);
+    } else if (!check_metals(data, reading, view, findings) && same.count < LINT_ENOUGH)
         lint_undecided(findings, "whether lit contains specular light: too few samples are metal, and %s",
                        data->scene ? "too few can be compared with scene" : "there is no scene to compare with");
-    if (same.count < LINT_ENOUGH || 50 * same.agree < 49 * same.count) return;
-    struct lint_finding *f = lint_add(findings, "lit.scene", "likely");
-    snprintf(f->evidence, sizeof f->evidence,
-             "lit and scene have the same colour at %zu of %zu samples of surfaces that reflect", same.agree, same.count);
 }
 
 static void check_frame(const struct lint_data *data, const struct lint_reading *reading,

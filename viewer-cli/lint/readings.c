@@ -67,6 +67,7 @@ static unsigned measures_of(const char *id) {
         unsigned measures;
     } kinds[] = {{"depth.swapped", ALL_MEASURES | 1u << LINT_LIGHT}, /* light tells these two apart */
                  {"camera.swapped", ALL_MEASURES | 1u << LINT_LIGHT},
+                 {"lit.swapped", 1u << LINT_LIGHT | 1u << LINT_BEFORE},
                  {"normal.", 1u << LINT_FACETS},
                  {"motion.", 1u << LINT_MOTION},
                  {"cubemap.", 1u << LINT_CUBEMAPS | 1u << LINT_COLORS},
@@ -204,6 +205,8 @@ struct contest {
 static void consider(struct contest *contest, const struct lint_agreement *from, struct candidate *c) {
     c->gain = gain(from, &c->agreement, &c->measure);
     if (!(c->gain > 0) || c->agreement.share[c->measure] < LINT_MIN_SHARE) return;
+    /* of two depth buffers, one may be wrong in another way: swapped, both must match */
+    if (c->reading.swapped_depth && c->agreement.share[LINT_BEFORE] < 0.6) return;
     /* another row led to the same reading */
     if (!memcmp(&c->reading, &contest->best.reading, sizeof c->reading)) return;
     if (c->gain > contest->best.gain + 1e-3) {
