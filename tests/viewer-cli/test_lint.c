@@ -115,7 +115,7 @@ static const char *base(int scene, enum damage_base b) {
     snprintf(path, sizeof bases[scene][b], "%s", in_folder(name));
     free(glint_ok("sample", scene == 2 ? in_folder("hall.gltf") : scenes[scene], "-o", path, "--size", "160x90",
                   "--cube-size", "64", "--light", "4", "--travel", "0.11,0.05,-0.17", "--truth", b ? "0" : "2",
-                  "--finished", b ? "0" : "2", "--depth", depths[b]));
+                  "--finished", "2", "--depth", depths[b]));
     return path;
 }
 
@@ -266,7 +266,8 @@ static void mistakes_are_found_and_named(UNUSED void **state) {
         for (int n = 0; n < SCENES; n++)
             for (int k = 0; k < (seeds ? seeds : 1); k++) {
                 random = random * 1664525 + 1013904223;
-                if (try_damage(&damages[d], ((int)d + n) % SCENES, random / 4294967296.0, &detectable, &undetectable) && !seeds)
+                if (try_damage(&damages[d], ((int)d + n) % SCENES, random / 4294967296.0, &detectable, &undetectable) &&
+                    !seeds)
                     n = SCENES; /* one scene is enough */
             }
     print_message(

@@ -159,15 +159,14 @@ bool lint_data_read(struct lint_data *data, struct glint_capture *capture, struc
            (data->material = read_floats(capture, gbuffer, material, 3, err)) &&
            (!data->has_motion || (data->motion = read_floats(capture, gbuffer, motion, 2, err))) &&
            (data->lit = read_floats(capture, lit, color, 3, err)) &&
-           (!scene || (data->scene = read_floats(capture, scene, color, 3, err))) &&
-           read_sky(data, capture, err) && read_cubes(data, capture, err) &&
-           read_before(data, capture, err) && choose_samples(data, err) && read_rounding(data, gbuffer, err);
+           (!scene || (data->scene = read_floats(capture, scene, color, 3, err))) && read_sky(data, capture, err) &&
+           read_cubes(data, capture, err) && read_before(data, capture, err) && choose_samples(data, err) &&
+           read_rounding(data, gbuffer, err);
 }
 
 void lint_data_finish(struct lint_data *data) {
-    float *all[] = {data->depth,    data->normal,       data->motion,     data->lit,
-                    data->material, data->before_depth, data->before_lit, data->depth_half_step,
-                    data->scene,    data->sky.texels};
+    float *all[] = {data->depth,        data->normal,     data->motion,          data->lit,   data->material,
+                    data->before_depth, data->before_lit, data->depth_half_step, data->scene, data->sky.texels};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) free(all[i]);
     for (size_t i = 0; i < data->cube_count; i++) free(data->cubes[i].texels);
     free(data->samples);

@@ -8,8 +8,8 @@
 
 static const char *const names[6] = {"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
 
-static void count_votes(struct lint_votes *votes, const struct lint_data *data, const struct lint_reading *reading, size_t c,
-                        const double world[3]) {
+static void count_votes(struct lint_votes *votes, const struct lint_data *data, const struct lint_reading *reading,
+                        size_t c, const double world[3]) {
     const struct lint_cube *cube = &data->cubes[c];
     double d[3], u, v;
     lint_from_center(data, reading, c, world, d);
@@ -55,13 +55,13 @@ static bool find_better_face(const struct lint_votes *votes, int face, int *stor
 
 static const char *turn_name(int turn) {
     static const char *const words[LINT_TURNS] = {"",
-                                             ", mirrored left to right",
-                                             ", upside down",
-                                             ", rotated by 180°",
-                                             ", mirrored across the diagonal",
-                                             ", rotated by 90°",
-                                             ", rotated by -90°",
-                                             ", mirrored across the other diagonal"};
+                                                  ", mirrored left to right",
+                                                  ", upside down",
+                                                  ", rotated by 180°",
+                                                  ", mirrored across the diagonal",
+                                                  ", rotated by 90°",
+                                                  ", rotated by -90°",
+                                                  ", mirrored across the other diagonal"};
     return words[turn];
 }
 
@@ -95,8 +95,8 @@ static void add_faces(const struct verdict *v, const char *of, enum lint_measure
     char id[48];
     snprintf(id, sizeof id, "%s.%s", of, !v->moved && v->same_turn >= 0 ? "faces_orientation" : "faces_order");
     struct lint_finding *f = lint_add(findings, id, now->share[m] > 0.6 ? "certain" : "likely");
-    snprintf(f->evidence, sizeof f->evidence, "%s: %.0f %% of %zu comparisons of %s match then, %.0f %% as stored", v->text,
-             100 * now->share[m], now->count[m], lint_measure_names[m], 100 * stored->share[m]);
+    snprintf(f->evidence, sizeof f->evidence, "%s: %.0f %% of %zu comparisons of %s match then, %.0f %% as stored",
+             v->text, 100 * now->share[m], now->count[m], lint_measure_names[m], 100 * stored->share[m]);
 }
 
 static void find_cube_faces(const struct lint_data *data, struct lint_reading *reading,

@@ -59,7 +59,8 @@ static struct lint_tally compare_scene(const struct lint_data *data, const struc
     for (size_t i = 0; i < data->sample_count; i++) {
         const uint32_t pixel = data->samples[i];
         const float *scene = data->scene + 3 * (size_t)pixel, *lit = lint_lit(data, reading, pixel);
-        if (!is_surface(data, reading, view, pixel) || !reflects(data, pixel) || !(lint_luminance(scene) > dark)) continue;
+        if (!is_surface(data, reading, view, pixel) || !reflects(data, pixel) || !(lint_luminance(scene) > dark))
+            continue;
         bool equal = true;
         for (int k = 0; k < 3; k++) {
             const double a = lint_linear(data, reading->lit, lit[reading->lit_bgr ? 2 - k : k]),

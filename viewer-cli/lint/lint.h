@@ -48,7 +48,7 @@ struct lint_data {
     struct lint_cube cubes[LINT_CUBES];
     size_t cube_count;
     struct lint_cube sky; /* without texels where the capture has none */
-    uint32_t *samples; /* pixels, away from the borders */
+    uint32_t *samples;    /* pixels, away from the borders */
     size_t sample_count;
 };
 /* The i-th point of a lattice that does not align with patterns of rows and columns, away from the borders. */

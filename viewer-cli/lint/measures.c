@@ -5,10 +5,13 @@
 #include "capture/cube_face.h"
 #include "lint.h"
 
-const char *const lint_measure_names[] = {"normals with the depth buffer", "depth with cube-map distances",
-                                          "motion with the reprojection", "lit with cube-map colours",
+const char *const lint_measure_names[] = {"normals with the depth buffer",
+                                          "depth with cube-map distances",
+                                          "motion with the reprojection",
+                                          "lit with cube-map colours",
                                           "the previous frame with the reprojection",
-                                          "lit with the reprojected previous.lit", "sky pixels of lit with the sky cube map"};
+                                          "lit with the reprojected previous.lit",
+                                          "sky pixels of lit with the sky cube map"};
 
 static const double SAME_DIRECTION =
     0.9986; /* cosine of 3 degrees: many cameras are rotated by little more against the world */

@@ -143,7 +143,8 @@ static void declare(struct lint_finding *f, const struct row *row, const struct 
 
 static void describe_measures(unsigned measures, char *text, size_t size) {
     const bool all = (measures & ALL_MEASURES) == ALL_MEASURES;
-    size_t length = (size_t)snprintf(text, size, "%s", all ? "all comparisons, without colours of sky and previous frame" : "comparison of ");
+    size_t length = (size_t)snprintf(
+        text, size, "%s", all ? "all comparisons, without colours of sky and previous frame" : "comparison of ");
     if (measures & ~ALL_MEASURES && all) snprintf(text, size, "all comparisons, without colours of the sky");
     for (int m = 0; m < LINT_MEASURES && !all; m++)
         if (measures & 1u << m)
@@ -316,7 +317,8 @@ static void try_sky_scale(const struct lint_data *data, const struct lint_readin
     c.reading.sky_scale *= lint_sky_scale(data, reading);
     c.agreement = lint_agree(data, &c.reading, agreement, 1u << LINT_SKY);
     c.gain = gain(agreement, &c.agreement, &c.measure);
-    const bool only = best->row == NONE, as_good = is_curved(&best->reading) != is_curved(reading) && c.gain >= 0.8 * best->gain;
+    const bool only = best->row == NONE,
+               as_good = is_curved(&best->reading) != is_curved(reading) && c.gain >= 0.8 * best->gain;
     if (c.gain > 0 && c.agreement.share[LINT_SKY] >= LINT_MIN_SHARE && (only || as_good)) contest->best = c;
 }
 

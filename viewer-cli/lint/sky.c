@@ -59,8 +59,8 @@ static bool shows(const struct lint_data *data, const struct lint_reading *readi
     double low[3] = {INFINITY, INFINITY, INFINITY}, high[3] = {0, 0, 0}, u = s->u, v = s->v;
     lint_turn(turn, &u, &v);
     for (int i = 0; i < 9; i++) {
-        const float *texel =
-            lint_texel(&data->sky, face, u + (i % 3 - 1) / (double)data->sky.size, v + (i / 3 - 1) / (double)data->sky.size);
+        const float *texel = lint_texel(&data->sky, face, u + (i % 3 - 1) / (double)data->sky.size,
+                                        v + (i / 3 - 1) / (double)data->sky.size);
         for (int k = 0; k < 3; k++) {
             const double c = lint_linear(data, reading->sky, texel[k]) * reading->sky_scale;
             low[k] = fmin(low[k], c);

@@ -212,10 +212,11 @@ static void check_lighting(const struct lint_agreement *a, const struct lint_rea
                        "convention: clouds, fog or the time of day may differ",
                        100 * a->share[LINT_SKY]);
     if (a->count[LINT_SKY] >= LINT_ENOUGH && reading->sky_scale != 1)
-        lint_undecided(findings,
-                       "why the sky in lit is %.3g times as bright as the sky cube map: the exposure may differ, or one "
-                       "of the two may be encoded in another way",
-                       reading->sky_scale);
+        lint_undecided(
+            findings,
+            "why the sky in lit is %.3g times as bright as the sky cube map: the exposure may differ, or one "
+            "of the two may be encoded in another way",
+            reading->sky_scale);
     if (a->count[LINT_COLORS] < LINT_ENOUGH || a->share[LINT_COLORS] >= LINT_MIN_SHARE) return;
     lint_undecided(
         findings,
