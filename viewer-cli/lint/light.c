@@ -85,19 +85,20 @@ static void check_specular(const struct lint_data *data, const struct lint_readi
                        data->scene ? "too few can be compared with scene" : "there is no scene to compare with");
 }
 
-static void check_frame(const struct lint_data *data, const struct lint_reading *reading,
+/* False when lit is not that of this frame: then it tells nothing else. */
+static bool check_frame(const struct lint_data *data, const struct lint_reading *reading,
                         struct lint_findings *findings) {
     const struct lint_tally same = lint_same_light(data, reading);
     /* equality of so many values is no chance */
-    if (same.count < LINT_ENOUGH / 4 || 50 * same.agree < 49 * same.count) return;
+    if (same.count < LINT_ENOUGH / 4 || 50 * same.agree < 49 * same.count) return true;
     struct lint_finding *f = lint_add(findings, "lit.previous", "certain");
     snprintf(f->evidence, sizeof f->evidence,
              "lit and previous.lit are equal at %zu of %zu samples where motion by the cameras changes the colour",
              same.agree, same.count);
+    return false;
 }
 
 void lint_find_light(const struct lint_data *data, const struct lint_reading *reading, struct lint_findings *findings) {
     const struct lint_eyes eyes = lint_eyes_of(data, reading);
-    check_specular(data, reading, &eyes.now, findings);
-    check_frame(data, reading, findings);
+    if (check_frame(data, reading, findings)) check_specular(data, reading, &eyes.now, findings);
 }
