@@ -111,6 +111,7 @@ bool before_mirrored(struct rewrite *r, UNUSED double strength) {
 }
 
 bool before_depth(struct rewrite *r, UNUSED double strength) {
+    damage_swap(r, "gbuffer", "previous.gbuffer", "depth.Z");
     leave_the_frame_before(r);
-    return damage_swap(r, "gbuffer", "previous.gbuffer", "depth.Z");
+    return true;
 }

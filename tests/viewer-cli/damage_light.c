@@ -17,6 +17,13 @@ static bool has_sky(struct rewrite *r) {
     return sky > 600;
 }
 
+/* Only the sky shows how colours are encoded. Last: pixels are found by the parts' places in the file. */
+static bool sky_alone(struct rewrite *r) {
+    const bool seen = has_sky(r);
+    remove_cubes(r);
+    return seen;
+}
+
 static void each_color(struct rewrite *r, const char *part, double (*change)(double v, double by), double by) {
     for (int c = 0; c < 3; c++) {
         float *v = damage_floats(r, part, rgb[c]);
@@ -53,16 +60,13 @@ bool light_finished(struct rewrite *r, UNUSED double strength) {
     return true;
 }
 
-/* Only the sky shows how colours are encoded. */
 bool light_srgb(struct rewrite *r, double strength) {
-    remove_cubes(r);
     each_color(r, "lit", to_srgb, strength);
-    return has_sky(r);
+    return sky_alone(r);
 }
 bool light_linear(struct rewrite *r, UNUSED double strength) {
-    remove_cubes(r);
     damage_set_text_of(r, "lit", "glint.color", "srgb");
-    return has_sky(r);
+    return sky_alone(r);
 }
 
 /* ---- Sky ---- */
@@ -96,35 +100,32 @@ DAMAGE(sky_exchanged, sky_faces(r, (const int[6]){2, 3, 4, 5, 0, 1}, 0))
 /* ---- Not mistakes ---- */
 
 bool sky_bright(struct rewrite *r, double strength) {
-    remove_cubes(r);
     each_color(r, "sky", times, 0.3 + 3 * strength);
-    return has_sky(r);
+    return sky_alone(r);
 }
 
 /* Clouds that the sky cube map does not have, over half of the sky. */
 bool sky_cloudy(struct rewrite *r, double strength) {
     const float *z = damage_floats(r, "gbuffer", "depth.Z");
     const uint32_t width = rewrite_find(r, "lit")->part.width;
-    remove_cubes(r);
     for (int c = 0; c < 3; c++) {
         float *v = damage_floats(r, "lit", rgb[c]);
         for (uint32_t i = 0; i < damage_texels_of(r, "lit"); i++)
             if (isinf(z[i]) && sin(i % width * 0.21 + 9 * strength) + sin(i / width * 0.37) > 0)
                 v[i] = v[i] * 0.4f + 0.3f * (1 + (float)strength);
     }
-    return has_sky(r);
+    return sky_alone(r);
 }
 
 /* A sky of one colour, which is drawn darker than its cube map; by chance as the sRGB curve would make it. */
 bool sky_plain_and_bright(struct rewrite *r, double strength) {
     const double color = 0.05 + 0.6 * strength;
     const float *z = damage_floats(r, "gbuffer", "depth.Z");
-    remove_cubes(r);
     each_color(r, "sky", constant, to_srgb(color, 0));
     for (int c = 0; c < 3; c++) {
         float *v = damage_floats(r, "lit", rgb[c]);
         for (size_t i = 0; i < damage_texels_of(r, "lit"); i++)
             if (isinf(z[i])) v[i] = (float)color;
     }
-    return has_sky(r);
+    return sky_alone(r);
 }
