@@ -142,10 +142,11 @@ static void declare(struct lint_finding *f, const struct row *row, const struct 
 /* ---- What can be found ---- */
 
 static void describe_measures(unsigned measures, char *text, size_t size) {
-    const bool all = (measures & ALL_MEASURES) == ALL_MEASURES;
-    size_t length = (size_t)snprintf(
-        text, size, "%s", all ? "all comparisons, without colours of sky and previous frame" : "comparison of ");
-    if (measures & ~ALL_MEASURES && all) snprintf(text, size, "all comparisons, without colours of the sky");
+    const bool all = (measures & ALL_MEASURES) == ALL_MEASURES, light = measures & 1u << LINT_LIGHT;
+    size_t length = (size_t)snprintf(text, size, "%s",
+                                     !all    ? "comparison of "
+                                     : light ? "all comparisons but the last"
+                                             : "all comparisons but the last two");
     for (int m = 0; m < LINT_MEASURES && !all; m++)
         if (measures & 1u << m)
             length += (size_t)snprintf(text + length, size - length, "%s%s", measures & ((1u << m) - 1) ? "; of " : "",
