@@ -320,8 +320,8 @@ static void check_fix(const char *id, bool pixels) {
 }
 
 static void fix_declares_and_leaves_every_pixel(UNUSED void **state) {
-    static const char *const ids[] = {"normal.view_space", "depth.reversed", "camera.inverse", "camera.inverse_current",
-                                      "motion.pixels"};
+    static const char *const ids[] = {"normal.view_space",      "depth.reversed", "camera.inverse",
+                                      "camera.inverse_current", "motion.pixels",  "sky.srgb"};
     for (size_t i = 0; i < sizeof ids / sizeof *ids; i++) check_fix(ids[i], false);
 }
 
