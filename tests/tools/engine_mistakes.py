@@ -28,6 +28,8 @@ class Tests:
         self.manifest["textures"] = {name: {"file": str(self.folder / (name + ".npy"))} for name in mapping["textures"]}
         for name in ("world_to_view", "view_to_clip", "previous_world_to_view", "previous_view_to_clip"):
             self.manifest["frame"][name] = BEFORE if name.startswith("previous_") else VIEW
+        self.manifest["textures"]["depth"] = {"file": str(self.folder / "depth.raw"), "width": 2, "height": 1, "rows": "bottom_first"}
+        np.array([0xffffff01, 0x80000001], "<u4").tofile(self.folder / "depth.raw")
         for name in mapping["textures"]:
             np.save(self.folder / (name + ".npy"), np.array([[[0.5, 0.25, 1], [0, 0.75, 0.5]]], "<f4"))
 
@@ -53,6 +55,10 @@ class Tests:
         assert np.allclose(np.load(self.folder / "changed.npy"), [[[0.25, 0.5, 0.75], [0.25, 0.5, 0.75]]])
         self.changed("the light is sRGB, and is read as linear")
         assert np.allclose(np.load(self.folder / "changed.npy")[0, 0], [0.735357, 0.537099, 1], atol=1e-5)
+
+    def test_sky(self):
+        self.changed("the light has no sky")
+        assert np.allclose(np.load(self.folder / "changed.npy"), [[[0, 0, 0], [0, 0.75, 0.5]]])
 
     def test_table(self):
         results = {name: "nothing" if name in mistakes.REASONS else "lint: `some.finding` (likely)" for name, _, _ in mistakes.MISTAKES}

@@ -55,6 +55,15 @@ bool light_late(struct rewrite *r, UNUSED double strength) {
     copy_colors(r, "lit", "previous.lit");
     return true;
 }
+bool light_without_sky(struct rewrite *r, UNUSED double strength) {
+    const float *z = damage_floats(r, "gbuffer", "depth.Z");
+    for (int c = 0; c < 3; c++) {
+        float *v = damage_floats(r, "lit", rgb[c]);
+        for (size_t i = 0; i < damage_texels_of(r, "lit"); i++)
+            if (isinf(z[i])) v[i] = 0;
+    }
+    return has_sky(r);
+}
 bool light_finished(struct rewrite *r, UNUSED double strength) {
     copy_colors(r, "lit", "scene");
     return true;
@@ -87,7 +96,37 @@ bool sky_pre_exposed(struct rewrite *r, double strength) {
     return has_sky(r);
 }
 
+/* Clouds in the sky and in its cube map, for a clear sky looks the same when it is mirrored. */
+static double clouds(const double d[3]) {
+    const double length = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    return 1.5 + sin((9 * d[0] + 4 * d[1] + 6 * d[2]) / length);
+}
+
+static void paint_cube(struct rewrite *r) {
+    const uint32_t n = rewrite_find(r, "sky")->part.width;
+    for (uint32_t i = 0; i < 6 * n * n; i++) {
+        const double s = 2 * (i % n + 0.5) / n - 1, t = 2 * (i / n % n + 0.5) / n - 1;
+        const double d[6][3] = {{1, -t, -s}, {-1, -t, s}, {s, 1, t}, {s, -1, -t}, {s, -t, 1}, {-s, -t, -1}};
+        for (int c = 0; c < 3; c++) damage_floats(r, "sky", rgb[c])[i] *= (float)clouds(d[i / (n * n)]);
+    }
+}
+
+static void paint_lit(struct rewrite *r) {
+    const uint32_t w = rewrite_find(r, "lit")->part.width, h = rewrite_find(r, "lit")->part.height;
+    const double *m = damage_matrix(r, "glint.worldToView"), *p = damage_matrix(r, "glint.viewToClip");
+    const float *z = damage_floats(r, "gbuffer", "depth.Z");
+    for (uint32_t i = 0; i < w * h; i++) {
+        const double v[3] = {(2 * (i % w + 0.5) / w - 1 - p[2] * p[14]) / p[0],
+                             (1 - 2 * (i / w + 0.5) / h - p[6] * p[14]) / p[5], p[14]};
+        double d[3];
+        for (int k = 0; k < 3; k++) d[k] = m[k] * v[0] + m[4 + k] * v[1] + m[8 + k] * v[2];
+        for (int c = 0; isinf(z[i]) && c < 3; c++) damage_floats(r, "lit", rgb[c])[i] *= (float)clouds(d);
+    }
+}
+
 static bool sky_faces(struct rewrite *r, const int from[6], int turn) {
+    paint_cube(r);
+    paint_lit(r);
     for (int c = 0; c < 3; c++) damage_turn_faces(r, "sky", rgb[c], from, turn);
     return has_sky(r);
 }
@@ -98,6 +137,8 @@ DAMAGE(sky_upside_down, sky_faces(r, in_order, 2))
 DAMAGE(sky_exchanged, sky_faces(r, (const int[6]){2, 3, 4, 5, 0, 1}, 0))
 
 /* ---- Not mistakes ---- */
+
+DAMAGE(sky_clouds, sky_faces(r, in_order, 0))
 
 bool sky_bright(struct rewrite *r, double strength) {
     each_color(r, "sky", times, 0.3 + 3 * strength);

@@ -61,6 +61,13 @@ def to_srgb(v):
     return np.where(v <= 0.0031308, 12.92 * v, 1.055 * np.maximum(v, 1e-9) ** (1 / 2.4) - 0.055)
 
 
+def dark_sky(m, folder):
+    """Light from before the sky is drawn, where depth is 1; 24 bits above 8 of stencil."""
+    depth = np.fromfile(m["textures"]["depth"]["file"], "<u4").reshape(m["textures"]["depth"]["height"], -1) >> 8
+    sky = depth[::-1] if m["textures"]["depth"]["rows"] == "bottom_first" else depth
+    pixels("light", lambda v: np.where((sky == 0xffffff)[..., None], 0, v))(m, folder)
+
+
 def half_texel(v):
     return (v + np.roll(v, 1, axis=1)) / 2
 
@@ -110,6 +117,7 @@ MISTAKES = (
     ("the light is the previous frame's, and the reverse", swap("light", "light_before"), "kf2"),
     ("the light is the previous frame's", channel("lit", "RGB", "light_before.rgb"), "kf2"),
     ("the light is the previous frame's, which is not there", both(channel("lit", "RGB", "light_before.rgb"), without("previous.lit")), "kf2"),
+    ("the light has no sky", dark_sky, "kf2"),
     ("the light is half a texel to the right", pixels("light", half_texel), "kf2"),
     ("the normals are half a texel to the right", pixels("normal", half_texel), "kf2"),
     ("the previous camera is this frame's", same_previous, "kf2"),

@@ -98,7 +98,17 @@ static bool check_frame(const struct lint_data *data, const struct lint_reading 
     return false;
 }
 
+static void check_sky(const struct lint_data *data, const struct lint_reading *reading,
+                      struct lint_findings *findings) {
+    const struct lint_tally black = lint_black_sky(data, reading);
+    if (black.count < LINT_ENOUGH || 50 * black.agree < 49 * black.count) return;
+    struct lint_finding *f = lint_add(findings, "lit.sky", "certain");
+    snprintf(f->evidence, sizeof f->evidence, "lit is 0 at %zu of %zu sky pixels where the sky cube map is not black",
+             black.agree, black.count);
+}
+
 void lint_find_light(const struct lint_data *data, const struct lint_reading *reading, struct lint_findings *findings) {
     const struct lint_eyes eyes = lint_eyes_of(data, reading);
+    check_sky(data, reading, findings);
     if (check_frame(data, reading, findings)) check_specular(data, reading, &eyes.now, findings);
 }

@@ -183,6 +183,8 @@ struct lint_tally lint_light(const struct lint_data *data, const struct lint_rea
 struct lint_tally lint_same_light(const struct lint_data *data, const struct lint_reading *reading);
 /* sky.c: sky pixels of lit and the sky cube map in their directions. */
 struct lint_tally lint_sky(const struct lint_data *data, const struct lint_reading *reading);
+/* sky.c: sky pixels whose direction is not black in the sky cube map; those that are 0 in lit. */
+struct lint_tally lint_black_sky(const struct lint_data *data, const struct lint_reading *reading);
 /* sky.c: the factor of brightness between the two; 1 where there is no sky. */
 double lint_sky_scale(const struct lint_data *data, const struct lint_reading *reading);
 /* The world position of a sample; false for sky. */

@@ -85,6 +85,20 @@ struct lint_tally lint_sky(const struct lint_data *data, const struct lint_readi
     return tally;
 }
 
+static void count_black(void *user, const struct lint_data *data, const struct lint_reading *reading,
+                        const struct sample *s) {
+    double u = s->u, v = s->v;
+    lint_turn(reading->sky_turn[s->face], &u, &v);
+    const float *texel = lint_texel(&data->sky, reading->sky_face[s->face], u, v);
+    if (lint_luminance(texel) > 0) lint_count(user, s->color[0] == 0 && s->color[1] == 0 && s->color[2] == 0);
+}
+
+struct lint_tally lint_black_sky(const struct lint_data *data, const struct lint_reading *reading) {
+    struct lint_tally tally = {0, 0};
+    each_sample(data, reading, count_black, &tally);
+    return tally;
+}
+
 struct ratios {
     double values[LINT_SAMPLES];
     size_t count;
