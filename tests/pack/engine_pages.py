@@ -1,5 +1,6 @@
 """The manifests of docs/engines/unreal.md and unity.md, packed as they are printed, with textures of a street made up for them: a ground, and a wall to
 its right. They must be valid, and lint must have nothing to say, whatever the conventions: engine_pages.py GLINT DECODED UNREAL_MD UNITY_MD. Speaks TAP."""
+import copy
 import json
 import os
 import re
@@ -86,6 +87,14 @@ class Tests:
         found, _ = self.findings()
         assert id in found, (id, found)
 
+    def check_refused(self, manifest, change, says):
+        manifest = copy.deepcopy(manifest)
+        change(manifest)
+        with open(self.path("refused.json"), "w", encoding="utf-8") as file:
+            json.dump(manifest, file)
+        run = subprocess.run([GLINT, "pack", self.path("refused.json"), "-o", self.path("refused.exr")], capture_output=True, text=True)
+        assert run.returncode == 1 and says in run.stderr, run.stderr
+
     def test_unreal(self):
         manifest, = self.manifests(UNREAL)
         surfaces, textures = list(street(1, WIDTH / HEIGHT, float("inf"))), manifest["textures"]
@@ -99,6 +108,7 @@ class Tests:
         self.write(textures["SceneColor"], surfaces, [light[0]] + [[1.1 * v for v in c] for c in light[1:]])
         self.write(textures["Motion"], surfaces, [(0, 0)] * 3)
         self.check(manifest, surfaces, "Z")
+        self.check_refused(manifest, lambda m: m["frame"].update(vectors="column"), "frame.view_to_clip")
         self.check_slip(manifest, lambda m: m["parts"]["lit"].update(RGB="SceneColor.rgb"), "lit.scene")
         self.check_slip(manifest, lambda m: (m["frame"].pop("up"), m["parts"].pop("scene")), "camera.up")
 
@@ -120,6 +130,10 @@ class Tests:
         self.write(textures["color"], surfaces, [light[0]] + [[1.1 * v for v in c] for c in light[1:]])
         self.write(textures["motion"], surfaces, [(0, 0)] * 3)
         self.check(manifest, surfaces, "Y")
+        self.check_refused(manifest, lambda m: m["frame"].pop("layout"), "frame.")
+        self.check_refused(manifest, lambda m: m["frame"]["world_to_view"].__setitem__(10, 1), "handedness")
+        own = self.manifests(UNITY)[1]["frame"]["view_to_clip"]  # what the camera says, whatever the API
+        self.check_refused(manifest, lambda m: m["frame"].update(view_to_clip=own), "reversed contradicts")
         self.check_slip(manifest, lambda m: m["parts"]["lit"].update(RGB="color.rgb"), "lit.scene")
         self.check_slip(manifest, lambda m: (m["parts"]["gbuffer"]["encodings"].update(normal="unorm"), m["parts"].pop("scene")), "normal.signed")
 
