@@ -62,8 +62,9 @@ const struct command cmd_diff = {
         "run is compared with the engine's own intermediate images in the capture. Limits and exit codes are those "
         "of idiff: 0 equal, 1 warning, 2 failure, 3 different size, 4 unreadable (5: wrong usage). An image or "
         "channel that only one side contains is a failure. NaN equals only NaN. For each image the output shows the "
-        "share of pixels that differ at all, the number of pixels over the limit, and the largest difference with "
-        "its pixel, channel and both values; for two runs also differences of their settings and the first image, in "
+        "share of pixels that differ at all, the number of pixels over the limit, the RMS of all channels and, for an "
+        "image with alpha, of R, G and B alone, and the largest difference with its pixel, channel and both values; "
+        "for two runs also differences of their settings and the first image, in "
         "the order of the passes, that differs. If one run was made with --all and the other with a plan, only "
         "common images are compared: images that the plan does not need are listed and are no failure, and pixels "
         "for which the plan traces no ray are compared only in the final image.",

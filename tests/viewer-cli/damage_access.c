@@ -26,6 +26,16 @@ float *damage_floats(struct rewrite *r, const char *part, const char *channel) {
     return NULL;
 }
 
+bool damage_swap(struct rewrite *r, const char *a, const char *b, const char *channel) {
+    float *of[2] = {damage_floats(r, a, channel), damage_floats(r, b, channel)};
+    for (size_t i = 0; i < damage_texels_of(r, a); i++) {
+        const float t = of[0][i];
+        of[0][i] = of[1][i];
+        of[1][i] = t;
+    }
+    return true;
+}
+
 bool damage_is_cube(const struct rewrite_part *p) {
     return !strncmp(p->name, "cubemap.", 8);
 }
@@ -43,7 +53,11 @@ void damage_set_matrix(struct rewrite *r, const char *name, const double m[16]) 
 }
 
 void damage_set_text(struct rewrite *r, const char *name, const char *value) {
-    struct rewrite_part *g = rewrite_find(r, "gbuffer");
+    damage_set_text_of(r, "gbuffer", name, value);
+}
+
+void damage_set_text_of(struct rewrite *r, const char *part, const char *name, const char *value) {
+    struct rewrite_part *g = rewrite_find(r, part);
     size_t i = 0;
     while (i < g->part.attribute_count && strcmp(g->attributes[i].name, name)) i++;
     g->part.attribute_count += i == g->part.attribute_count;

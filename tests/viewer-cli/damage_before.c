@@ -109,3 +109,9 @@ bool before_mirrored(struct rewrite *r, UNUSED double strength) {
     }
     return true;
 }
+
+bool before_depth(struct rewrite *r, UNUSED double strength) {
+    damage_swap(r, "gbuffer", "previous.gbuffer", "depth.Z");
+    leave_the_frame_before(r);
+    return true;
+}

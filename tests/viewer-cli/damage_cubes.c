@@ -7,23 +7,25 @@
 
 #include "unit.h"
 
-/* Every channel's faces: face f, texel x y, is taken from face from[f], rotated. */
+void damage_turn_faces(struct rewrite *r, const char *part, const char *channel, const int from[6], int turn) {
+    const uint32_t n = rewrite_find(r, part)->part.width;
+    float *v = damage_floats(r, part, channel);
+    float *old = malloc((size_t)n * n * 6 * sizeof *old);
+    assert_non_null(old);
+    memcpy(old, v, (size_t)n * n * 6 * sizeof *old);
+    for (uint32_t k = 0; k < n * n * 6; k++) {
+        const uint32_t x = k % n, y = k / n % n, sx = turn & 1 ? n - 1 - x : x, sy = turn & 2 ? n - 1 - y : y;
+        v[k] = old[((size_t)from[k / (n * n)] * n + (turn & 4 ? sx : sy)) * n + (turn & 4 ? sy : sx)];
+    }
+    free(old);
+}
+
+/* Every channel's faces. */
 static bool each_face(struct rewrite *r, const int from[6], int turn) {
     static const char *const channels[] = {"R", "G", "B", "A", "distance.Z"};
     for (size_t i = 0; i < r->count; i++) {
         if (!damage_is_cube(&r->parts[i])) continue;
-        const uint32_t n = r->parts[i].part.width;
-        for (size_t c = 0; c < 5; c++) {
-            float *v = damage_floats(r, r->parts[i].name, channels[c]);
-            float *old = malloc((size_t)n * n * 6 * sizeof *old);
-            assert_non_null(old);
-            memcpy(old, v, (size_t)n * n * 6 * sizeof *old);
-            for (uint32_t k = 0; k < n * n * 6; k++) {
-                const uint32_t x = k % n, y = k / n % n, sx = turn & 1 ? n - 1 - x : x, sy = turn & 2 ? n - 1 - y : y;
-                v[k] = old[((size_t)from[k / (n * n)] * n + (turn & 4 ? sx : sy)) * n + (turn & 4 ? sy : sx)];
-            }
-            free(old);
-        }
+        for (size_t c = 0; c < 5; c++) damage_turn_faces(r, r->parts[i].name, channels[c], from, turn);
     }
     return true;
 }

@@ -7,11 +7,16 @@
 size_t damage_texels_of(struct rewrite *r, const char *part);
 /* Converts a channel to floats in storage; NULL if there is none. */
 float *damage_floats(struct rewrite *r, const char *part, const char *channel);
+/* Exchanges a channel of two parts. */
+bool damage_swap(struct rewrite *r, const char *a, const char *b, const char *channel);
 bool damage_is_cube(const struct rewrite_part *p);
 const double *damage_matrix(struct rewrite *r, const char *name);
 void damage_set_matrix(struct rewrite *r, const char *name, const double m[16]);
-/* Sets a string attribute of the G-buffer. */
+/* Sets a string attribute of the G-buffer, or of a part. */
 void damage_set_text(struct rewrite *r, const char *name, const char *value);
+void damage_set_text_of(struct rewrite *r, const char *part, const char *name, const char *value);
+/* Face f, texel x y, is taken from face from[f], turned. */
+void damage_turn_faces(struct rewrite *r, const char *part, const char *channel, const int from[6], int turn);
 void remove_cubes(struct rewrite *r);
 
 #define DAMAGE(name, done)                                                                                             \
@@ -48,6 +53,24 @@ MISTAKE(before_elsewhere)
 MISTAKE(before_clip_z)
 MISTAKE(before_hundreds)
 MISTAKE(before_mirrored)
+MISTAKE(before_depth)
+/* damage_light.c: mistakes in lit, scene and the sky, most of them in captures where nothing else shows them */
+MISTAKE(light_swapped)
+MISTAKE(light_late)
+MISTAKE(light_finished)
+MISTAKE(light_without_sky)
+MISTAKE(light_srgb)
+MISTAKE(light_linear)
+MISTAKE(sky_srgb)
+MISTAKE(sky_linear)
+MISTAKE(sky_pre_exposed)
+MISTAKE(sky_mirrored)
+MISTAKE(sky_upside_down)
+MISTAKE(sky_exchanged)
+MISTAKE(sky_clouds)
+MISTAKE(sky_bright)
+MISTAKE(sky_cloudy)
+MISTAKE(sky_plain_and_bright)
 #undef MISTAKE
 
 #endif

@@ -144,11 +144,44 @@ static void what_cannot_be_compared_has_its_own_code(UNUSED void **state) {
 }
 
 static json_t *diff_of(int status, const char *a, const char *b) {
-    struct outcome found = glint("diff", in_folder(a), in_folder(b), "--json", NULL);
+    struct outcome found = glint("diff", in_folder(a), in_folder(b), "--json", "--metrics=rmse", NULL);
     if (found.status != status) fail_msg("%s, %s: %d\n%s", a, b, found.status, found.err);
     json_t *json = parse_json(found.out);
     outcome_free(&found);
     return json;
+}
+
+/* With alpha, the figures of R, G and B alone are those of the same images without it; and the verdict is that of all channels. */
+static void alpha_does_not_hide_colors(UNUSED void **state) {
+    static float opaque[4 * PIXELS], clear[4 * PIXELS];
+    write_pair();
+    for (size_t i = 0; i < PIXELS; i++)
+        for (size_t k = 0; k < 4; k++) {
+            const float *from = k < 3 && isfinite(values[3 * i + k]) ? values : NULL;
+            opaque[4 * i + k] = k == 3 ? 1 : from ? values[3 * i + k] : 0;
+            clear[4 * i + k] = k == 3 ? 0 : from ? others[3 * i + k] : 0;
+            if (k < 3 && !from) values[3 * i + k] = others[3 * i + k] = 0;
+        }
+    write_image("opaque.exr", "a", WIDTH, 4, opaque);
+    write_image("clear.exr", "a", WIDTH, 4, clear);
+    write_image("a.exr", "a", WIDTH, 3, values);
+    write_image("b.exr", "b", WIDTH, 3, others);
+    json_t *with = diff_of(2, "opaque.exr", "clear.exr"), *without = diff_of(2, "a.exr", "b.exr");
+    const json_t *image = json_array_get(json_object_get(with, "images"), 0), *rgb = json_object_get(image, "rgb"),
+                 *alone = json_array_get(json_object_get(without, "images"), 0);
+    static const char *const figures[] = {"mean", "rms", "psnr"};
+    for (size_t i = 0; i < 3; i++)
+        assert_true(fabs(number(rgb, figures[i]) - number(alone, figures[i])) <= 1e-9 * number(alone, figures[i]));
+    assert_true(number(alone, "rms") > 0 && number(image, "rms") > 0.4); /* of which alpha is 1 in 4 */
+    assert_true(json_equal(json_object_get(rgb, "metrics"), json_object_get(alone, "metrics")));
+    assert_true(!json_equal(json_object_get(image, "metrics"), json_object_get(alone, "metrics")));
+    assert_null(json_object_get(alone, "rgb"));
+    json_decref(with);
+    json_decref(without);
+    free(glint_ok("diff", in_folder("opaque.exr"), in_folder("opaque.exr")));
+    struct outcome found = glint("diff", "-fail", "2", in_folder("opaque.exr"), in_folder("clear.exr"), NULL);
+    assert_contains(found.out, "of R, G and B alone: mean ");
+    outcome_free(&found);
 }
 
 static void runs_name_what_differs_first(UNUSED void **state) {
@@ -264,6 +297,7 @@ int main(void) {
         cmocka_unit_test(verdicts_are_idiffs),
         cmocka_unit_test(figures_are_idiffs),
         cmocka_unit_test(what_cannot_be_compared_has_its_own_code),
+        cmocka_unit_test(alpha_does_not_hide_colors),
         cmocka_unit_test(runs_name_what_differs_first),
         cmocka_unit_test(a_plan_is_compared_in_what_both_have),
         cmocka_unit_test(a_run_is_compared_with_the_engine),

@@ -3,6 +3,7 @@
 Finished steps stay in FOLDER and are not repeated; delete a step's result to do it again. Data of games and captures are only there."""
 import argparse
 import pathlib
+import time
 
 import babylon
 import games
@@ -19,7 +20,9 @@ def main():
     parser.add_argument("--pictures", metavar="DOCS", type=pathlib.Path, help="write the pictures of docs/engines to this folder")
     arguments = parser.parse_args()
     for name in arguments.engines or ENGINES:
+        start = time.monotonic()
         ENGINES[name].prove(arguments.glint, arguments.folder)
+        print(f"{name}: {time.monotonic() - start:.0f} s, without what was done before", flush=True)
         if arguments.pictures:
             ENGINES[name].pictures(arguments.glint, arguments.folder, arguments.pictures.resolve())
     print(f"captures, logs, times.json and runs: {arguments.folder}")

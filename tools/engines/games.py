@@ -99,13 +99,21 @@ def replay(glint, name, folder):
             glint, "replay", folder / "frame.exr", "-p", preset, "-o", folder / preset, "--diagnostics", into=folder / f"{preset}.txt"))
 
 
+def mistakes(glint, folder, *options):
+    call(PYTHON, pathlib.Path(__file__).with_name("mistakes.py"), glint, folder / "dump", folder / "mistakes", *options,
+         into=folder / "mistakes.log", env=environment(folder / "home"))
+
+
 def prove(glint, folder):
     for name in PROGRAMS:
         replay(glint, name, folder / name)
+    folder = folder / "supertuxkart"
+    Steps(folder).do("mistakes", ["mistakes/mistakes.json"], lambda: mistakes(glint, folder))
+    print((folder / "mistakes.log").read_text().strip(), flush=True)
 
 
 def pictures(glint, folder, docs):
-    """The game's picture and glint's, and the reflections alone, two stops brighter (it is night); one sheet."""
+    """The game's picture and glint's, and the reflections alone, two stops brighter (it is night); a sheet of mistakes, and their table in the page."""
     folder = folder / "supertuxkart"
     shown = [(folder / "frame.exr", "--part", "scene"), (folder / "frame.exr", "--part", "engine.upscale.reflection")]
     for preset in PROGRAMS["supertuxkart"][3]:
@@ -114,3 +122,4 @@ def pictures(glint, folder, docs):
     for tile, what in zip(tiles, shown):
         call(glint, "view", *what, "--no-legend", "--exposure", "2", "-o", tile)
     call("oiiotool", *tiles, "--mosaic:pad=4", f"2x{len(shown) // 2}", "--ch", "R,G,B", "--compression", "jpeg:82", "-o", docs / "supertuxkart.jpg")
+    mistakes(glint, folder, "--sheet", docs / "mistakes.jpg", "--page", docs.parent / "engines.md")

@@ -38,19 +38,53 @@ static void add_heat(const struct diff_pair *pair, const void *a, const void *b,
 }
 
 /* metrics.h handles up to four float channels, so the first four are used. */
-static bool add_metrics(const struct diff *diff, struct diff_pair *pair, float *a, float *b, const char *const *names,
-                        size_t count, struct glint_error *err) {
+static bool add_metrics(const struct diff *diff, struct glint_metric_table *metrics, const struct diff_image *image,
+                        float *a, float *b, const char *const *names, size_t count, struct glint_error *err) {
     char channels[512] = "";
     struct glint_metric_options options = diff->options.metrics;
     for (size_t k = 0; k < count; k++) {
         const size_t used = strlen(channels);
         snprintf(channels + used, sizeof channels - used, "%s%s", used ? " " : "", names[k]);
     }
-    const struct glint_pixels found = {pair->a->width, pair->a->height, (uint32_t)count, a},
-                              truth = {pair->a->width, pair->a->height, (uint32_t)count, b};
+    const struct glint_pixels found = {image->width, image->height, (uint32_t)count, a},
+                              truth = {image->width, image->height, (uint32_t)count, b};
     options.found_channels = options.truth_channels = channels;
     if (count < 3) options.metrics &= ~(1u << GLINT_METRIC_FLIP | 1u << GLINT_METRIC_HDR_FLIP);
-    return glint_metrics_compare(&found, &truth, &options, &pair->metrics, err);
+    return glint_metrics_compare(&found, &truth, &options, metrics, err);
+}
+
+static const char *const rgba[] = {"R", "G", "B", "A"};
+
+/* Where R, G, B and A are among the channels: their places. */
+static bool find_rgba(const char *const *names, size_t count, size_t at[4]) {
+    for (int k = 0; k < 4; k++) {
+        at[k] = 0;
+        while (at[k] < count && strcmp(names[at[k]], rgba[k]) != 0) at[k]++;
+        if (at[k] == count) return false;
+    }
+    return true;
+}
+
+static float *colors_of(const float *values, size_t pixels, size_t count, const size_t at[3]) {
+    float *colors = malloc(3 * pixels * sizeof *colors + 1);
+    for (size_t i = 0; colors && i < 3 * pixels; i++) colors[i] = values[i / 3 * count + at[i % 3]];
+    return colors;
+}
+
+static bool compare_colors(struct diff *diff, struct diff_pair *pair, const float *a, const float *b,
+                           const char *const *names, size_t count, struct glint_error *err) {
+    size_t at[4];
+    if (!find_rgba(names, count, at)) return true;
+    float *of[2] = {colors_of(a, pair->difference.pixels, count, at), colors_of(b, pair->difference.pixels, count, at)};
+    bool ok = (of[0] && of[1]) || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    ok = ok && glint_difference_begin(&pair->color, pair->a->width, pair->a->height, err);
+    if (ok) glint_difference_add(&pair->color, of[0], of[1], false, 3, 0, &diff->options.limits);
+    if (ok) glint_difference_end(&pair->color, &diff->options.limits); /* the verdict is that of all channels */
+    if (ok && diff->options.metrics.metrics)
+        ok = add_metrics(diff, &pair->color_metrics, pair->a, of[0], of[1], rgba, 3, err);
+    free(of[0]);
+    free(of[1]);
+    return ok;
 }
 
 static bool compare_kind(struct diff *diff, struct diff_pair *pair, bool integers, size_t *channels,
@@ -66,7 +100,8 @@ static bool compare_kind(struct diff *diff, struct diff_pair *pair, bool integer
     if (ok) glint_difference_add(&pair->difference, a, b, integers, (uint32_t)count, *channels, &diff->options.limits);
     if (ok && pair->heat) add_heat(pair, a, b, integers, count);
     if (ok && !integers && diff->options.metrics.metrics)
-        ok = add_metrics(diff, pair, (float *)a, (float *)b, names, count, err);
+        ok = add_metrics(diff, &pair->metrics, pair->a, (float *)a, (float *)b, names, count, err);
+    if (ok && !integers) ok = compare_colors(diff, pair, (float *)a, (float *)b, names, count, err);
     *channels += count;
     free(a);
     free(b);

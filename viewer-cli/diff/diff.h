@@ -55,7 +55,10 @@ struct diff_pair {
     char note[160]; /* the reason, if the values do not show it */
     struct glint_difference difference;
     struct glint_metric_table metrics; /* no rows: not requested, or not defined for this image */
-    float *heat;                       /* the largest difference of each pixel; NULL unless requested */
+    /* The same over R, G and B alone, where the image has alpha, which may mean another thing in each; without marks or rows elsewhere. */
+    struct glint_difference color;
+    struct glint_metric_table color_metrics;
+    float *heat; /* the largest difference of each pixel; NULL unless requested */
 };
 struct diff_options {
     struct glint_difference_limits limits;

@@ -59,6 +59,8 @@ void diff_finish(struct diff *diff) {
     for (size_t i = 0; i < diff->count; i++) {
         glint_difference_finish(&diff->pairs[i].difference);
         glint_metric_table_finish(&diff->pairs[i].metrics);
+        glint_difference_finish(&diff->pairs[i].color);
+        glint_metric_table_finish(&diff->pairs[i].color_metrics);
         free(diff->pairs[i].heat);
     }
     free(diff->pairs);

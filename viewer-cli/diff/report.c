@@ -49,6 +49,16 @@ static json_t *places_json(const struct glint_difference *d) {
     return list;
 }
 
+/* Of R, G and B alone. */
+static json_t *color_json(const struct diff_pair *pair) {
+    const struct glint_difference *d = &pair->color;
+    json_t *json =
+        json_pack("{s:o, s:o, s:o, s:o}", "mean", json_number(d->mean), "rms", json_number(d->rms), "psnr",
+                  json_number(d->psnr), "largest", isinf(d->largest) ? json_string("infinite") : json_real(d->largest));
+    if (pair->color_metrics.count) json_object_set_new(json, "metrics", metrics_json(&pair->color_metrics));
+    return json;
+}
+
 static json_t *pair_json(const struct diff_pair *pair) {
     const struct diff_image *image = diff_pair_image(pair);
     const struct glint_difference *d = &pair->difference;
@@ -73,6 +83,7 @@ static json_t *pair_json(const struct diff_pair *pair) {
     json_object_set_new(json, "places", places_json(d));
     json_object_set_new(json, "histogram", histogram_json(d));
     if (pair->metrics.count) json_object_set_new(json, "metrics", metrics_json(&pair->metrics));
+    if (pair->color.marks) json_object_set_new(json, "rgb", color_json(pair));
     return json;
 }
 
@@ -124,13 +135,14 @@ static void pair_row(struct table *t, const struct diff_pair *pair, bool runs) {
     table_cell(t, "%s", image->name[0] ? image->name : "–");
     table_cell(t, "%s", diff_words[pair->status]);
     if (!d->marks) {
-        for (int i = 0; i < 4; i++) table_cell(t, "–");
+        for (int i = 0; i < 5; i++) table_cell(t, "–");
         table_cell(t, "%s", pair->note);
         return;
     }
     table_cell(t, "%.3g %%", 100 * (double)d->differing / (double)d->pixels);
     table_cell(t, "%llu", (unsigned long long)d->failed);
     table_cell(t, "%s", number_text(d->rms));
+    table_cell(t, "%s", pair->color.marks ? number_text(pair->color.rms) : "–");
     table_cell(t, "%s", number_text(d->largest));
     if (d->largest > 0)
         table_cell(t, "%u,%u %s: %s, %s%s%s", d->x, d->y, diff_channel(pair), number_text(d->a), number_text(d->b),
@@ -139,7 +151,8 @@ static void pair_row(struct table *t, const struct diff_pair *pair, bool runs) {
 }
 
 static void print_pairs(const struct diff *diff, bool verbose) {
-    static const char *const titles[] = {"<pass", "<image", "<", ">pixels", ">over", ">rms", ">largest", "<at", NULL};
+    static const char *const titles[] = {"<pass", "<image",  "<",        ">pixels", ">over",
+                                         ">rms",  ">of RGB", ">largest", "<at",     NULL};
     const bool runs = diff->sides[0].run || diff->sides[1].run;
     struct table *t = table_create(runs ? titles : titles + 1);
     for (size_t i = 0; i < diff->count; i++)
@@ -167,8 +180,15 @@ static void print_alone(const struct diff_pair *pair) {
     const struct glint_difference *d = &pair->difference;
     if (!d->marks) return;
     printf("mean %s, rms %s, psnr %.2f dB\n", number_text(d->mean), number_text(d->rms), d->psnr);
+    if (pair->color.marks)
+        printf("of R, G and B alone: mean %s, rms %s, psnr %.2f dB\n", number_text(pair->color.mean),
+               number_text(pair->color.rms), pair->color.psnr);
     print_histogram(d);
     if (pair->metrics.count) metrics_print(&pair->metrics);
+    if (pair->color_metrics.count) {
+        puts("\nof R, G and B alone:");
+        metrics_print(&pair->color_metrics);
+    }
 }
 
 /* Images that only one of the runs contains, one line for each run. */

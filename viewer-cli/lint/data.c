@@ -57,6 +57,15 @@ static bool read_cube(struct lint_data *data, struct glint_capture *capture, con
     return cube->texels != NULL;
 }
 
+static bool read_sky(struct lint_data *data, struct glint_capture *capture, struct glint_error *err) {
+    static const char *const names[] = {"R", "G", "B", NULL, NULL}; /* texels as those of cube maps */
+    const struct glint_part_info *part = glint_capture_find(capture, "sky");
+    if (!part) return true;
+    data->sky = (struct lint_cube){.size = part->width};
+    data->sky_encoding = part->encodings.color;
+    return (data->sky.texels = read_floats(capture, part, names, 5, err)) != NULL;
+}
+
 /* Takes the cube maps nearest to the camera: they see most of what it sees. */
 static bool read_cubes(struct lint_data *data, struct glint_capture *capture, struct glint_error *err) {
     const struct lint_reading reading = lint_declared(data);
@@ -86,16 +95,17 @@ static bool read_cubes(struct lint_data *data, struct glint_capture *capture, st
     return true;
 }
 
+uint32_t lint_lattice(const struct lint_data *data, uint32_t i) {
+    const double u = fmod(0.5 + i * 0.7548776662466927, 1), v = fmod(0.5 + i * 0.5698402909980532, 1);
+    const uint32_t x = 1 + (uint32_t)(u * (data->width - 2)), y = 1 + (uint32_t)(v * (data->height - 2));
+    return y * data->width + x;
+}
+
 static bool choose_samples(struct lint_data *data, struct glint_error *err) {
     data->samples = malloc(LINT_SAMPLES * sizeof *data->samples);
     if (!data->samples) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     if (data->width < 3 || data->height < 3) return true;
-    /* a lattice of sample points that does not align with patterns of rows and columns */
-    for (uint32_t i = 0; i < LINT_SAMPLES; i++) {
-        const double u = fmod(0.5 + i * 0.7548776662466927, 1), v = fmod(0.5 + i * 0.5698402909980532, 1);
-        const uint32_t x = 1 + (uint32_t)(u * (data->width - 2)), y = 1 + (uint32_t)(v * (data->height - 2));
-        data->samples[data->sample_count++] = y * data->width + x;
-    }
+    for (uint32_t i = 0; i < LINT_SAMPLES; i++) data->samples[data->sample_count++] = lint_lattice(data, i);
     return true;
 }
 
@@ -132,26 +142,31 @@ bool lint_data_read(struct lint_data *data, struct glint_capture *capture, struc
                              *const motion[] = {"motion.X", "motion.Y"}, *const color[] = {"R", "G", "B"},
                              *const material[] = {"material.roughness", "material.metalness", "material.specular"};
     const struct glint_part_info *gbuffer = glint_capture_find(capture, "gbuffer"),
-                                 *lit = glint_capture_find(capture, "lit");
+                                 *lit = glint_capture_find(capture, "lit"),
+                                 *scene = glint_capture_find(capture, "scene");
     *data = (struct lint_data){.capture = capture,
                                .frame = *glint_capture_frame(capture),
                                .encodings = gbuffer->encodings,
                                .lit_encoding = lit->encodings.color,
                                .two_channels = !has(gbuffer, "normal.Z"),
                                .has_motion = has(gbuffer, "motion.X"),
+                               .has_specular = has(gbuffer, "material.specular"),
                                .width = gbuffer->width,
                                .height = gbuffer->height};
+    if (scene) data->scene_encoding = scene->encodings.color;
     return (data->depth = read_floats(capture, gbuffer, depth, 1, err)) &&
            (data->normal = read_floats(capture, gbuffer, normal, 3, err)) &&
            (data->material = read_floats(capture, gbuffer, material, 3, err)) &&
            (!data->has_motion || (data->motion = read_floats(capture, gbuffer, motion, 2, err))) &&
-           (data->lit = read_floats(capture, lit, color, 3, err)) && read_cubes(data, capture, err) &&
-           read_before(data, capture, err) && choose_samples(data, err) && read_rounding(data, gbuffer, err);
+           (data->lit = read_floats(capture, lit, color, 3, err)) &&
+           (!scene || (data->scene = read_floats(capture, scene, color, 3, err))) && read_sky(data, capture, err) &&
+           read_cubes(data, capture, err) && read_before(data, capture, err) && choose_samples(data, err) &&
+           read_rounding(data, gbuffer, err);
 }
 
 void lint_data_finish(struct lint_data *data) {
-    float *all[] = {data->depth,    data->normal,       data->motion,     data->lit,
-                    data->material, data->before_depth, data->before_lit, data->depth_half_step};
+    float *all[] = {data->depth,        data->normal,     data->motion,          data->lit,   data->material,
+                    data->before_depth, data->before_lit, data->depth_half_step, data->scene, data->sky.texels};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) free(all[i]);
     for (size_t i = 0; i < data->cube_count; i++) free(data->cubes[i].texels);
     free(data->samples);

@@ -1,4 +1,4 @@
-/* Finds swapped, mirrored and rotated cube-map faces by comparing them with the surfaces on screen. */
+/* Finds swapped, mirrored and rotated faces: of cube maps by the surfaces on screen, of the sky by its pixels. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -6,16 +6,10 @@
 #include "capture/cube_face.h"
 #include "lint.h"
 
-enum { TURNS = 8 };
 static const char *const names[6] = {"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
 
-struct votes {
-    size_t agree[6][6][TURNS],
-        beyond[6][6][TURNS]; /* for each face of the format: each stored face in each orientation */
-};
-
-static void count_votes(struct votes *votes, const struct lint_data *data, const struct lint_reading *reading, size_t c,
-                        const double world[3]) {
+static void count_votes(struct lint_votes *votes, const struct lint_data *data, const struct lint_reading *reading,
+                        size_t c, const double world[3]) {
     const struct lint_cube *cube = &data->cubes[c];
     double d[3], u, v;
     lint_from_center(data, reading, c, world, d);
@@ -23,7 +17,7 @@ static void count_votes(struct votes *votes, const struct lint_data *data, const
     if (!(away > 0) || !isfinite(away)) return;
     const int face = cube_face_of(d, &u, &v);
     for (int stored = 0; stored < 6; stored++)
-        for (int turn = 0; turn < TURNS; turn++) {
+        for (int turn = 0; turn < LINT_TURNS; turn++) {
             double tu = u, tv = v;
             lint_turn(turn, &tu, &tv);
             const int shows = lint_shows(reading, cube, lint_texel(cube, stored, tu, tv), d);
@@ -32,13 +26,13 @@ static void count_votes(struct votes *votes, const struct lint_data *data, const
         }
 }
 
-static double share_of(const struct votes *votes, int face, int stored, int turn) {
+static double share_of(const struct lint_votes *votes, int face, int stored, int turn) {
     const size_t agree = votes->agree[face][stored][turn], all = agree + votes->beyond[face][stored][turn];
     return all ? (double)agree / (double)all : 0;
 }
 
 /* Finds a stored face and orientation that matches one face better than as stored; false when none is clearly better. */
-static bool find_better_face(const struct votes *votes, int face, int *stored, int *turn) {
+static bool find_better_face(const struct lint_votes *votes, int face, int *stored, int *turn) {
     const size_t all = votes->agree[face][face][0] + votes->beyond[face][face][0];
     size_t most = votes->agree[face][face][0];
     double best = share_of(votes, face, face, 0);
@@ -47,7 +41,7 @@ static bool find_better_face(const struct votes *votes, int face, int *stored, i
     *stored = face;
     *turn = 0;
     for (int s = 0; s < 6; s++)
-        for (int t = 0; t < TURNS; t++) {
+        for (int t = 0; t < LINT_TURNS; t++) {
             const size_t agree = votes->agree[face][s][t];
             if (agree < LINT_ENOUGH / 2 || agree <= most || share_of(votes, face, s, t) <= best) continue;
             most = agree;
@@ -60,51 +54,91 @@ static bool find_better_face(const struct votes *votes, int face, int *stored, i
 }
 
 static const char *turn_name(int turn) {
-    static const char *const words[TURNS] = {"",
-                                             ", mirrored left to right",
-                                             ", upside down",
-                                             ", rotated by 180°",
-                                             ", mirrored across the diagonal",
-                                             ", rotated by 90°",
-                                             ", rotated by -90°",
-                                             ", mirrored across the other diagonal"};
+    static const char *const words[LINT_TURNS] = {"",
+                                                  ", mirrored left to right",
+                                                  ", upside down",
+                                                  ", rotated by 180°",
+                                                  ", mirrored across the diagonal",
+                                                  ", rotated by 90°",
+                                                  ", rotated by -90°",
+                                                  ", mirrored across the other diagonal"};
     return words[turn];
 }
 
-void lint_find_faces(const struct lint_data *data, struct lint_reading *reading, struct lint_agreement *agreement,
-                     struct lint_findings *findings) {
-    const struct lint_eyes eyes = lint_eyes_of(data, reading);
-    struct votes votes = {{{{0}}}, {{{0}}}};
-    struct lint_reading other = *reading;
-    char text[256] = "";
+/* What the votes say of all faces: how many are stored as another one or turned, in words. */
+struct verdict {
+    int face[6], turn[6], changed, moved, same_turn;
+    char text[256];
+};
+
+static struct verdict judge(const struct lint_votes *votes) {
+    struct verdict v = {.same_turn = -1};
     size_t length = 0;
-    int changed = 0, same_turn = -1, moved = 0;
+    for (int f = 0; f < 6; f++) {
+        if (!find_better_face(votes, f, &v.face[f], &v.turn[f])) {
+            v.face[f] = f;
+            v.turn[f] = 0;
+            continue;
+        }
+        const int n = snprintf(v.text + length, sizeof v.text - length, "%s%s is stored as %s%s", length ? "; " : "",
+                               names[f], names[v.face[f]], turn_name(v.turn[f]));
+        length += n > 0 && (size_t)n < sizeof v.text - length ? (size_t)n : 0;
+        v.same_turn = v.changed && v.turn[f] != v.same_turn ? -2 : v.turn[f];
+        v.moved += v.face[f] != f;
+        v.changed++;
+    }
+    return v;
+}
+
+static void add_faces(const struct verdict *v, const char *of, enum lint_measure m, const struct lint_agreement *stored,
+                      const struct lint_agreement *now, struct lint_findings *findings) {
+    char id[48];
+    snprintf(id, sizeof id, "%s.%s", of, !v->moved && v->same_turn >= 0 ? "faces_orientation" : "faces_order");
+    struct lint_finding *f = lint_add(findings, id, now->share[m] > 0.6 ? "certain" : "likely");
+    snprintf(f->evidence, sizeof f->evidence, "%s: %.0f %% of %zu comparisons of %s match then, %.0f %% as stored",
+             v->text, 100 * now->share[m], now->count[m], lint_measure_names[m], 100 * stored->share[m]);
+}
+
+static void find_cube_faces(const struct lint_data *data, struct lint_reading *reading,
+                            struct lint_agreement *agreement, struct lint_findings *findings) {
+    const struct lint_eyes eyes = lint_eyes_of(data, reading);
+    struct lint_votes votes = {{{{0}}}, {{{0}}}};
+    struct lint_reading other = *reading;
     for (size_t i = 0; i < data->sample_count; i++) {
         double world[3];
         if (!lint_place(data, reading, &eyes.now, data->samples[i], world)) continue;
         for (size_t c = 0; c < data->cube_count; c++)
             if (data->cubes[c].has_distance) count_votes(&votes, data, reading, c, world);
     }
-    for (int f = 0; f < 6; f++) {
-        if (!find_better_face(&votes, f, &other.face[f], &other.turn[f])) {
-            other.face[f] = f;
-            other.turn[f] = 0;
-            continue;
-        }
-        const int n = snprintf(text + length, sizeof text - length, "%s%s is stored as %s%s", length ? "; " : "",
-                               names[f], names[other.face[f]], turn_name(other.turn[f]));
-        length += n > 0 && (size_t)n < sizeof text - length ? (size_t)n : 0;
-        same_turn = changed && other.turn[f] != same_turn ? -2 : other.turn[f];
-        moved += other.face[f] != f;
-        changed++;
-    }
-    if (!changed) return;
+    const struct verdict v = judge(&votes);
+    if (!v.changed) return;
+    memcpy(other.face, v.face, sizeof v.face);
+    memcpy(other.turn, v.turn, sizeof v.turn);
     const struct lint_agreement now = lint_agree(data, &other, NULL, 0);
-    const char *id = !moved && same_turn >= 0 ? "cubemap.faces_orientation" : "cubemap.faces_order";
-    struct lint_finding *f = lint_add(findings, id, now.share[LINT_CUBEMAPS] > 0.6 ? "certain" : "likely");
-    snprintf(f->evidence, sizeof f->evidence, "%s: %.0f %% of %zu comparisons of %s match then, %.0f %% as stored",
-             text, 100 * now.share[LINT_CUBEMAPS], now.count[LINT_CUBEMAPS], lint_measure_names[LINT_CUBEMAPS],
-             100 * agreement->share[LINT_CUBEMAPS]);
+    add_faces(&v, "cubemap", LINT_CUBEMAPS, agreement, &now, findings);
     *reading = other;
     *agreement = now;
+}
+
+/* Skies differ by clouds and hour, so most of what is seen must match. */
+static void find_sky_faces(const struct lint_data *data, struct lint_reading *reading, struct lint_agreement *agreement,
+                           struct lint_findings *findings) {
+    struct lint_votes votes = {{{{0}}}, {{{0}}}};
+    struct lint_reading other = *reading;
+    if (agreement->count[LINT_SKY] < LINT_ENOUGH) return;
+    lint_sky_votes(data, reading, &votes);
+    const struct verdict v = judge(&votes);
+    memcpy(other.sky_face, v.face, sizeof v.face);
+    memcpy(other.sky_turn, v.turn, sizeof v.turn);
+    const struct lint_agreement now = lint_agree(data, &other, agreement, 1u << LINT_SKY);
+    if (!v.changed || now.share[LINT_SKY] < 0.6) return;
+    add_faces(&v, "sky", LINT_SKY, agreement, &now, findings);
+    *reading = other;
+    *agreement = now;
+}
+
+void lint_find_faces(const struct lint_data *data, struct lint_reading *reading, struct lint_agreement *agreement,
+                     struct lint_findings *findings) {
+    find_cube_faces(data, reading, agreement, findings);
+    find_sky_faces(data, reading, agreement, findings);
 }

@@ -19,8 +19,10 @@ struct lint_reading lint_declared(const struct lint_data *data) {
                              .cube_scale = 1,
                              .center_scale = 1,
                              .lit = data->lit_encoding,
-                             .cube = data->cube_encoding};
-    for (int f = 0; f < 6; f++) r.face[f] = f;
+                             .cube = data->cube_encoding,
+                             .sky = data->sky_encoding,
+                             .sky_scale = 1};
+    for (int f = 0; f < 6; f++) r.face[f] = r.sky_face[f] = f;
     return r;
 }
 
@@ -112,14 +114,28 @@ static bool depth_in(const struct lint_data *data, const struct lint_reading *re
 
 bool lint_depth(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
                 uint32_t x, uint32_t y, double *depth) {
-    return depth_in(data, reading, view, data->depth, x, y, depth);
+    return depth_in(data, reading, view, reading->swapped_depth ? data->before_depth : data->depth, x, y, depth);
+}
+
+bool lint_is_sky(const struct lint_data *data, const struct lint_reading *reading, uint32_t x, uint32_t y) {
+    const double v = (double)(reading->swapped_depth ? data->before_depth : data->depth)[(size_t)y * data->width + x];
+    switch (reading->depth) {
+    case GLINT_DEPTH_VIEW_LINEAR:
+        return isinf(v) && v > 0;
+    case GLINT_DEPTH_REVERSED:
+    case GLINT_DEPTH_REVERSED_INFINITE:
+    case GLINT_DEPTH_LOGARITHMIC_REVERSED:
+        return v <= 0;
+    default:
+        return v >= 1;
+    }
 }
 
 bool lint_depth_before(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
                        uint32_t x, uint32_t y, double *depth) {
     struct lint_reading own = *reading;
     if (data->before_encoding != data->encodings.depth) own.depth = data->before_encoding;
-    return depth_in(data, &own, view, data->before_depth, x, y, depth);
+    return depth_in(data, &own, view, reading->swapped_depth ? data->depth : data->before_depth, x, y, depth);
 }
 
 double lint_depth_error(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,

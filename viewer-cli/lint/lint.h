@@ -32,12 +32,12 @@ struct lint_rounding {
 struct lint_data {
     struct glint_frame frame;
     struct glint_encodings encodings; /* of the G-buffer */
-    enum glint_color_encoding lit_encoding, cube_encoding;
+    enum glint_color_encoding lit_encoding, cube_encoding, sky_encoding, scene_encoding;
     bool two_channels; /* normals have no Z */
-    bool has_motion;
+    bool has_motion, has_specular;
     uint32_t width, height;
     float *depth, *normal /* X Y Z */, *motion /* X Y */, *lit /* R G B */,
-        *material /* roughness metalness specular */;
+        *material /* roughness metalness specular */, *scene /* R G B; NULL where the capture has none */;
     /* The previous frame; NULL where the capture does not contain it. */
     float *before_depth, *before_lit;
     enum glint_depth_encoding before_encoding;
@@ -47,9 +47,12 @@ struct lint_data {
     const struct glint_capture *capture;
     struct lint_cube cubes[LINT_CUBES];
     size_t cube_count;
-    uint32_t *samples; /* pixels, away from the borders */
+    struct lint_cube sky; /* without texels where the capture has none */
+    uint32_t *samples;    /* pixels, away from the borders */
     size_t sample_count;
 };
+/* The i-th point of a lattice that does not align with patterns of rows and columns, away from the borders. */
+uint32_t lint_lattice(const struct lint_data *data, uint32_t i);
 bool lint_data_read(struct lint_data *data, struct glint_capture *capture, struct glint_error *err);
 void lint_data_finish(struct lint_data *data);
 
@@ -69,11 +72,14 @@ struct lint_reading {
     enum glint_clip_z clip_z;
     double view_sign[3]; /* -1: this axis of view space is negated */
     bool inverse_camera, inverse_current /* of the current frame only */, swapped_cameras;
+    bool swapped_depth /* depth of gbuffer and previous.gbuffer */, swapped_lit /* lit and previous.lit */;
     bool cube_planar; /* stored distance is along the face's axis */
     double cube_scale, center_scale;
     double center_offset[LINT_CUBES][3]; /* engine units */
     int face[6], turn[6];                /* for each face of the format: the stored face, and its orientation */
-    enum glint_color_encoding lit, cube;
+    enum glint_color_encoding lit, cube, sky;
+    double sky_scale; /* the sky in lit is this many times as bright as the sky cube map */
+    int sky_face[6], sky_turn[6];
     bool lit_upside_down, lit_bgr;
 };
 struct lint_reading lint_declared(const struct lint_data *data);
@@ -92,6 +98,7 @@ struct lint_eyes lint_eyes_of(const struct lint_data *data, const struct lint_re
 /* Depth along the view axis; false for sky. */
 bool lint_depth(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
                 uint32_t x, uint32_t y, double *depth);
+bool lint_is_sky(const struct lint_data *data, const struct lint_reading *reading, uint32_t x, uint32_t y);
 /* The same for the previous frame; view must be that of the previous frame. */
 bool lint_depth_before(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
                        uint32_t x, uint32_t y, double *depth);
@@ -127,8 +134,20 @@ static const double LINT_MOVES_PX = 0.25; /* smaller motion may be jitter and do
 /* Below this share of matches no cause is reported: so few samples match by chance, or where both readings decode the same value. */
 static const double LINT_MIN_SHARE = 0.2;
 double lint_luminance(const float *rgb);
+double lint_linear(const struct lint_data *data, enum glint_color_encoding encoding, float value);
+/* The stored colour of lit that a reading takes for this pixel. */
+const float *lint_lit(const struct lint_data *data, const struct lint_reading *reading, uint32_t pixel);
 
-enum lint_measure { LINT_FACETS, LINT_CUBEMAPS, LINT_MOTION, LINT_COLORS, LINT_BEFORE, LINT_MEASURES };
+enum lint_measure {
+    LINT_FACETS,
+    LINT_CUBEMAPS,
+    LINT_MOTION,
+    LINT_COLORS,
+    LINT_BEFORE,
+    LINT_LIGHT,
+    LINT_SKY,
+    LINT_MEASURES
+};
 struct lint_tally {
     size_t agree, count;
 };
@@ -158,12 +177,29 @@ enum lint_facet lint_facet_of(const struct lint_data *data, const struct lint_re
 bool lint_same_direction(const double a[3], const double b[3]);
 /* before.c: depth at the reprojected position in the previous frame, or colour where that frame has no depth. */
 struct lint_tally lint_before(const struct lint_data *data, const struct lint_reading *reading);
+/* before.c: colour at the reprojected position in the previous frame, where lint_before compares depth. */
+struct lint_tally lint_light(const struct lint_data *data, const struct lint_reading *reading);
+/* before.c: samples that move and would show it; those whose colours in lit and previous.lit are equal to the bit. */
+struct lint_tally lint_same_light(const struct lint_data *data, const struct lint_reading *reading);
+/* sky.c: sky pixels of lit and the sky cube map in their directions. */
+struct lint_tally lint_sky(const struct lint_data *data, const struct lint_reading *reading);
+/* sky.c: sky pixels whose direction is not black in the sky cube map; those that are 0 in lit. */
+struct lint_tally lint_black_sky(const struct lint_data *data, const struct lint_reading *reading);
+/* sky.c: the factor of brightness between the two; 1 where there is no sky. */
+double lint_sky_scale(const struct lint_data *data, const struct lint_reading *reading);
 /* The world position of a sample; false for sky. */
 bool lint_place(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
                 uint32_t pixel, double world[3]);
 /* The motion of a static surface by both cameras: previous minus current position in pixels, y down. */
 bool lint_moved(const struct lint_data *data, const struct lint_reading *reading, const struct lint_eyes *eyes,
                 uint32_t pixel, double out[2]);
+
+/* For each face of the format: how many samples agree with each stored face in each orientation, and how many do not. */
+enum { LINT_TURNS = 8 };
+struct lint_votes {
+    size_t agree[6][6][LINT_TURNS], beyond[6][6][LINT_TURNS];
+};
+void lint_sky_votes(const struct lint_data *data, const struct lint_reading *reading, struct lint_votes *votes);
 
 /* ---- findings ---- */
 
@@ -211,7 +247,7 @@ void lint_undecided(struct lint_findings *findings, const char *format, ...);
 /* readings.c: tries other conventions, one after the other as long as the match improves. */
 void lint_find_readings(const struct lint_data *data, struct lint_reading *reading, struct lint_agreement *agreement,
                         struct lint_findings *findings);
-/* faces.c: swapped, mirrored and rotated faces. */
+/* faces.c: swapped, mirrored and rotated faces of cube maps and of the sky. */
 void lint_find_faces(const struct lint_data *data, struct lint_reading *reading, struct lint_agreement *agreement,
                      struct lint_findings *findings);
 /* center.c: searches cube-map centres for which distances match depth; false when none is better than the declared ones. */
@@ -225,6 +261,8 @@ void lint_find_coarse_depth(const struct lint_data *data, const struct lint_read
                             struct lint_findings *findings);
 /* cubes.c: sky texels and inner volumes of cube maps. */
 void lint_find_cubes(const struct lint_data *data, struct lint_findings *findings);
+/* light.c: what lit holds besides diffuse light of this frame. */
+void lint_find_light(const struct lint_data *data, const struct lint_reading *reading, struct lint_findings *findings);
 /* values.c: checks of single images, motion and the previous camera. */
 void lint_find_values(const struct lint_data *data, const struct lint_reading *reading,
                       const struct lint_agreement *agreement, struct lint_findings *findings);

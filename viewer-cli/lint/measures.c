@@ -5,9 +5,13 @@
 #include "capture/cube_face.h"
 #include "lint.h"
 
-const char *const lint_measure_names[] = {"normals with the depth buffer", "depth with cube-map distances",
-                                          "motion with the reprojection", "lit with cube-map colours",
-                                          "the previous frame with the reprojection"};
+const char *const lint_measure_names[] = {"normals with the depth buffer",
+                                          "depth with cube-map distances",
+                                          "motion with the reprojection",
+                                          "lit with cube-map colours",
+                                          "the previous frame with the reprojection",
+                                          "lit with the reprojected previous.lit",
+                                          "sky pixels of lit with the sky cube map"};
 
 static const double SAME_DIRECTION =
     0.9986; /* cosine of 3 degrees: many cameras are rotated by little more against the world */
@@ -182,22 +186,27 @@ static struct lint_tally compare_motion(const struct lint_data *data, const stru
     return tally;
 }
 
-static double linear(enum glint_color_encoding encoding, double pre_exposure, double v) {
-    if (encoding == GLINT_COLOR_PRE_EXPOSED) return v / pre_exposure;
+double lint_linear(const struct lint_data *data, enum glint_color_encoding encoding, float value) {
+    const double v = (double)value;
+    if (encoding == GLINT_COLOR_PRE_EXPOSED) return v / (data->frame.pre_exposure > 0 ? data->frame.pre_exposure : 1);
     if (encoding == GLINT_COLOR_SRGB) return v <= 0.04045 ? v / 12.92 : pow((v + 0.055) / 1.055, 2.4);
     return v;
 }
 
+const float *lint_lit(const struct lint_data *data, const struct lint_reading *reading, uint32_t pixel) {
+    const uint32_t x = pixel % data->width, y = pixel / data->width,
+                   row = reading->lit_upside_down ? data->height - 1 - y : y;
+    return (reading->swapped_lit ? data->before_lit : data->lit) + 3 * ((size_t)row * data->width + x);
+}
+
 static struct lint_tally compare_colors(const struct lint_data *data, const struct lint_reading *reading) {
     const struct lint_eyes eyes = lint_eyes_of(data, reading);
-    const double exposure = data->frame.pre_exposure > 0 ? data->frame.pre_exposure : 1;
     struct lint_tally tally = {0, 0};
     for (size_t i = 0; i < data->sample_count; i++) {
-        const uint32_t pixel = data->samples[i], x = pixel % data->width, y = pixel / data->width;
+        const uint32_t pixel = data->samples[i];
         double world[3];
         if (!lint_place(data, reading, &eyes.now, pixel, world)) continue;
-        const uint32_t row = reading->lit_upside_down ? data->height - 1 - y : y;
-        const float *lit = data->lit + 3 * ((size_t)row * data->width + x);
+        const float *lit = lint_lit(data, reading, pixel);
         if (!(lint_luminance(lit) > 1e-3)) continue;
         bool compared = false, agrees = false;
         for (size_t c = 0; c < data->cube_count && !agrees; c++) {
@@ -205,8 +214,8 @@ static struct lint_tally compare_colors(const struct lint_data *data, const stru
             if (lint_sees(data, reading, c, world, &texel) != 1) continue;
             bool alike = true;
             for (int k = 0; k < 3 && alike; k++) {
-                const double a = linear(reading->lit, exposure, (double)lit[reading->lit_bgr ? 2 - k : k]),
-                             b = linear(reading->cube, exposure, (double)texel[k]);
+                const double a = lint_linear(data, reading->lit, lit[reading->lit_bgr ? 2 - k : k]),
+                             b = lint_linear(data, reading->cube, texel[k]);
                 alike = fabs(a - b) <= 0.1 * (a + b) + 2e-3;
             }
             compared = true;
@@ -220,7 +229,7 @@ static struct lint_tally compare_colors(const struct lint_data *data, const stru
 struct lint_agreement lint_agree(const struct lint_data *data, const struct lint_reading *reading,
                                  const struct lint_agreement *known, unsigned which) {
     static struct lint_tally (*const take[])(const struct lint_data *, const struct lint_reading *) = {
-        compare_facets, compare_cubemaps, compare_motion, compare_colors, lint_before};
+        compare_facets, compare_cubemaps, compare_motion, compare_colors, lint_before, lint_light, lint_sky};
     struct lint_agreement a = known ? *known : (struct lint_agreement){{0}, {0}};
     for (int m = 0; m < LINT_MEASURES; m++) {
         if (known && !(which & (1u << m))) continue;

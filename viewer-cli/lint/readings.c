@@ -56,17 +56,23 @@ static void apply_reading(const struct lint_data *data, struct lint_reading *r, 
     (void)data;
 }
 
-static const unsigned ALL_MEASURES = (1u << LINT_MEASURES) - 1;
+/* What cameras and depth are judged by. A mirrored camera and mirrored faces of the sky look alike, and colours match at fewer places than
+   depth, so that they add no certainty. */
+static const unsigned ALL_MEASURES = (1u << LINT_MEASURES) - 1 - (1u << LINT_SKY) - (1u << LINT_LIGHT);
 
 /* The measures that a convention can influence, as bits. */
 static unsigned measures_of(const char *id) {
     static const struct {
         const char *of;
         unsigned measures;
-    } kinds[] = {{"normal.", 1u << LINT_FACETS},
+    } kinds[] = {{"depth.swapped", ALL_MEASURES | 1u << LINT_LIGHT}, /* light tells these two apart */
+                 {"camera.swapped", ALL_MEASURES | 1u << LINT_LIGHT},
+                 {"lit.swapped", 1u << LINT_LIGHT | 1u << LINT_BEFORE},
+                 {"normal.", 1u << LINT_FACETS},
                  {"motion.", 1u << LINT_MOTION},
                  {"cubemap.", 1u << LINT_CUBEMAPS | 1u << LINT_COLORS},
-                 {"lit.", 1u << LINT_COLORS | 1u << LINT_BEFORE}};
+                 {"lit.", 1u << LINT_COLORS | 1u << LINT_BEFORE | 1u << LINT_LIGHT | 1u << LINT_SKY},
+                 {"sky.", 1u << LINT_SKY}};
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
         if (!strncmp(id, kinds[i].of, strlen(kinds[i].of))) return kinds[i].measures;
     return ALL_MEASURES;
@@ -136,8 +142,12 @@ static void declare(struct lint_finding *f, const struct row *row, const struct 
 /* ---- What can be found ---- */
 
 static void describe_measures(unsigned measures, char *text, size_t size) {
-    size_t length = (size_t)snprintf(text, size, measures == ALL_MEASURES ? "all comparisons" : "comparison of ");
-    for (int m = 0; m < LINT_MEASURES && measures != ALL_MEASURES; m++)
+    const bool all = (measures & ALL_MEASURES) == ALL_MEASURES, light = measures & 1u << LINT_LIGHT;
+    size_t length = (size_t)snprintf(text, size, "%s",
+                                     !all    ? "comparison of "
+                                     : light ? "all comparisons but the last"
+                                             : "all comparisons but the last two");
+    for (int m = 0; m < LINT_MEASURES && !all; m++)
         if (measures & 1u << m)
             length += (size_t)snprintf(text + length, size - length, "%s%s", measures & ((1u << m) - 1) ? "; of " : "",
                                        lint_measure_names[m]);
@@ -181,8 +191,8 @@ struct lint_finding *lint_add(struct lint_findings *findings, const char *id, co
 
 /* ---- The best other convention ---- */
 
-/* A reading that was tried: which row (or CENTERS), and how well the images match under it. */
-enum { CENTERS = ROWS, NONE };
+/* A reading that was tried: which row (or CENTERS, SKY_SCALE), and how well the images match under it. */
+enum { CENTERS = ROWS, SKY_SCALE, NONE };
 struct candidate {
     size_t row, also; /* `also`: a second row, for two mistakes of which neither shows alone */
     struct lint_reading reading;
@@ -197,6 +207,8 @@ struct contest {
 static void consider(struct contest *contest, const struct lint_agreement *from, struct candidate *c) {
     c->gain = gain(from, &c->agreement, &c->measure);
     if (!(c->gain > 0) || c->agreement.share[c->measure] < LINT_MIN_SHARE) return;
+    /* of two depth buffers, one may be wrong in another way: swapped, both must match */
+    if (c->reading.swapped_depth && c->agreement.share[LINT_BEFORE] < 0.6) return;
     /* another row led to the same reading */
     if (!memcmp(&c->reading, &contest->best.reading, sizeof c->reading)) return;
     if (c->gain > contest->best.gain + 1e-3) {
@@ -292,6 +304,25 @@ static void try_centers(const struct lint_data *data, const struct lint_reading 
     contest->best = c;
 }
 
+static bool is_curved(const struct lint_reading *r) {
+    return (r->lit == GLINT_COLOR_SRGB) != (r->sky == GLINT_COLOR_SRGB);
+}
+
+/* A sky that is drawn brighter or darker than its cube map is no mistake. If it has few colours, a factor can explain as much as the sRGB
+   curve: then neither is proven. */
+static void try_sky_scale(const struct lint_data *data, const struct lint_reading *reading,
+                          const struct lint_agreement *agreement, struct contest *contest) {
+    struct candidate c = {.row = SKY_SCALE, .also = NONE, .reading = *reading};
+    const struct candidate *best = &contest->best;
+    if (agreement->count[LINT_SKY] < LINT_ENOUGH || (best->row != NONE && best->measure != LINT_SKY)) return;
+    c.reading.sky_scale *= lint_sky_scale(data, reading);
+    c.agreement = lint_agree(data, &c.reading, agreement, 1u << LINT_SKY);
+    c.gain = gain(agreement, &c.agreement, &c.measure);
+    const bool only = best->row == NONE,
+               as_good = is_curved(&best->reading) != is_curved(reading) && c.gain >= 0.8 * best->gain;
+    if (c.gain > 0 && c.agreement.share[LINT_SKY] >= LINT_MIN_SHARE && (only || as_good)) contest->best = c;
+}
+
 /* Takes the best other reading from here; false when none is clearly better. */
 static bool apply_best_reading(const struct lint_data *data, struct lint_reading *reading,
                                struct lint_agreement *agreement, struct lint_findings *findings) {
@@ -299,11 +330,12 @@ static bool apply_best_reading(const struct lint_data *data, struct lint_reading
     try_rows(data, reading, agreement, &contest);
     try_pairs_of_normals(data, reading, agreement, &contest);
     try_centers(data, reading, agreement, &contest);
+    try_sky_scale(data, reading, agreement, &contest);
     if (contest.best.row == NONE) return false;
-    add_finding(findings, &contest, contest.best.row, data, agreement);
+    if (contest.best.row != SKY_SCALE) add_finding(findings, &contest, contest.best.row, data, agreement);
     if (contest.best.also != NONE) add_finding(findings, &contest, contest.best.also, data, agreement);
     *reading = contest.best.reading;
-    *agreement = contest.best.agreement;
+    *agreement = lint_agree(data, reading, NULL, 0);
     return true;
 }
 

@@ -1,4 +1,4 @@
-/* Checks of single images: normals have unit length, sky has no depth, lit has no specular light, motion fits the cameras. */
+/* Checks of single images: normals have unit length, sky has no depth, motion fits the cameras. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -63,35 +63,6 @@ static void check_sky_depth(const struct lint_data *data, struct lint_findings *
     snprintf(f->evidence, sizeof f->evidence,
              "%zu pixels have exactly the depth %.9g, the next largest depth is %.9g, and no pixel is infinite",
              at_largest, largest, next);
-}
-
-/* ---- Light ---- */
-
-static void check_specular(const struct lint_data *data, const struct lint_reading *reading,
-                           const struct lint_view *view, struct lint_findings *findings) {
-    static double others[LINT_SAMPLES];
-    size_t metals = 0, lit = 0, count = 0;
-    for (size_t i = 0; i < data->sample_count; i++) {
-        const size_t pixel = data->samples[i];
-        if (!is_surface(data, reading, view, (uint32_t)pixel)) continue;
-        if (!(data->material[3 * pixel + 1] > 0.95f)) others[count++] = lint_luminance(data->lit + 3 * pixel);
-    }
-    const double typical = median(others, count);
-    for (size_t i = 0; i < data->sample_count; i++) {
-        const size_t pixel = data->samples[i];
-        if (!is_surface(data, reading, view, (uint32_t)pixel) || !(data->material[3 * pixel + 1] > 0.95f)) continue;
-        metals++;
-        lit += lint_luminance(data->lit + 3 * pixel) > 0.02 * typical;
-    }
-    if (metals < 50) {
-        lint_undecided(findings, "whether lit contains specular light: too few samples are metal (%zu of %zu)", metals,
-                       data->sample_count);
-        return;
-    }
-    if (lit < metals / 2) return;
-    struct lint_finding *f = lint_add(findings, "lit.specular", "likely");
-    snprintf(f->evidence, sizeof f->evidence,
-             "%zu of %zu metal samples are lit, although metal has no diffuse reflection", lit, metals);
 }
 
 /* ---- Motion and the previous camera ---- */
@@ -228,12 +199,24 @@ static void check_unexplained(const struct lint_agreement *a, struct lint_findin
                  a->count[m], lint_measure_names[m]);
     }
     for (int m = 0; m < LINT_MEASURES; m++)
-        if (a->count[m] < LINT_ENOUGH && m != LINT_MOTION && m != LINT_BEFORE)
+        if (a->count[m] < LINT_ENOUGH && m != LINT_MOTION && m != LINT_BEFORE && m != LINT_LIGHT)
             lint_undecided(findings, "%s: too few samples can be compared (%zu)", lint_measure_names[m], a->count[m]);
 }
 
 /* Cube maps that were rendered under other lighting, such as another time of day, are not a mistake of the dump. */
-static void check_lighting(const struct lint_agreement *a, struct lint_findings *findings) {
+static void check_lighting(const struct lint_agreement *a, const struct lint_reading *reading,
+                           struct lint_findings *findings) {
+    if (a->count[LINT_SKY] >= LINT_ENOUGH && a->share[LINT_SKY] < 0.5)
+        lint_undecided(findings,
+                       "why the sky in lit and the sky cube map match at only %.0f %% of the samples under every known "
+                       "convention: clouds, fog or the time of day may differ",
+                       100 * a->share[LINT_SKY]);
+    if (a->count[LINT_SKY] >= LINT_ENOUGH && reading->sky_scale != 1)
+        lint_undecided(
+            findings,
+            "why the sky in lit is %.3g times as bright as the sky cube map: the exposure may differ, or one "
+            "of the two may be encoded in another way",
+            reading->sky_scale);
     if (a->count[LINT_COLORS] < LINT_ENOUGH || a->share[LINT_COLORS] >= LINT_MIN_SHARE) return;
     lint_undecided(
         findings,
@@ -248,11 +231,11 @@ void lint_find_values(const struct lint_data *data, const struct lint_reading *r
     check_normal_lengths(data, reading, &eyes.now, findings);
     check_sky_depth(data, findings);
     lint_find_cubes(data, findings);
-    check_specular(data, reading, &eyes.now, findings);
+    lint_find_light(data, reading, findings);
     check_motion(data, reading, agreement, findings);
     check_up_axis(data, reading, &eyes.now, findings);
     check_unexplained(agreement, findings);
-    check_lighting(agreement, findings);
+    check_lighting(agreement, reading, findings);
     lint_undecided(findings,
                    "whether roughness is squared or inverted: no other image of a capture depends on roughness");
     lint_undecided(findings, "the length of a unit (metresPerUnit): all lengths are in the same unit");
