@@ -3,19 +3,19 @@
 #define GLINT_EXR_INTERNAL_H
 
 #include <openexr.h>
-#include <pthread.h>
 
 #include "arena.h"
 #include "glint/exr.h"
+#include "system.h"
 
 /* A file that glint opened for OpenEXRCore, and the last error of OpenEXRCore. */
 struct glint_exr_stream {
-    int fd;
+    glint_file file;
     uint64_t bytes;     /* size of the file */
     uint64_t allowance; /* bytes that may still be read through the stream, which chunks bypass */
     bool exceeded;      /* more than the allowance was requested */
     const char *path;
-    pthread_mutex_t lock;
+    glint_mutex lock;
     char complaint[256];
 };
 
