@@ -5,6 +5,7 @@
 #include "attributes.h"
 #include "capture_internal.h"
 #include "hash.h"
+#include "sibling.h"
 
 static bool fail_memory(const struct glint_check *check) {
     return glint_fail(check->err, GLINT_ERROR_MEMORY, "%s: out of memory", check->file);

@@ -6,6 +6,7 @@
 
 #include "edit_internal.h"
 #include "hash.h"
+#include "sibling.h"
 
 static bool fail_memory(const struct glint_edit *edit, struct glint_error *err) {
     return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", edit->exr->path);
@@ -173,6 +174,12 @@ static struct glint_exr *open_sibling(struct glint_edit *edit, const char *name,
                                       struct glint_error *err) {
     for (size_t i = 0; i < edit->sibling_count; i++)
         if (!strcmp(edit->siblings[i].name, name)) return edit->siblings[i].exr;
+    if (!glint_sibling_is_plain(name)) {
+        glint_fail(err, GLINT_ERROR_FORMAT,
+                   "%s: " GLINT_SIBLING_ATTRIBUTE ": expected a plain file name, found \"%.80s\"", edit->exr->path,
+                   name);
+        return NULL;
+    }
     char hex[33] = "", *path = glint_sibling_path(edit->exr->path, name);
     struct glint_edit_sibling *sibling = &edit->siblings[edit->sibling_count];
     sibling->name = glint_arena_string(&edit->arena, name);

@@ -34,24 +34,3 @@ done:
     XXH3_freeState(state);
     return ok;
 }
-
-char *glint_sibling_path(const char *path, const char *sibling) {
-    const size_t folder = glint_path_folder(path);
-    char *full = malloc(folder + strlen(sibling) + 1);
-    if (!full) return NULL;
-    memcpy(full, path, folder);
-    strcpy(full + folder, sibling);
-    return full;
-}
-
-bool glint_hash_sibling(const char *path, const char *sibling, char hex[33], struct glint_error *err) {
-    char *full = glint_sibling_path(path, sibling);
-    if (!full) return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
-    const glint_file file = glint_file_open(full);
-    bool ok =
-        file != GLINT_NO_FILE || glint_fail(err, GLINT_ERROR_IO, "%s: sibling of %s: %s", full, path, strerror(errno));
-    ok = ok && glint_hash_file(file, full, hex, err);
-    if (file != GLINT_NO_FILE) glint_file_close(file);
-    free(full);
-    return ok;
-}

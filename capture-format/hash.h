@@ -7,9 +7,5 @@
 
 /* Hashes the whole file through an open one. `path` is for error messages. */
 bool glint_hash_file(glint_file file, const char *path, char hex[33], struct glint_error *err);
-/* The file `sibling` in the folder of `path`. */
-bool glint_hash_sibling(const char *path, const char *sibling, char hex[33], struct glint_error *err);
-/* The sibling's path, to be freed; NULL if memory is exhausted. */
-char *glint_sibling_path(const char *path, const char *sibling);
 
 #endif

@@ -3,7 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "hash.h"
+#include "sibling.h"
+#include "system.h"
 #include "writer_part.h"
 
 struct glint_writer {
