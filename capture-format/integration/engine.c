@@ -87,7 +87,8 @@ static void light(const struct surface *s, double rgb[3]) {
     const double facing = dot(s->normal, sun);
     const vec above = along(s->at, s->normal, 1e-4);
     const double direct = facing > 0 && cast(above, sun).distance == INFINITY ? 2 * facing : 0;
-    for (int c = 0; c < 3; c++) rgb[c] = s->albedo[c] / 255.0 * (direct + 0.35 + 0.15 * s->normal.y);
+    const double diffuse = 1 - s->material[1] / 255.0; /* metals have no diffuse reflection */
+    for (int c = 0; c < 3; c++) rgb[c] = diffuse * s->albedo[c] / 255 * (direct + 0.35 + 0.15 * s->normal.y);
 }
 
 /* ---- Textures ---- */

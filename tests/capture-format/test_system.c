@@ -54,17 +54,17 @@ static void every_byte_is_kept(UNUSED void **state) {
 static void offsets_have_64_bits(UNUSED void **state) {
     char path[512], byte = 0;
     size_t got = 0;
-    const uint64_t far = ((uint64_t)5 << 30) + 3;
+    const uint64_t beyond = ((uint64_t)5 << 30) + 3;
     glint_file file = glint_file_create(fixture_path(path, "sparse"));
-    assert_true(glint_file_write(file, "x", 1, far));
+    assert_true(glint_file_write(file, "x", 1, beyond));
     assert_true(glint_file_close(file));
     file = glint_file_open(path);
     struct glint_file_info info;
     assert_true(glint_file_describe(file, &info));
-    assert_true(info.bytes == far + 1);
-    assert_true(glint_file_read(file, &byte, 1, far, &got) && got == 1 && byte == 'x');
-    assert_true(glint_file_read(file, &byte, 1, far - ((uint64_t)1 << 32), &got) && got == 1 && byte == 0);
-    assert_true(glint_file_read(file, &byte, 1, far + 1, &got) && got == 0);
+    assert_true(info.bytes == beyond + 1);
+    assert_true(glint_file_read(file, &byte, 1, beyond, &got) && got == 1 && byte == 'x');
+    assert_true(glint_file_read(file, &byte, 1, beyond - ((uint64_t)1 << 32), &got) && got == 1 && byte == 0);
+    assert_true(glint_file_read(file, &byte, 1, beyond + 1, &got) && got == 0);
     assert_true(glint_file_close(file));
     assert_true(glint_path_remove(path));
 }
