@@ -47,6 +47,10 @@ struct glint_exr {
     size_t part_count;
 };
 
+/* glint_exr_write; a durable file is on the disk before it gets its name, so that a machine that stops leaves no empty one. */
+bool glint_exr_write_file(const char *path, const struct glint_exr_part *parts, size_t count, uint32_t threads,
+                          bool durable, struct glint_error *err);
+
 /* Receives lines y .. y + lines - 1 of the requested channels, as stored: planes[i] is the first line of channel i (NULL
    for a NULL name), the next line is line_bytes further. Called from several threads, each line once. */
 typedef bool (*glint_exr_rows_fn)(void *user, uint32_t y, uint32_t lines, const uint8_t *const *planes,

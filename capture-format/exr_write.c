@@ -305,8 +305,8 @@ static bool write_file(struct job *job, size_t chunk_bytes, uint32_t threads) {
     return ok;
 }
 
-bool glint_exr_write(const char *path, const struct glint_exr_part *parts, size_t count, uint32_t threads,
-                     struct glint_error *err) {
+bool glint_exr_write_file(const char *path, const struct glint_exr_part *parts, size_t count, uint32_t threads,
+                          bool durable, struct glint_error *err) {
     struct glint_arena arena = {0};
     struct job job = {.path = path, .stream = {.file = GLINT_NO_FILE, .path = path}};
     size_t chunk_bytes = 0;
@@ -332,6 +332,8 @@ bool glint_exr_write(const char *path, const struct glint_exr_part *parts, size_
     }
     ok = write_file(&job, chunk_bytes, threads);
     if (!ok && err) *err = job.first;
+    if (ok && durable && !glint_file_sync(job.stream.file))
+        ok = glint_fail(err, GLINT_ERROR_IO, "%s: %s", temporary, strerror(errno));
     if (!glint_file_close(job.stream.file) && ok)
         ok = glint_fail(err, GLINT_ERROR_IO, "%s: %s", temporary, strerror(errno));
     if (ok && !glint_path_replace(temporary, path))
@@ -342,4 +344,9 @@ done:
     glint_mutex_finish(&job.lock);
     glint_arena_finish(&arena);
     return ok;
+}
+
+bool glint_exr_write(const char *path, const struct glint_exr_part *parts, size_t count, uint32_t threads,
+                     struct glint_error *err) {
+    return glint_exr_write_file(path, parts, count, threads, false, err);
 }

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "exr_internal.h"
 #include "sibling.h"
 #include "system.h"
 #include "writer_part.h"
@@ -164,7 +165,7 @@ static bool write_now(struct glint_writer *writer, struct glint_error *err) {
     if (!files) return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", writer->path);
     bool ok = hash_siblings(writer, err);
     for (size_t i = 0; i < writer->count; i++) files[i] = writer->parts[i]->file;
-    ok = ok && glint_exr_write(writer->path, files, writer->count, writer->options.threads, err);
+    ok = ok && glint_exr_write_file(writer->path, files, writer->count, writer->options.threads, true, err);
     free(files);
     for (size_t i = 0; i < writer->count; i++) glint_writer_part_destroy(&writer->parts[i]);
     writer->count = 0;

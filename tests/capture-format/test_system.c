@@ -119,11 +119,12 @@ static void long_paths_work(UNUSED void **state) {
         path[lengths[count]] = 0;
 #ifdef _WIN32
         char prefixed[600];
+        wchar_t wide[600];
         snprintf(prefixed, sizeof prefixed, "\\\\?\\%s", path);
-        if (path[1] != ':') continue; /* the prefix takes full paths with backslashes only */
         for (char *c = prefixed; *c; c++)
             if (*c == '/') *c = '\\';
-        assert_true(RemoveDirectoryA(prefixed));
+        assert_true(MultiByteToWideChar(CP_UTF8, 0, prefixed, -1, wide, 600) > 0);
+        assert_true(RemoveDirectoryW(wide));
 #else
         assert_int_equal(rmdir(path), 0);
 #endif
