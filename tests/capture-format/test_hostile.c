@@ -61,14 +61,19 @@ static void damage_is_read_or_refused(UNUSED void **state) {
     uint8_t *copy = malloc(size);
     assert_non_null(copy);
     size_t refused = 0;
-    for (uint32_t seed = 0; seed < 3000; seed++) {
+#ifdef _WIN32
+    const uint32_t seeds = 500; /* Wine takes a while to start a thread; what is done with the bytes is the same */
+#else
+    const uint32_t seeds = 3000;
+#endif
+    for (uint32_t seed = 0; seed < seeds; seed++) {
         struct glint_error err = {0};
         memcpy(copy, whole, size);
         refused += !hostile_use_bytes(copy, hostile_damage(copy, size, seed), &err);
     }
     free(copy);
     /* Most of the damage must hit something relevant. */
-    assert_true(refused > 1000);
+    assert_true(refused > seeds / 3);
 }
 
 /* ---- a single wrong value ---- */
