@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "fixture.h"
+#include "glint/edit.h"
 #include "rewrite.h"
 #include "unit.h"
 
@@ -145,6 +146,12 @@ static void a_reader_refuses_such_names(UNUSED void **state) {
         rewrite_save(&r, capture_path);
         rewrite_finish(&r);
         assert_refused("plain file name");
+        /* A copy elsewhere would take the sibling's pixels along; "./probes.exr" even has the right hash. */
+        struct glint_edit *edit = glint_edit_open(capture_path, NULL, NULL, NULL, &err);
+        if (!edit) fail_msg("%s", err.message);
+        assert_false(glint_edit_write(edit, "/nowhere/copy.exr", &err));
+        if (!strstr(err.message, "plain file name")) fail_msg("\"%s\": %s", hostile[i], err.message);
+        glint_edit_close(&edit);
     }
 }
 
