@@ -107,6 +107,7 @@ def link(folder, native, place):
 def main(windows, native, folder):
     with tempfile.TemporaryDirectory() as place:
         os.environ.update(WINEPREFIX=os.path.join(place, "wine"), WINEDEBUG="-all", WINEDLLOVERRIDES="mscoree,mshtml=")
+        os.mkdir(os.environ["WINEPREFIX"])
         run(WINESERVER, "-p")  # stays between programs, whose start is quick then
         try:
             run(WINE, "wineboot", "-i", stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
