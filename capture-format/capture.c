@@ -5,6 +5,7 @@
 #include "attributes.h"
 #include "capture_internal.h"
 #include "hash.h"
+#include "sibling.h"
 
 static bool fail_memory(const struct glint_check *check) {
     return glint_fail(check->err, GLINT_ERROR_MEMORY, "%s: out of memory", check->file);
@@ -36,7 +37,7 @@ static struct glint_sibling *open_sibling(struct glint_capture *capture, struct 
         return NULL;
     }
     sibling->exr = glint_exr_open(path, &limits, &err);
-    if (sibling->exr && !glint_hash_fd(sibling->exr->stream.fd, path, sibling->hex, &err))
+    if (sibling->exr && !glint_hash_file(sibling->exr->stream.file, path, sibling->hex, &err))
         glint_exr_close(&sibling->exr);
     free(path);
     capture->sibling_count++;
@@ -159,5 +160,5 @@ const struct glint_part_info *glint_capture_find(const struct glint_capture *cap
 }
 
 bool glint_capture_hash(struct glint_capture *capture, char hex[33], struct glint_error *err) {
-    return glint_hash_fd(capture->exr->stream.fd, capture->exr->path, hex, err);
+    return glint_hash_file(capture->exr->stream.file, capture->exr->path, hex, err);
 }

@@ -13,9 +13,7 @@ struct glint_check {
 };
 
 /* `part` and `channel` may be NULL. True if checking continues. */
-#if defined(__GNUC__)
-__attribute__((format(printf, 5, 6)))
-#endif
+GLINT_PRINTF(5, 6)
 bool glint_violation(struct glint_check *check, enum glint_rule rule, const char *part, const char *channel,
                      const char *format, ...);
 

@@ -3,10 +3,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 #include "edit_internal.h"
 #include "hash.h"
+#include "sibling.h"
 
 static bool fail_memory(const struct glint_edit *edit, struct glint_error *err) {
     return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", edit->exr->path);
@@ -174,13 +174,19 @@ static struct glint_exr *open_sibling(struct glint_edit *edit, const char *name,
                                       struct glint_error *err) {
     for (size_t i = 0; i < edit->sibling_count; i++)
         if (!strcmp(edit->siblings[i].name, name)) return edit->siblings[i].exr;
+    if (!glint_sibling_is_plain(name)) {
+        glint_fail(err, GLINT_ERROR_FORMAT,
+                   "%s: " GLINT_SIBLING_ATTRIBUTE ": expected a plain file name, found \"%.80s\"", edit->exr->path,
+                   name);
+        return NULL;
+    }
     char hex[33] = "", *path = glint_sibling_path(edit->exr->path, name);
     struct glint_edit_sibling *sibling = &edit->siblings[edit->sibling_count];
     sibling->name = glint_arena_string(&edit->arena, name);
     if (path && sibling->name) sibling->exr = glint_exr_open(path, &edit->exr->limits, err);
     else fail_memory(edit, err);
     edit->sibling_count += sibling->exr != NULL;
-    bool ok = sibling->exr && glint_hash_fd(sibling->exr->stream.fd, path, hex, err);
+    bool ok = sibling->exr && glint_hash_file(sibling->exr->stream.file, path, hex, err);
     if (ok && strcmp(hex, expected) != 0)
         ok = glint_fail(err, GLINT_ERROR_FORMAT, "%s: sibling %s: expected the hash %s, found %s", edit->exr->path,
                         name, expected, hex);
@@ -357,21 +363,17 @@ bool glint_edit_crop_part(struct glint_edit *edit, size_t i, const struct glint_
 
 /* ---- Writing ---- */
 
-static bool same_file(const struct stat *a, const struct stat *b) {
-    return a->st_dev == b->st_dev && a->st_ino == b->st_ino;
-}
-
 /* The input's identity counts, since links and other spellings of its path lead to the same bytes. */
 static bool check_target(const struct glint_edit *edit, const char *path, struct glint_error *err) {
-    struct stat target, file;
-    if (stat(path, &target) != 0) return true;
-    if (fstat(edit->exr->stream.fd, &file) == 0 && same_file(&target, &file))
+    struct glint_file_info target, file;
+    if (!glint_path_describe(path, &target)) return true;
+    if (glint_file_describe(edit->exr->stream.file, &file) && glint_file_same(&target, &file))
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: is the input %s itself; expected another file for the copy",
                           path, edit->exr->path);
     for (size_t i = 0; i < edit->exr->part_count; i++) {
         const struct glint_exr_attribute *a = glint_exr_attribute(&edit->exr->parts[i].info, GLINT_SIBLING_ATTRIBUTE);
         char *sibling = a && a->type == GLINT_EXR_STRING ? glint_sibling_path(edit->exr->path, a->string) : NULL;
-        const bool same = sibling && stat(sibling, &file) == 0 && same_file(&target, &file);
+        const bool same = sibling && glint_path_describe(sibling, &file) && glint_file_same(&target, &file);
         free(sibling);
         if (same)
             return glint_fail(err, GLINT_ERROR_USAGE, "%s: holds cube maps of the input; expected another file", path);
@@ -380,10 +382,10 @@ static bool check_target(const struct glint_edit *edit, const char *path, struct
 }
 
 static bool in_same_folder(const struct glint_edit *edit, const char *path) {
-    struct stat from, to;
+    struct glint_file_info from, to;
     char *folders[2] = {glint_sibling_path(edit->exr->path, "."), glint_sibling_path(path, ".")};
-    const bool same =
-        folders[0] && folders[1] && stat(folders[0], &from) == 0 && stat(folders[1], &to) == 0 && same_file(&from, &to);
+    const bool same = folders[0] && folders[1] && glint_path_describe(folders[0], &from) &&
+                      glint_path_describe(folders[1], &to) && glint_file_same(&from, &to);
     free(folders[0]);
     free(folders[1]);
     return same;

@@ -206,14 +206,18 @@ static bool set_planes(const struct value *v, size_t part, const char *attribute
 
 /* The items of a list that is separated by commas, in the edit's arena; NULL if memory is exhausted. */
 static const char **split(const struct value *v, size_t *count) {
-    char *copy = glint_arena_string(&v->edit->arena, v->text), *item;
+    char *copy = glint_arena_string(&v->edit->arena, v->text);
     const char **items = glint_arena_take(&v->edit->arena, (strlen(v->text) + 1) * sizeof *items);
     *count = 0;
     if (!copy || !items) {
         glint_fail(v->err, GLINT_ERROR_MEMORY, "out of memory");
         return NULL;
     }
-    while ((item = strsep(&copy, ",")) != NULL) items[(*count)++] = item;
+    for (char *comma; copy; copy = comma) {
+        items[(*count)++] = copy;
+        comma = strchr(copy, ',');
+        if (comma) *comma++ = 0;
+    }
     return items;
 }
 

@@ -48,9 +48,7 @@ struct glint_edit {
     void *user;
 };
 
-#if defined(__GNUC__)
-__attribute__((format(printf, 2, 3)))
-#endif
+GLINT_PRINTF(2, 3)
 void glint_edit_say(const struct glint_edit *edit, const char *format, ...);
 /* Takes the pixels of a part from its sibling into the copy. Does nothing to other parts. */
 bool glint_edit_resolve(struct glint_edit *edit, struct glint_edit_part *part, struct glint_error *err);

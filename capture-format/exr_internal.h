@@ -3,19 +3,19 @@
 #define GLINT_EXR_INTERNAL_H
 
 #include <openexr.h>
-#include <pthread.h>
 
 #include "arena.h"
 #include "glint/exr.h"
+#include "system.h"
 
 /* A file that glint opened for OpenEXRCore, and the last error of OpenEXRCore. */
 struct glint_exr_stream {
-    int fd;
+    glint_file file;
     uint64_t bytes;     /* size of the file */
     uint64_t allowance; /* bytes that may still be read through the stream, which chunks bypass */
     bool exceeded;      /* more than the allowance was requested */
     const char *path;
-    pthread_mutex_t lock;
+    glint_mutex lock;
     char complaint[256];
 };
 
@@ -46,6 +46,10 @@ struct glint_exr {
     struct glint_exr_part_file *parts;
     size_t part_count;
 };
+
+/* glint_exr_write; a durable file is on the disk before it gets its name, so that a machine that stops leaves no empty one. */
+bool glint_exr_write_file(const char *path, const struct glint_exr_part *parts, size_t count, uint32_t threads,
+                          bool durable, struct glint_error *err);
 
 /* Receives lines y .. y + lines - 1 of the requested channels, as stored: planes[i] is the first line of channel i (NULL
    for a NULL name), the next line is line_bytes further. Called from several threads, each line once. */

@@ -1,11 +1,8 @@
 /* Opens an EXR file: headers and attributes, checked against limits before memory is taken. */
 #include <errno.h>
-#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include "exr_internal.h"
 #include "registry.h"
@@ -18,21 +15,14 @@ static int64_t stream_read(exr_const_context_t context, void *user, void *buffer
                            exr_stream_error_func_ptr_t error) {
     (void)context, (void)error;
     struct glint_exr_stream *stream = user;
-    pthread_mutex_lock(&stream->lock);
+    glint_mutex_lock(&stream->lock);
     const bool allowed = size <= stream->allowance;
     if (allowed) stream->allowance -= size;
     else stream->exceeded = true;
-    pthread_mutex_unlock(&stream->lock);
+    glint_mutex_unlock(&stream->lock);
     if (!allowed || offset > INT64_MAX) return -1;
-    uint64_t done = 0;
-    while (done < size) {
-        const ssize_t got = pread(stream->fd, (char *)buffer + done, size - done, (off_t)(offset + done));
-        if (got < 0 && errno == EINTR) continue;
-        if (got < 0) return -1;
-        if (got == 0) break;
-        done += (uint64_t)got;
-    }
-    return (int64_t)done;
+    size_t got = 0;
+    return glint_file_read(stream->file, buffer, size, offset, &got) ? (int64_t)got : -1;
 }
 
 static int64_t stream_size(exr_const_context_t context, void *user) {
@@ -46,20 +36,20 @@ static void store_complaint(exr_const_context_t context, exr_result_t code, cons
     void *user = NULL;
     if (!context || exr_get_user_data(context, &user) || !user) return;
     struct glint_exr_stream *stream = user;
-    pthread_mutex_lock(&stream->lock);
+    glint_mutex_lock(&stream->lock);
     snprintf(stream->complaint, sizeof stream->complaint, "%s", message ? message : "");
-    pthread_mutex_unlock(&stream->lock);
+    glint_mutex_unlock(&stream->lock);
 }
 
 static bool open_file(struct glint_exr *exr, struct glint_error *err) {
-    struct stat info;
-    exr->stream.fd = open(exr->path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (exr->stream.fd < 0) return glint_fail(err, GLINT_ERROR_IO, "%s: %s", exr->path, strerror(errno));
-    if (fstat(exr->stream.fd, &info)) return glint_fail(err, GLINT_ERROR_IO, "%s: %s", exr->path, strerror(errno));
-    if (!S_ISREG(info.st_mode))
+    struct glint_file_info info;
+    exr->stream.file = glint_file_open(exr->path);
+    if (exr->stream.file == GLINT_NO_FILE || !glint_file_describe(exr->stream.file, &info))
+        return glint_fail(err, GLINT_ERROR_IO, "%s: %s", exr->path, strerror(errno));
+    if (info.kind != GLINT_FILE_REGULAR)
         return glint_fail(err, GLINT_ERROR_IO, "%s: expected an EXR file, found %s", exr->path,
-                          S_ISDIR(info.st_mode) ? "a folder" : "another kind of file");
-    exr->stream.bytes = (uint64_t)info.st_size;
+                          info.kind == GLINT_FILE_FOLDER ? "a folder" : "another kind of file");
+    exr->stream.bytes = info.bytes;
     if (exr->stream.bytes > exr->limits.file_bytes)
         return glint_fail(err, GLINT_ERROR_LIMIT, "%s: file of %llu bytes, the limit is %llu", exr->path,
                           (unsigned long long)exr->stream.bytes, (unsigned long long)exr->limits.file_bytes);
@@ -208,8 +198,8 @@ struct glint_exr *glint_exr_open(const char *path, const struct glint_limits *li
     if (!exr->limits.memory_bytes) exr->limits.memory_bytes = (uint64_t)4 << 30;
     if (!exr->limits.width || exr->limits.width > 1u << 26) exr->limits.width = 32768;
     if (!exr->limits.parts) exr->limits.parts = 1024;
-    pthread_mutex_init(&exr->stream.lock, NULL);
-    exr->stream.fd = -1;
+    glint_mutex_init(&exr->stream.lock);
+    exr->stream.file = GLINT_NO_FILE;
     exr->path = glint_arena_string(&exr->arena, path);
     if (!exr->path) glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
     if (!exr->path || !open_file(exr, err) || !start_reading(exr, err) || !read_parts(exr, err)) glint_exr_close(&exr);
@@ -219,8 +209,8 @@ struct glint_exr *glint_exr_open(const char *path, const struct glint_limits *li
 void glint_exr_close(struct glint_exr **exr) {
     if (!exr || !*exr) return;
     if ((*exr)->context) exr_finish(&(*exr)->context);
-    if ((*exr)->stream.fd >= 0) close((*exr)->stream.fd);
-    pthread_mutex_destroy(&(*exr)->stream.lock);
+    if ((*exr)->stream.file != GLINT_NO_FILE) glint_file_close((*exr)->stream.file);
+    glint_mutex_finish(&(*exr)->stream.lock);
     glint_arena_finish(&(*exr)->arena);
     free(*exr);
     *exr = NULL;

@@ -4,7 +4,6 @@
 #include <libdeflate.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "exr_internal.h"
 #include "threads.h"
@@ -23,17 +22,17 @@ struct job {
     glint_exr_rows_fn rows;
     void *user;
     struct worker workers[GLINT_MAX_WORKERS];
-    pthread_mutex_t lock;
+    glint_mutex lock;
     struct glint_error first;
 };
 
 static bool chunk_fail(struct job *job, size_t index, enum glint_code code, const char *what) {
     const struct glint_exr_part_file *part = &job->exr->parts[job->part];
-    pthread_mutex_lock(&job->lock);
+    glint_mutex_lock(&job->lock);
     if (job->first.code == GLINT_OK)
         glint_fail(&job->first, code, "%s: part %s: chunk %zu of %u: %s", job->exr->path, part->info.name, index,
                    part->chunk_count, what);
-    pthread_mutex_unlock(&job->lock);
+    glint_mutex_unlock(&job->lock);
     return false;
 }
 
@@ -72,15 +71,10 @@ static bool read_packed(struct job *job, struct worker *worker, const exr_chunk_
         if (!worker->packed) return chunk_fail(job, index, GLINT_ERROR_MEMORY, "out of memory");
         worker->packed_bytes = chunk->packed_size;
     }
-    for (uint64_t done = 0; done < chunk->packed_size;) {
-        const ssize_t got = pread(job->exr->stream.fd, worker->packed + done, chunk->packed_size - done,
-                                  (off_t)(chunk->data_offset + done));
-        if (got < 0 && errno == EINTR) continue;
-        if (got < 0) return chunk_fail(job, index, GLINT_ERROR_IO, strerror(errno));
-        if (got == 0) return chunk_fail(job, index, GLINT_ERROR_FORMAT, "the file ends inside it");
-        done += (uint64_t)got;
-    }
-    return true;
+    size_t got = 0;
+    if (!glint_file_read(job->exr->stream.file, worker->packed, chunk->packed_size, chunk->data_offset, &got))
+        return chunk_fail(job, index, GLINT_ERROR_IO, strerror(errno));
+    return got == chunk->packed_size || chunk_fail(job, index, GLINT_ERROR_FORMAT, "the file ends inside it");
 }
 
 static bool read_chunk(void *user, uint32_t w, size_t index) {
@@ -150,7 +144,7 @@ bool glint_exr_rows(struct glint_exr *exr, size_t p, const char *const *channels
                           (unsigned long long)(exr->limits.memory_bytes / GLINT_CHUNK_SHARE / 6));
     uint32_t workers = glint_loop_workers(part->chunk_count, threads);
     if (fit < workers) workers = (uint32_t)fit;
-    pthread_mutex_init(&job.lock, NULL);
+    glint_mutex_init(&job.lock);
     bool ok = true;
     for (uint32_t i = 0; i < workers && ok; i++) {
         job.workers[i].unpacked = malloc(chunk_bytes);
@@ -167,7 +161,7 @@ bool glint_exr_rows(struct glint_exr *exr, size_t p, const char *const *channels
         free(job.workers[i].scratch);
         if (job.workers[i].zip) libdeflate_free_decompressor(job.workers[i].zip);
     }
-    pthread_mutex_destroy(&job.lock);
+    glint_mutex_finish(&job.lock);
     return ok;
 }
 

@@ -1,11 +1,9 @@
 /* Writes a multi-part EXR file: chunks are packed and compressed on all cores and written in order. */
 #include <errno.h>
-#include <fcntl.h>
 #include <libdeflate.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "exr_internal.h"
 #include "threads.h"
@@ -33,19 +31,19 @@ struct job {
     exr_context_t context;
     struct glint_exr_stream stream;
     struct worker workers[GLINT_MAX_WORKERS];
-    pthread_mutex_t lock;
-    pthread_cond_t turn;
+    glint_mutex lock;
+    glint_condition turn;
     size_t next; /* the chunk to be written next */
     bool failed;
     struct glint_error first;
 };
 
 static bool job_fail(struct job *job, enum glint_code code, const char *part, const char *what) {
-    pthread_mutex_lock(&job->lock);
+    glint_mutex_lock(&job->lock);
     if (!job->failed) glint_fail(&job->first, code, "%s: part %s: %s", job->path, part, what);
     job->failed = true;
-    pthread_cond_broadcast(&job->turn);
-    pthread_mutex_unlock(&job->lock);
+    glint_condition_wake_all(&job->turn);
+    glint_mutex_unlock(&job->lock);
     return false;
 }
 
@@ -53,17 +51,9 @@ static int64_t stream_write(exr_const_context_t context, void *user, const void 
                             exr_stream_error_func_ptr_t error) {
     (void)context, (void)error;
     struct glint_exr_stream *stream = user;
-    uint64_t done = 0;
-    while (done < size) {
-        const ssize_t got = pwrite(stream->fd, (const char *)buffer + done, size - done, (off_t)(offset + done));
-        if (got < 0 && errno == EINTR) continue;
-        if (got <= 0) {
-            snprintf(stream->complaint, sizeof stream->complaint, "%s", strerror(got ? errno : ENOSPC));
-            return -1;
-        }
-        done += (uint64_t)got;
-    }
-    return (int64_t)done;
+    if (glint_file_write(stream->file, buffer, size, offset)) return (int64_t)size;
+    snprintf(stream->complaint, sizeof stream->complaint, "%s", strerror(errno));
+    return -1;
 }
 
 static void store_complaint(exr_const_context_t context, exr_result_t code, const char *message) {
@@ -161,19 +151,19 @@ static bool compress_foreign(struct job *job, int part, uint32_t y, struct forei
 }
 
 static bool write_in_turn(struct job *job, size_t index, int part, uint32_t y, const uint8_t *data, size_t bytes) {
-    pthread_mutex_lock(&job->lock);
-    while (job->next != index && !job->failed) pthread_cond_wait(&job->turn, &job->lock);
+    glint_mutex_lock(&job->lock);
+    while (job->next != index && !job->failed) glint_condition_wait(&job->turn, &job->lock);
     const bool go = !job->failed;
-    pthread_mutex_unlock(&job->lock);
+    glint_mutex_unlock(&job->lock);
     if (!go) return false;
     const exr_result_t rv = exr_write_scanline_chunk(job->context, part, (int)y, data, bytes);
     if (rv)
         return job_fail(job, GLINT_ERROR_IO, job->targets[part].part->name,
                         job->stream.complaint[0] ? job->stream.complaint : exr_get_default_error_message(rv));
-    pthread_mutex_lock(&job->lock);
+    glint_mutex_lock(&job->lock);
     job->next++;
-    pthread_cond_broadcast(&job->turn);
-    pthread_mutex_unlock(&job->lock);
+    glint_condition_wake_all(&job->turn);
+    glint_mutex_unlock(&job->lock);
     return true;
 }
 
@@ -315,16 +305,16 @@ static bool write_file(struct job *job, size_t chunk_bytes, uint32_t threads) {
     return ok;
 }
 
-bool glint_exr_write(const char *path, const struct glint_exr_part *parts, size_t count, uint32_t threads,
-                     struct glint_error *err) {
+bool glint_exr_write_file(const char *path, const struct glint_exr_part *parts, size_t count, uint32_t threads,
+                          bool durable, struct glint_error *err) {
     struct glint_arena arena = {0};
-    struct job job = {.path = path, .stream = {.fd = -1, .path = path}};
+    struct job job = {.path = path, .stream = {.file = GLINT_NO_FILE, .path = path}};
     size_t chunk_bytes = 0;
     bool ok = false;
     const size_t length = strlen(path) + 32;
     char *temporary = glint_arena_take(&arena, length);
-    pthread_mutex_init(&job.lock, NULL);
-    pthread_cond_init(&job.turn, NULL);
+    glint_mutex_init(&job.lock);
+    glint_condition_init(&job.turn);
     if (!temporary) {
         glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
         goto done;
@@ -334,20 +324,29 @@ bool glint_exr_write(const char *path, const struct glint_exr_part *parts, size_
         goto done;
     }
     if (!plan_chunks(&job, parts, count, &arena, &chunk_bytes, err)) goto done;
-    snprintf(temporary, length, "%s.tmp-%ld", path, (long)getpid());
-    job.stream.fd = open(temporary, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (job.stream.fd < 0) {
+    snprintf(temporary, length, "%s.tmp-%ld", path, glint_process_id());
+    job.stream.file = glint_file_create(temporary);
+    if (job.stream.file == GLINT_NO_FILE) {
         glint_fail(err, GLINT_ERROR_IO, "%s: %s", temporary, strerror(errno));
         goto done;
     }
     ok = write_file(&job, chunk_bytes, threads);
     if (!ok && err) *err = job.first;
-    if (close(job.stream.fd) && ok) ok = glint_fail(err, GLINT_ERROR_IO, "%s: %s", temporary, strerror(errno));
-    if (ok && rename(temporary, path)) ok = glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
-    if (!ok) unlink(temporary);
+    if (ok && durable && !glint_file_sync(job.stream.file))
+        ok = glint_fail(err, GLINT_ERROR_IO, "%s: %s", temporary, strerror(errno));
+    if (!glint_file_close(job.stream.file) && ok)
+        ok = glint_fail(err, GLINT_ERROR_IO, "%s: %s", temporary, strerror(errno));
+    if (ok && !glint_path_replace(temporary, path))
+        ok = glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
+    if (!ok) glint_path_remove(temporary);
 done:
-    pthread_cond_destroy(&job.turn);
-    pthread_mutex_destroy(&job.lock);
+    glint_condition_finish(&job.turn);
+    glint_mutex_finish(&job.lock);
     glint_arena_finish(&arena);
     return ok;
+}
+
+bool glint_exr_write(const char *path, const struct glint_exr_part *parts, size_t count, uint32_t threads,
+                     struct glint_error *err) {
+    return glint_exr_write_file(path, parts, count, threads, false, err);
 }

@@ -2,18 +2,16 @@
 #include "hash.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 #include <xxhash.h>
 
 #define STEP ((size_t)1 << 20)
 
-bool glint_hash_fd(int fd, const char *path, char hex[33], struct glint_error *err) {
+bool glint_hash_file(glint_file file, const char *path, char hex[33], struct glint_error *err) {
     bool ok = false;
-    off_t at = 0;
+    uint64_t at = 0;
     XXH3_state_t *state = XXH3_createState();
     char *buffer = malloc(STEP);
     if (!state || !buffer) {
@@ -21,16 +19,12 @@ bool glint_hash_fd(int fd, const char *path, char hex[33], struct glint_error *e
         goto done;
     }
     XXH3_128bits_reset(state);
-    for (;;) {
-        const ssize_t got = pread(fd, buffer, STEP, at);
-        if (got < 0 && errno == EINTR) continue;
-        if (got < 0) {
+    for (size_t got = STEP; got == STEP; at += got) {
+        if (!glint_file_read(file, buffer, STEP, at, &got)) {
             glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
             goto done;
         }
-        if (got == 0) break;
-        XXH3_128bits_update(state, buffer, (size_t)got);
-        at += got;
+        XXH3_128bits_update(state, buffer, got);
     }
     const XXH128_hash_t hash = XXH3_128bits_digest(state);
     snprintf(hex, 33, "%016llx%016llx", (unsigned long long)hash.high64, (unsigned long long)hash.low64);
@@ -38,26 +32,5 @@ bool glint_hash_fd(int fd, const char *path, char hex[33], struct glint_error *e
 done:
     free(buffer);
     XXH3_freeState(state);
-    return ok;
-}
-
-char *glint_sibling_path(const char *path, const char *sibling) {
-    const char *slash = strrchr(path, '/');
-    const size_t folder = slash ? (size_t)(slash - path) + 1 : 0;
-    char *full = malloc(folder + strlen(sibling) + 1);
-    if (!full) return NULL;
-    memcpy(full, path, folder);
-    strcpy(full + folder, sibling);
-    return full;
-}
-
-bool glint_hash_sibling(const char *path, const char *sibling, char hex[33], struct glint_error *err) {
-    char *full = glint_sibling_path(path, sibling);
-    if (!full) return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
-    const int fd = open(full, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    bool ok = fd >= 0 || glint_fail(err, GLINT_ERROR_IO, "%s: sibling of %s: %s", full, path, strerror(errno));
-    ok = ok && glint_hash_fd(fd, full, hex, err);
-    if (fd >= 0) close(fd);
-    free(full);
     return ok;
 }

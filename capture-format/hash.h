@@ -3,12 +3,9 @@
 #define GLINT_HASH_H
 
 #include "glint/common.h"
+#include "system.h"
 
-/* Hashes the whole file regardless of the descriptor's position. `path` is for error messages. */
-bool glint_hash_fd(int fd, const char *path, char hex[33], struct glint_error *err);
-/* The file `sibling` in the folder of `path`. */
-bool glint_hash_sibling(const char *path, const char *sibling, char hex[33], struct glint_error *err);
-/* The sibling's path, to be freed; NULL if memory is exhausted. */
-char *glint_sibling_path(const char *path, const char *sibling);
+/* Hashes the whole file through an open one. `path` is for error messages. */
+bool glint_hash_file(glint_file file, const char *path, char hex[33], struct glint_error *err);
 
 #endif

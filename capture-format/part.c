@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "attributes.h"
+#include "sibling.h"
 
 #define BROKEN(rule, channel, ...) glint_violation(check, GLINT_RULE_##rule, out->name, channel, __VA_ARGS__)
 
@@ -87,8 +88,7 @@ static bool parse_sibling(struct glint_check *check, const struct glint_exr_part
     const struct glint_exr_attribute *a = glint_exr_attribute(from, GLINT_SIBLING_ATTRIBUTE);
     const struct glint_exr_attribute *hash = glint_exr_attribute(from, GLINT_SIBLING_HASH_ATTRIBUTE);
     if (!a) return true;
-    if (a->type != GLINT_EXR_STRING || !a->string[0] || strlen(a->string) >= sizeof out->sibling ||
-        strpbrk(a->string, "/\\") || !strcmp(a->string, ".") || !strcmp(a->string, ".."))
+    if (a->type != GLINT_EXR_STRING || strlen(a->string) >= sizeof out->sibling || !glint_sibling_is_plain(a->string))
         return BROKEN(SIBLING, NULL, "%s: expected a plain file name, found \"%.80s\"", GLINT_SIBLING_ATTRIBUTE,
                       a->type == GLINT_EXR_STRING ? a->string : a->type_name);
     if (!hash || hash->type != GLINT_EXR_STRING || strlen(hash->string) != 32 ||

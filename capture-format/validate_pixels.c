@@ -32,7 +32,7 @@ struct job {
     int depth; /* the plane of depth, which marks sky; -1 for none */
     int alpha; /* the plane of alpha, which marks sky in a cube map; -1 for none */
     uint32_t width;
-    pthread_mutex_t lock;
+    glint_mutex lock;
     struct tallies found[GLINT_EXR_MAX_WANTED]; /* under the lock */
 };
 
@@ -171,14 +171,14 @@ static bool check_rows(void *user, uint32_t y, uint32_t lines, const uint8_t *co
             const size_t count = job->width - x < GLINT_BLOCK ? job->width - x : GLINT_BLOCK;
             check_block(job, found, planes, l * line_bytes, x, count, (size_t)(y + l) * job->width + x);
         }
-    pthread_mutex_lock(&job->lock);
+    glint_mutex_lock(&job->lock);
     for (size_t c = 0; c < job->count; c++) {
         merge_tallies(&job->found[c].not_finite, &found[c].not_finite);
         merge_tallies(&job->found[c].out_of_range, &found[c].out_of_range);
         merge_tallies(&job->found[c].not_unit, &found[c].not_unit);
         merge_tallies(&job->found[c].against_sky, &found[c].against_sky);
     }
-    pthread_mutex_unlock(&job->lock);
+    glint_mutex_unlock(&job->lock);
     return true;
 }
 
@@ -224,10 +224,10 @@ bool glint_validate_pixels(struct glint_check *check, struct glint_capture *capt
     if (!part->role || !part->role->channels) return true;
     struct job job = {.decoder = glint_decoder_of(capture, part), .width = part->width};
     plan_checks(&job, part);
-    pthread_mutex_init(&job.lock, NULL);
+    glint_mutex_init(&job.lock);
     const bool ok = glint_exr_rows(capture->sources[p].exr, capture->sources[p].part, job.names, job.count, 0,
                                    check_rows, &job, err);
-    pthread_mutex_destroy(&job.lock);
+    glint_mutex_finish(&job.lock);
     for (size_t c = 0; ok && c < job.count; c++) {
         const struct channel *channel = &job.channels[c];
         float low, high;

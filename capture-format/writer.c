@@ -1,10 +1,11 @@
 /* The writer: copies the engine's data, checks it by the reader's rules, and writes it at once or on a worker thread. */
-#include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "hash.h"
+#include "exr_internal.h"
+#include "sibling.h"
+#include "system.h"
 #include "writer_part.h"
 
 struct glint_writer {
@@ -14,7 +15,7 @@ struct glint_writer {
     size_t count, capacity;
     bool has_frame, finished, started;
     struct glint_frame frame;
-    pthread_t worker;
+    struct glint_thread worker;
     bool result;
     struct glint_error error;
 };
@@ -164,17 +165,16 @@ static bool write_now(struct glint_writer *writer, struct glint_error *err) {
     if (!files) return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", writer->path);
     bool ok = hash_siblings(writer, err);
     for (size_t i = 0; i < writer->count; i++) files[i] = writer->parts[i]->file;
-    ok = ok && glint_exr_write(writer->path, files, writer->count, writer->options.threads, err);
+    ok = ok && glint_exr_write_file(writer->path, files, writer->count, writer->options.threads, true, err);
     free(files);
     for (size_t i = 0; i < writer->count; i++) glint_writer_part_destroy(&writer->parts[i]);
     writer->count = 0;
     return ok;
 }
 
-static void *run_worker(void *user) {
+static void run_worker(void *user) {
     struct glint_writer *writer = user;
     writer->result = write_now(writer, &writer->error);
-    return NULL;
 }
 
 bool glint_writer_finish(struct glint_writer *writer, struct glint_error *err) {
@@ -183,7 +183,7 @@ bool glint_writer_finish(struct glint_writer *writer, struct glint_error *err) {
     writer->error = (struct glint_error){0};
     if (writer->count) qsort(writer->parts, writer->count, sizeof *writer->parts, gbuffer_first);
     if (!attach_frame(writer, &writer->error) || !check_all(writer, &writer->error)) writer->result = false;
-    else if (!writer->options.background || pthread_create(&writer->worker, NULL, run_worker, writer))
+    else if (!writer->options.background || !glint_thread_start(&writer->worker, run_worker, writer))
         run_worker(writer);
     else writer->started = true;
     if (!writer->started && !writer->result && err) *err = writer->error;
@@ -191,7 +191,7 @@ bool glint_writer_finish(struct glint_writer *writer, struct glint_error *err) {
 }
 
 bool glint_writer_wait(struct glint_writer *writer, struct glint_error *err) {
-    if (writer->started) pthread_join(writer->worker, NULL);
+    if (writer->started) glint_thread_join(&writer->worker);
     writer->started = false;
     if (!writer->result && err) *err = writer->error;
     return writer->result;
@@ -199,7 +199,7 @@ bool glint_writer_wait(struct glint_writer *writer, struct glint_error *err) {
 
 void glint_writer_destroy(struct glint_writer **writer) {
     if (!writer || !*writer) return;
-    if ((*writer)->started) pthread_join((*writer)->worker, NULL);
+    if ((*writer)->started) glint_thread_join(&(*writer)->worker);
     for (size_t i = 0; i < (*writer)->count; i++) glint_writer_part_destroy(&(*writer)->parts[i]);
     free((*writer)->parts);
     free((*writer)->path);

@@ -61,6 +61,12 @@ for f in files:
             named = re.match(r'\s*#\s*include\s*"([^"]*\.\./[^"]*)"', line)
             if named and os.path.normpath(os.path.join(os.path.dirname(f), named[1])).split("/")[:depth] != f.split("/")[:depth]:
                 faults.append(f"{f}:{n}: includes {named[1]}, which leaves its room; expected a header that the build lets it see")
+# Engines link libglint-capture on Windows, too.
+for f in files:
+    if f.startswith("capture-format/") and not f.startswith("capture-format/system/") and f.endswith((".c", ".h", ".cc")):
+        with open(f, encoding="utf-8") as text:
+            faults += [f"{f}:{n}: {line.strip()}, expected a function of system.h" for n, line in enumerate(text, 1)
+                       if re.match(r"\s*#\s*include\s*<(pthread|unistd|fcntl|dirent|sys/|windows)", line)]
 generated = tempfile.TemporaryDirectory()
 os.mkdir(os.path.join(generated.name, "glint"))
 subprocess.run([sys.executable, "passes/table.py", "rows", os.path.join(generated.name, "glint/row_kinds.h")], check=True)

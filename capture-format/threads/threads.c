@@ -1,9 +1,9 @@
 /* A parallel loop over indices. */
 #include "threads.h"
 
-#include <pthread.h>
 #include <stdatomic.h>
-#include <unistd.h>
+
+#include "system.h"
 
 struct loop {
     size_t count;
@@ -16,10 +16,10 @@ struct loop {
 struct worker {
     struct loop *loop;
     uint32_t index;
-    pthread_t thread;
+    struct glint_thread thread;
 };
 
-static void *run_worker(void *user) {
+static void run_worker(void *user) {
     struct worker *worker = user;
     struct loop *loop = worker->loop;
     while (!atomic_load(&loop->failed)) {
@@ -27,12 +27,11 @@ static void *run_worker(void *user) {
         if (i >= loop->count) break;
         if (!loop->fn(loop->user, worker->index, i)) atomic_store(&loop->failed, true);
     }
-    return NULL;
 }
 
 uint32_t glint_loop_workers(size_t count, uint32_t threads) {
-    const long cores = threads ? (long)threads : sysconf(_SC_NPROCESSORS_ONLN);
-    uint32_t workers = cores < 1 ? 1 : cores > GLINT_MAX_WORKERS ? GLINT_MAX_WORKERS : (uint32_t)cores;
+    uint32_t workers = threads ? threads : glint_cores();
+    if (workers > GLINT_MAX_WORKERS) workers = GLINT_MAX_WORKERS;
     if (count < workers) workers = count ? (uint32_t)count : 1;
     return workers;
 }
@@ -43,10 +42,10 @@ bool glint_loop(size_t count, uint32_t workers, glint_loop_fn fn, void *user) {
     uint32_t started = 1;
     for (; started < workers && started < GLINT_MAX_WORKERS; started++) {
         all[started] = (struct worker){.loop = &loop, .index = started};
-        if (pthread_create(&all[started].thread, NULL, run_worker, &all[started])) break;
+        if (!glint_thread_start(&all[started].thread, run_worker, &all[started])) break;
     }
     all[0] = (struct worker){.loop = &loop};
     run_worker(&all[0]);
-    for (uint32_t i = 1; i < started; i++) pthread_join(all[i].thread, NULL);
+    for (uint32_t i = 1; i < started; i++) glint_thread_join(&all[i].thread);
     return !atomic_load(&loop.failed);
 }

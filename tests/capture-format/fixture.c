@@ -8,6 +8,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#ifdef _WIN32
+#include <direct.h>
+#define mkdir(path, mode) _mkdir(path)
+#define TEMPORARY "TEMP"
+#else
+#define TEMPORARY "TMPDIR"
+#endif
+
 static const double PI = 3.14159265358979323846;
 
 struct glint_camera fixture_camera(const double eye[3], double near, double far) {
@@ -203,7 +211,7 @@ static void remove_folder(void) {
 }
 
 const char *fixture_path(char buffer[512], const char *name) {
-    const char *root = getenv("TMPDIR");
+    const char *root = getenv(TEMPORARY);
     snprintf(buffer, 512, "%.400s/glint-test-%ld", root ? root : "/tmp", (long)getpid());
     if (!mkdir(buffer, 0700) && !folder[0]) {
         snprintf(folder, sizeof folder, "%s", buffer);

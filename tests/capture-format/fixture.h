@@ -54,7 +54,7 @@ struct glint_part fixture_part(const struct fixture *f, enum fixture_part which,
 /* Writes the parts [0, count) and the frame. The smallest valid count is FIXTURE_LIT + 1. */
 bool fixture_write(const struct fixture *f, const char *path, int count, const struct glint_writer_options *options,
                    struct glint_error *err);
-/* A path in the temporary folder of the test ($TMPDIR or /tmp), in the caller's buffer. */
+/* A path in the temporary folder of the test ($TMPDIR or /tmp; TEMP of Windows), in the caller's buffer. */
 const char *fixture_path(char buffer[512], const char *name);
 
 #endif

@@ -5,6 +5,7 @@
 #include <malloc.h>
 #include <stdatomic.h>
 #include <stdlib.h>
+#include <string.h>
 
 static atomic_size_t taken, peak;
 
@@ -50,6 +51,50 @@ static void on_free(const volatile void *p) {
 
 __attribute__((constructor)) static void install(void) {
     __sanitizer_install_malloc_and_free_hooks(on_malloc, on_free);
+}
+
+#elif defined(_WIN32)
+
+/* The linker renames the calls of this program and of libraries that it contains (meson.build); those of DLLs are not seen. */
+void *__real_malloc(size_t bytes);
+void *__real_calloc(size_t n, size_t bytes);
+void *__real_realloc(void *p, size_t bytes);
+void __real_free(void *p);
+void *__wrap_malloc(size_t bytes);
+void *__wrap_calloc(size_t n, size_t bytes);
+void *__wrap_realloc(void *p, size_t bytes);
+void __wrap_free(void *p);
+char *__wrap_strdup(const char *text);
+
+static void *counted(void *p) {
+    if (p) count_heap(_msize(p));
+    return p;
+}
+
+void *__wrap_malloc(size_t bytes) {
+    return counted(__real_malloc(bytes));
+}
+
+void *__wrap_calloc(size_t n, size_t bytes) {
+    return counted(__real_calloc(n, bytes));
+}
+
+void *__wrap_realloc(void *old, size_t bytes) {
+    const size_t before = old ? _msize(old) : 0;
+    void *p = __real_realloc(old, bytes);
+    if (p || !bytes) atomic_fetch_sub(&taken, before);
+    return counted(p);
+}
+
+void __wrap_free(void *p) {
+    if (p) atomic_fetch_sub(&taken, _msize(p));
+    __real_free(p);
+}
+
+char *__wrap_strdup(const char *text) {
+    const size_t bytes = strlen(text) + 1;
+    char *copy = __wrap_malloc(bytes);
+    return copy ? memcpy(copy, text, bytes) : NULL;
 }
 
 #else

@@ -5,8 +5,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/mman.h>
 #include <unistd.h>
+
+#ifndef _WIN32
+#include <sys/mman.h>
+#endif
 
 #include "fixture.h"
 
@@ -61,6 +64,23 @@ bool hostile_use(const char *path, struct glint_error *err) {
     return ok;
 }
 
+#ifdef _WIN32
+
+const char hostile_name[] = "hostile-bytes.exr";
+
+bool hostile_use_bytes(const void *bytes, size_t size, struct glint_error *err) {
+    char path[512];
+    FILE *file = fopen(fixture_path(path, hostile_name), "wb");
+    if (!file || fwrite(bytes, 1, size, file) != size || fclose(file)) abort();
+    const bool ok = hostile_use(path, err);
+    if (unlink(path)) abort(); /* somebody still has it open */
+    return ok;
+}
+
+#else
+
+const char hostile_name[] = "/proc/self/fd/";
+
 bool hostile_use_bytes(const void *bytes, size_t size, struct glint_error *err) {
     char path[64];
     const int fd = memfd_create("hostile", 0);
@@ -70,11 +90,13 @@ bool hostile_use_bytes(const void *bytes, size_t size, struct glint_error *err) 
         if (got <= 0) abort();
         done += (size_t)got;
     }
-    snprintf(path, sizeof path, "/proc/self/fd/%d", fd);
+    snprintf(path, sizeof path, "%s%d", hostile_name, fd);
     const bool ok = hostile_use(path, err);
     close(fd);
     return ok;
 }
+
+#endif
 
 static uint32_t pick(uint32_t seed, uint32_t n, uint32_t below) {
     return (uint32_t)(fixture_noise(seed, n) * below);

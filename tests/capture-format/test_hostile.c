@@ -39,6 +39,13 @@ static size_t find_bytes(const char *text, size_t length, size_t from) {
     return 0;
 }
 
+/* Wine takes a while for each file and thread; what is done with the bytes is the same on every system. */
+#ifdef _WIN32
+enum { EACH_HEADER_BYTE = 11, DAMAGED_FILES = 200 };
+#else
+enum { EACH_HEADER_BYTE = 1, DAMAGED_FILES = 3000 };
+#endif
+
 /* ---- truncated ---- */
 
 static void cut_off_anywhere_is_refused(UNUSED void **state) {
@@ -47,10 +54,10 @@ static void cut_off_anywhere_is_refused(UNUSED void **state) {
     assert_true(hostile_use_bytes(whole, size, &err));
     /* Every byte of the headers and of the last chunk, and every 97th in between. */
     const size_t headers = find_bytes("lineOrder", 9, find_bytes("lineOrder", 9, 0) + 1) + 512;
-    for (size_t cut = 0; cut < size; cut += cut < headers || cut + 512 > size ? 1 : 97) {
+    for (size_t cut = 0; cut < size; cut += cut < headers || cut + 512 > size ? EACH_HEADER_BYTE : 97) {
         err = (struct glint_error){0};
         if (hostile_use_bytes(whole, cut, &err)) fail_msg("%zu of %zu bytes were taken", cut, size);
-        if (!strstr(err.message, "/proc/self/fd/")) fail_msg("%zu bytes: no file named: %s", cut, err.message);
+        if (!strstr(err.message, hostile_name)) fail_msg("%zu bytes: no file named: %s", cut, err.message);
     }
 }
 
@@ -61,14 +68,14 @@ static void damage_is_read_or_refused(UNUSED void **state) {
     uint8_t *copy = malloc(size);
     assert_non_null(copy);
     size_t refused = 0;
-    for (uint32_t seed = 0; seed < 3000; seed++) {
+    for (uint32_t seed = 0; seed < DAMAGED_FILES; seed++) {
         struct glint_error err = {0};
         memcpy(copy, whole, size);
         refused += !hostile_use_bytes(copy, hostile_damage(copy, size, seed), &err);
     }
     free(copy);
     /* Most of the damage must hit something relevant. */
-    assert_true(refused > 1000);
+    assert_true(refused > DAMAGED_FILES / 3);
 }
 
 /* ---- a single wrong value ---- */
@@ -101,15 +108,15 @@ static void absurd_headers_take_no_memory(UNUSED void **state) {
     assert_lie_refused(window, turned, 16, "Invalid data window");
     assert_lie_refused(window, extreme, 16, "Invalid data window");
     const size_t channels = find_bytes("channels\0chlist\0", 16, 0) + 16;
-    assert_lie_refused(channels, &(int32_t){0x7fffffff}, 4, "/proc/self/fd/");
-    assert_lie_refused(channels, &(int32_t){-1}, 4, "/proc/self/fd/");
+    assert_lie_refused(channels, &(int32_t){0x7fffffff}, 4, hostile_name);
+    assert_lie_refused(channels, &(int32_t){-1}, 4, hostile_name);
     const size_t storage = find_bytes("glint.storage\0stringvector\0", 27, 0) + 27;
-    assert_lie_refused(storage, &(int32_t){0x7fffffff}, 4, "/proc/self/fd/");
-    assert_lie_refused(storage + 4, &(int32_t){0x7fffffff}, 4, "/proc/self/fd/");
+    assert_lie_refused(storage, &(int32_t){0x7fffffff}, 4, hostile_name);
+    assert_lie_refused(storage + 4, &(int32_t){0x7fffffff}, 4, hostile_name);
     const size_t chunks = find_bytes("chunkCount\0int\0", 15, 0) + 15 + 4;
     assert_lie_refused(chunks, &(int32_t){0x7fffffff}, 4, "expected 2 chunks");
-    assert_lie_refused(chunks, &(int32_t){0}, 4, "/proc/self/fd/");
-    assert_lie_refused(0, &(uint32_t){0}, 4, "/proc/self/fd/"); /* not an EXR file */
+    assert_lie_refused(chunks, &(int32_t){0}, 4, hostile_name);
+    assert_lie_refused(0, &(uint32_t){0}, 4, hostile_name); /* not an EXR file */
 }
 
 static void two_parts_of_one_name_are_refused(UNUSED void **state) {
@@ -197,7 +204,11 @@ static void crowded_headers_stay_within_memory(UNUSED void **state) {
 }
 
 static void what_is_no_file_is_refused(UNUSED void **state) {
+#ifdef _WIN32
+    static const char *const paths[] = {"/", "C:\\", "NUL", "nul", "\\\\.\\NUL", "/nowhere.exr", ""};
+#else
     static const char *const paths[] = {"/", "/dev/null", "/dev/zero", "/nowhere.exr", ""};
+#endif
     for (size_t i = 0; i < sizeof paths / sizeof *paths; i++) {
         struct glint_error err = {0};
         assert_null(glint_capture_open(paths[i], NULL, &err));

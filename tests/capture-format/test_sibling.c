@@ -5,6 +5,8 @@
 #include <unistd.h>
 
 #include "fixture.h"
+#include "glint/edit.h"
+#include "rewrite.h"
 #include "unit.h"
 
 static char probes[512], capture_path[512];
@@ -101,6 +103,58 @@ static void another_file_of_that_name_is_refused(UNUSED void **state) {
     assert_refused("No such file");
 }
 
+/* Names that lead out of the folder, or to no file at all, on some system, are refused on all. */
+static void a_name_is_a_file_of_the_folder_on_every_system(UNUSED void **state) {
+    static const char *const hostile[] = {
+        ".",       "..",        "../x.exr", "..\\x.exr", "a/b.exr",    "a\\b.exr",        "/x.exr",   "\\x.exr",
+        "C:x.exr", "C:\\x.exr", "x.exr:y",  "\\\\s\\x",  "\\\\.\\NUL", "\\\\?\\C:\\x",    "NUL",      "nul.exr",
+        "Con",     "aux.a.b",   "PRN .exr", "com1",      "LPT9.exr",   "COM\xC2\xB2.exr", "CONOUT$",  "x.exr.",
+        "x.exr ",  "x?.exr",    "*.exr",    "<x>.exr",   "a|b",        "\"x\"",           "a\nb.exr", "x\x7f"};
+    static const char *const fine[] = {"nulls.exr",
+                                       "com.exr",
+                                       "COM10.exr",
+                                       "console.exr",
+                                       "x .exr",
+                                       "...x",
+                                       ".exr",
+                                       "gr\u00F6\u00DFer \u5F71.exr",
+                                       "a'b;c$d~1,=+[x]{y}.exr"};
+    write_probes(0);
+    for (size_t i = 0; i < sizeof hostile / sizeof *hostile; i++) {
+        struct glint_error err = {0};
+        if (write_capture(hostile[i], false, &err)) fail_msg("\"%s\" was written", hostile[i]);
+        if (!strstr(err.message, "plain file name")) fail_msg("\"%s\": %s", hostile[i], err.message);
+    }
+    for (size_t i = 0; i < sizeof fine / sizeof *fine; i++) {
+        struct glint_error err = {0};
+        /* It is not there, which is the only thing wrong with it. */
+        if (write_capture(fine[i], false, &err)) fail_msg("\"%s\" was written", fine[i]);
+        if (!strstr(err.message, "No such file")) fail_msg("\"%s\": %s", fine[i], err.message);
+    }
+}
+
+/* The same names in a file that another program wrote. */
+static void a_reader_refuses_such_names(UNUSED void **state) {
+    static const char *const hostile[] = {"..\\probes.exr", "C:probes.exr", "NUL", "./probes.exr", "probes.exr."};
+    for (size_t i = 0; i < sizeof hostile / sizeof *hostile; i++) {
+        static struct rewrite r;
+        struct glint_error err = {0};
+        write_probes(0);
+        assert_true(write_capture("probes.exr", false, &err));
+        rewrite_load(&r, capture_path);
+        rewrite_attribute(&r, "cubemap.000", "glint.sibling")->string = hostile[i];
+        rewrite_save(&r, capture_path);
+        rewrite_finish(&r);
+        assert_refused("plain file name");
+        /* A copy elsewhere would take the sibling's pixels along; "./probes.exr" even has the right hash. */
+        struct glint_edit *edit = glint_edit_open(capture_path, NULL, NULL, NULL, &err);
+        if (!edit) fail_msg("%s", err.message);
+        assert_false(glint_edit_write(edit, "/nowhere/copy.exr", &err));
+        if (!strstr(err.message, "plain file name")) fail_msg("\"%s\": %s", hostile[i], err.message);
+        glint_edit_close(&edit);
+    }
+}
+
 /* The hash is right, but the file has no such part, which only a faulty writer can produce. */
 static void a_sibling_without_the_part_is_refused(UNUSED void **state) {
     struct glint_error err = {0};
@@ -161,6 +215,8 @@ int main(void) {
         cmocka_unit_test(pixels_come_from_the_sibling),
         cmocka_unit_test(one_changed_byte_is_refused),
         cmocka_unit_test(another_file_of_that_name_is_refused),
+        cmocka_unit_test(a_name_is_a_file_of_the_folder_on_every_system),
+        cmocka_unit_test(a_reader_refuses_such_names),
         cmocka_unit_test(a_sibling_without_the_part_is_refused),
         cmocka_unit_test(a_sibling_that_is_not_there_is_an_error_of_the_writer),
         cmocka_unit_test(cube_maps_alone_are_no_capture),

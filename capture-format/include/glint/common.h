@@ -9,6 +9,15 @@
 extern "C" {
 #endif
 
+/* Lets compilers check arguments against a format of C11's printf. */
+#if defined(__MINGW32__) && !defined(__clang__)
+#define GLINT_PRINTF(format_index, first) __attribute__((format(gnu_printf, format_index, first)))
+#elif defined(__GNUC__)
+#define GLINT_PRINTF(format_index, first) __attribute__((format(printf, format_index, first)))
+#else
+#define GLINT_PRINTF(format_index, first)
+#endif
+
 enum glint_code {
     GLINT_OK = 0,
     GLINT_ERROR_USAGE,       /* the caller requested something that does not exist or is out of range */
@@ -28,9 +37,7 @@ struct glint_error {
 };
 
 /* Sets *err unless err is NULL; always returns false, so that `return glint_fail(…)` reads well. */
-#if defined(__GNUC__)
-__attribute__((format(printf, 3, 4)))
-#endif
+GLINT_PRINTF(3, 4)
 bool glint_fail(struct glint_error *err, enum glint_code code, const char *format, ...);
 
 /* Creates a folder and its missing parents. It is no error if the folder exists. */

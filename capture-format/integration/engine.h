@@ -1,0 +1,52 @@
+/* A stand-in for an engine: what it has in memory once a frame's textures are read back. integration.c and integration.cc make a
+   capture of it; an engine has its own structures in this place. */
+#ifndef ENGINE_H
+#define ENGINE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* A texture as read back: rows are further apart than their pixels need, as graphics APIs want them. */
+struct engine_texture {
+    uint32_t width, height;
+    size_t pixel_bytes, row_bytes;
+    uint8_t *bytes;
+};
+
+struct engine_camera {
+    double world_to_view[16], view_to_clip[16]; /* row-major, for column vectors; the projection contains the jitter */
+    double jitter_px[2];
+};
+
+struct engine_probe {
+    double position[3];
+    struct engine_texture color;    /* RGBA16F, six faces below each other; alpha is 0 where sky is seen */
+    struct engine_texture distance; /* R32F; +inf where sky is seen */
+};
+
+#define ENGINE_PROBES 2
+struct engine_frame {
+    uint32_t number;
+    struct engine_camera camera, previous;
+    struct engine_texture depth;    /* D32F, reversed, no far plane */
+    struct engine_texture normal;   /* RG16, octahedral, world space */
+    struct engine_texture material; /* RGBA8: roughness, metalness, specular, unused */
+    struct engine_texture albedo;   /* RGBA8 */
+    struct engine_texture motion;   /* RG32F: previous uv minus current uv */
+    struct engine_texture lit;      /* RGBA16F: diffuse light and sky, linear */
+    struct engine_texture sky;      /* RGBA16F, six faces below each other */
+    struct engine_probe probes[ENGINE_PROBES];
+};
+
+/* Renders a frame of a walled yard under a clear sky. NULL if memory is exhausted. */
+struct engine_frame *engine_render(uint32_t number);
+void engine_free(struct engine_frame *frame);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
