@@ -6,7 +6,7 @@
 #include "draw/page/page.h"
 #include "io/pipe.h"
 #include "draw/view/png_file.h"
-#include "io/text_file.h"
+#include "io/output.h"
 
 struct arguments {
     struct list captures, presets, settings;
@@ -72,7 +72,7 @@ static bool write_table(const char *folder, const struct contest_table *table, s
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
     json_t *json = contest_json(table);
     char *text = json ? json_dumps(json, JSON_INDENT(1)) : NULL, *csv = contest_csv(table);
-    bool ok = text && csv ? text_file_write(json_path, text, err) && text_file_write(csv_path, csv, err)
+    bool ok = text && csv ? output_text(json_path, text, err) && output_text(csv_path, csv, err)
                           : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     free(csv);
     free(text);

@@ -15,7 +15,7 @@ struct arguments {
     bool overwrite, json, progress;
 };
 
-enum { KEY_RAYS = 256, KEY_NOISE, KEY_SENSITIVITY, KEY_LIKE, KEY_OVERWRITE, KEY_PROGRESS };
+enum { KEY_RAYS = 256, KEY_NOISE, KEY_SENSITIVITY, KEY_LIKE, KEY_PROGRESS };
 enum { RAYS = 64, RAYS_FOR_NOISE = 16384, RAYS_FOR_SENSITIVITY = 32 };
 
 /* clang-format off */

@@ -6,7 +6,7 @@
 
 #include "options/pipeline_args.h"
 #include "sweep/sweep.h"
-#include "io/text_file.h"
+#include "io/output.h"
 
 struct arguments {
     struct sweep sweep;
@@ -137,8 +137,8 @@ static bool write_tables(const struct sweep *sweep, struct glint_error *err) {
     json_t *json = sweep_json(sweep);
     char *text = json ? json_dumps(json, JSON_INDENT(1)) : NULL, *csv = sweep_csv(sweep);
     bool ok = (text && csv) || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    ok = ok && sweep_path(sweep, "points.json", path, err) && text_file_write(path, text, err) &&
-         sweep_path(sweep, "points.csv", path, err) && text_file_write(path, csv, err);
+    ok = ok && sweep_path(sweep, "points.json", path, err) && output_text(path, text, err) &&
+         sweep_path(sweep, "points.csv", path, err) && output_text(path, csv, err);
     free(csv);
     free(text);
     json_decref(json);

@@ -22,7 +22,9 @@ static error_t command_parse_key(int key, char *arg, struct argp_state *state) {
         if (parsing->command->numbers) state->child_inputs[0] = state->input;
         return 0;
     case ARGP_KEY_FINI:
+        return 0;
     case ARGP_KEY_SUCCESS:
+        args_check_outputs(parsing->command, state, parsing->input);
         return 0;
     case ARGP_KEY_NO_ARGS:
         if (parsing->command->operand) argp_error(state, "no %s given", parsing->command->operand);

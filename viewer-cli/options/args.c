@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "glint/nearest.h"
 
@@ -61,6 +62,9 @@ bool args_store(const struct command *command, int key, char *arg, struct argp_s
     case STORES_FLAG:
         *(bool *)field = true;
         break;
+    case STORES_OUTPUT:
+        *(const char **)field = arg;
+        break;
     case STORES_TEXT:
         if (key == ARGP_KEY_ARG && *(const char **)field)
             argp_error(state, "expected one %s, found %s and %s", command->operand, *(const char **)field, arg);
@@ -80,6 +84,53 @@ bool args_store(const struct command *command, int key, char *arg, struct argp_s
         break;
     }
     return true;
+}
+
+/* Whether `text` names this file, alone or before the ':' of FILE:PART:LAYER. */
+static bool names_file(const char *text, const struct stat *file) {
+    char path[4096];
+    struct stat status;
+    if (snprintf(path, sizeof path, "%s", text) >= (int)sizeof path) return false;
+    for (char *end = path + strlen(path); end; end = strrchr(path, ':')) {
+        *end = '\0';
+        if (stat(path, &status) == 0 && status.st_dev == file->st_dev && status.st_ino == file->st_ino) return true;
+    }
+    return false;
+}
+
+/* Any argument but `output` itself that names the same file: as it is, or behind the '=' of --option=FILE and SLOT=FILE. */
+static const char *named_besides(const char *output, const struct stat *file, const struct argp_state *state) {
+    for (int i = 1; i < state->argc; i++)
+        for (const char *text = state->argv[i]; text; text = (text = strchr(text, '=')) ? text + 1 : NULL)
+            if (text != output && names_file(text, file)) return text;
+    return NULL;
+}
+
+static void check_output(const struct command *command, const struct arg_target *target, bool overwrite,
+                         struct argp_state *state, void *arguments) {
+    const char *path = *(const char **)((char *)arguments + target->offset);
+    struct glint_error err = {0};
+    struct stat status;
+    if (!path) return;
+    const char *option = command_option(command, target->key)->name;
+    if (!output_check(path, target->lowest, overwrite, &err)) argp_error(state, "--%s: %s", option, err.message);
+    for (const struct arg_target *other = command->targets; other < target; other++) {
+        const char *taken = other->kind == STORES_OUTPUT ? *(const char **)((char *)arguments + other->offset) : NULL;
+        if (taken && strcmp(path, "-") != 0 && !strcmp(taken, path))
+            argp_error(state, "--%s: %s: --%s writes to it, too", option, path,
+                       command_option(command, other->key)->name);
+    }
+    if (stat(path, &status) == 0 && S_ISREG(status.st_mode) && named_besides(path, &status, state))
+        argp_error(state, "--%s: %s is an input, too (%s): nothing would be left of it; choose another name", option,
+                   path, named_besides(path, &status, state));
+}
+
+void args_check_outputs(const struct command *command, struct argp_state *state, void *arguments) {
+    bool overwrite = false;
+    for (const struct arg_target *t = command->targets; t && t->kind; t++)
+        if (t->key == KEY_OVERWRITE) overwrite = *(bool *)((char *)arguments + t->offset);
+    for (const struct arg_target *t = command->targets; t && t->kind; t++)
+        if (t->kind == STORES_OUTPUT) check_output(command, t, overwrite, state, arguments);
 }
 
 void arg_numbers(const char *option, const char *text, double *out, size_t count, struct argp_state *state) {

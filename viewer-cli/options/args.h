@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "command.h"
+#include "io/output.h"
 
 /* A growing, NULL-terminated list of pointers into the program's arguments. */
 struct list {
@@ -25,9 +26,9 @@ const char *const *list_or_null(const struct list *list);
    which a text keeps one, the command's operand. */
 struct arg_target {
     int key;
-    enum { STORES_NOTHING, STORES_FLAG, STORES_TEXT, STORES_ITEM, STORES_NAMES, STORES_UINT32, STORES_UINT64 } kind;
+    enum { STORES_NOTHING, STORES_FLAG, STORES_TEXT, STORES_ITEM, STORES_NAMES, STORES_UINT32, STORES_UINT64, STORES_OUTPUT } kind;
     size_t offset;
-    uint32_t lowest, highest; /* of a number */
+    uint32_t lowest, highest; /* of a number; of an output, lowest is its kinds */
 };
 /* clang-format off */
 #define STORED(key, type, field) \
@@ -37,9 +38,20 @@ struct arg_target {
     {key, _Generic(((type *)NULL)->field, struct list: STORES_NAMES), offsetof(type, field), 0, 0}
 #define STORED_NUMBER(key, type, field, lowest, highest) \
     {key, _Generic(((type *)NULL)->field, uint32_t: STORES_UINT32, uint64_t: STORES_UINT64), offsetof(type, field), lowest, highest}
+/* The name of a file that is written: OUTPUT_ bits say what it contains (io/output.h). */
+#define STORED_OUTPUT(key, type, field, kinds) \
+    {key, _Generic(((type *)NULL)->field, const char *: STORES_OUTPUT), offsetof(type, field), kinds, 0}
+/* Commands with such an output have this option, too. */
+#define OVERWRITE_OPTION \
+    {"overwrite", KEY_OVERWRITE, NULL, 0, "Replace a file that exists and is of another kind; an input is never replaced", 0}
 /* clang-format on */
+enum { KEY_OVERWRITE = 4096 };
+
 /* Stores the argument where the command's targets say; false if they do not contain the key. */
 bool args_store(const struct command *command, int key, char *arg, struct argp_state *state, void *arguments);
+
+/* Checks the names of all outputs when everything is parsed: see output_check; and none is a file that the arguments name besides. */
+void args_check_outputs(const struct command *command, struct argp_state *state, void *arguments);
 
 uint32_t arg_uint(const char *option, const char *text, uint32_t lowest, uint32_t highest, struct argp_state *state);
 /* Parses exactly `count` numbers that are separated by commas. */
