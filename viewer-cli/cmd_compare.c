@@ -7,6 +7,7 @@
 #include "io/pipe.h"
 #include "draw/view/png_file.h"
 #include "io/output.h"
+#include "options/pipeline_args.h"
 
 struct arguments {
     struct list captures, presets, settings;
@@ -15,7 +16,7 @@ struct arguments {
     bool json;
 };
 
-enum { KEY_PRESETS = 256, KEY_SET, KEY_REPEAT };
+enum { KEY_PRESETS = 256, KEY_REPEAT };
 
 /* clang-format off */
 static const struct argp_option options[] = {
@@ -176,8 +177,9 @@ static enum status cmd_compare_run(int argc, char **argv) {
     struct glint_error err = {0};
     struct contest contest = {.rounds = a.rounds};
     const struct glint_device_options device = {.select = a.device};
-    bool ok = contest_begin(&contest, a.presets.items, &a.settings, &err) &&
-              (contest.device = glint_device_create(&device, &err)) != NULL;
+    bool ok = contest_begin(&contest, a.presets.items, &a.settings, &err);
+    if (ok) pipeline_note_fog(&cmd_compare, contest.contestants[0].pipeline, &a.captures);
+    ok = ok && (contest.device = glint_device_create(&device, &err)) != NULL;
     enum status status = ok ? compare(&contest, &a, &err) : command_fail(&cmd_compare, &err);
     contest_finish(&contest);
     glint_device_destroy(&contest.device);

@@ -39,7 +39,7 @@ static const struct argp_option options[] = {
     {"against",     KEY_AGAINST,     "WHAT", 0, "Compare with a better solution. truth: the path-traced reflection and mirror rays in the capture (truth.*); turns on "
         "--diagnostics; use downsample.jitter=false to compare rays. reference: the preset reference on the same capture; "
         "reference=RUN: a run of glint reference. both (or both=RUN): both, and the difference between truth and reference. The "
-        "truth has no fog: with truth and both add --set pipeline.fog=false, also when tracing RUN", 0},
+        "truth has no fog: with truth, both and a RUN without fog it is left out here, too", 0},
     METRIC_OPTIONS,
     {"watch",       KEY_WATCH,       NULL,   0, "Replay again whenever the preset file or a shader changes: RUN contains the newest version, RUN/first the first one, "
         "and RUN/watch.html compares both and reloads itself. Shaders that do not compile are ignored until they do. Stop with "
@@ -375,7 +375,9 @@ static enum status cmd_replay_run(int argc, char **argv) {
     struct job job = {.a = &a, .against = &a.against, .missing = &missing};
     struct glint_error err = {0};
     enum status status;
-    job.pipeline = a.watch ? NULL : pipeline_args_create(&a.pipeline, &err);
+    if (against_prepare(&a.against, &a.pipeline.without_fog, &err) && !a.watch)
+        job.pipeline = pipeline_args_create(&a.pipeline, &err);
+    if (job.pipeline && a.pipeline.without_fog) pipeline_note_fog(&cmd_replay, job.pipeline, &a.captures);
     if (job.pipeline || a.watch) job.device = pipeline_args_device(&a.pipeline, &err);
     if (job.pipeline && job.device) job.replay = glint_replay_create(job.device, &err);
     if (job.device && a.watch) {
