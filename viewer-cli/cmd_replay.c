@@ -2,7 +2,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "capture/missing.h"
 #include "replay/against.h"
 #include "options/pass_names.h"
 #include "io/pipe.h"
@@ -108,8 +107,10 @@ struct job {
     struct glint_replay *replay;
     struct glint_pipeline *pipeline;
     struct against *against;
-    struct missing *missing; /* what was warned of */
-    json_t *runs;            /* NULL: print tables */
+    bool before; /* whether a capture was replayed, and its frame number */
+    uint32_t number;
+    json_t *warned; /* what was, as keys */
+    json_t *runs;   /* NULL: print tables */
 };
 
 static const char *const phases[] = {"read", "upload", "passes", "readback", "write"};
@@ -263,8 +264,27 @@ static char **run_folders(const struct arguments *a, struct glint_error *err) {
     return NULL;
 }
 
+/* Prints the warnings of the last run, each once a call. */
+static void warn(const struct job *job) {
+    const char *text;
+    for (size_t i = 0; (text = glint_replay_warning(job->replay, i)); i++) {
+        if (!json_object_get(job->warned, text)) command_note(&cmd_replay, "%s", text);
+        json_object_set_new(job->warned, text, json_true());
+    }
+}
+
+/* A frame that does not follow the one before it begins without history, which the order of the arguments does not tell. */
+static void note_gap(struct job *job, const struct glint_capture *capture, const char *history) {
+    const struct glint_frame *frame = glint_capture_frame(capture);
+    if (job->before && !history && !frame->cut && frame->number != job->number + 1)
+        command_note(&cmd_replay, "%s: frame %u after frame %u: it begins without history", glint_capture_path(capture),
+                     frame->number, job->number);
+    job->before = true;
+    job->number = frame->number;
+}
+
 /* `history`: run of the previous frame; NULL: the last replayed capture, if it is the previous frame. */
-static bool replay_one(const struct job *job, const char *path, const char *folder, const char *history,
+static bool replay_one(struct job *job, const char *path, const char *folder, const char *history,
                        struct glint_error *err) {
     struct glint_replay_options options = pipeline_args_options(&job->a->pipeline);
     options.history = history;
@@ -277,6 +297,7 @@ static bool replay_one(const struct job *job, const char *path, const char *fold
         pipe_finish(&pipe);
         return false;
     }
+    note_gap(job, capture, history);
     progress_begin(&progress);
     job->against->progress = progress_report;
     job->against->user = &progress;
@@ -284,8 +305,6 @@ static bool replay_one(const struct job *job, const char *path, const char *fold
     struct found found = {0};
     bool ok = glint_replay_load(job->replay, capture, err) &&
               glint_replay_run(job->replay, job->pipeline, &options, progress_report, &progress, err);
-    const size_t known = job->missing->count;
-    missing_add(job->missing, job->replay); /* before other pipelines are run to compare with */
     ok = ok &&
          (!folder || (report_keep_errors(folder, NULL, err) &&
                       glint_replay_write(job->replay, folder, progress_report, &progress, err))) &&
@@ -293,7 +312,7 @@ static bool replay_one(const struct job *job, const char *path, const char *fold
          (!compared || against_compare(job->against, job->replay, capture, job->pipeline, compared, err)) &&
          (!compared || !folder || report_keep_errors(folder, compared, err));
     progress_end(&progress);
-    missing_note(&cmd_replay, job->missing, known);
+    if (ok) warn(job);
     if (ok && job->runs)
         json_array_append_new(
             job->runs, run_json(path, folder, compared, &found, job->replay, glint_device_get_info(job->device)));
@@ -327,7 +346,7 @@ static bool count_kept(const struct job *job, char **folders, size_t *kept, stru
 }
 
 /* Replays all captures even if some fail, but stops after Ctrl-C. */
-static enum status replay_all(const struct job *job) {
+static enum status replay_all(struct job *job) {
     const struct list *captures = &job->a->captures;
     enum status status = STATUS_DONE;
     struct glint_error err = {0};
@@ -371,8 +390,7 @@ static enum status cmd_replay_run(int argc, char **argv) {
     command_parse(&cmd_replay, argc, argv, &a);
     char *cache = cache_folder(a.cache);
     a.pipeline.replay.cache = cache;
-    struct missing missing = {.count = 0};
-    struct job job = {.a = &a, .against = &a.against, .missing = &missing};
+    struct job job = {.a = &a, .against = &a.against, .warned = json_object()};
     struct glint_error err = {0};
     enum status status;
     if (against_prepare(&a.against, &a.pipeline.without_fog, &err) && !a.watch)
@@ -391,6 +409,7 @@ static enum status cmd_replay_run(int argc, char **argv) {
     glint_replay_destroy(&job.replay);
     glint_device_destroy(&job.device);
     glint_pipeline_destroy(&job.pipeline);
+    json_decref(job.warned);
     pipeline_args_finish(&a.pipeline);
     list_free(&a.captures);
     free(cache);
