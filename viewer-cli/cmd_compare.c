@@ -7,7 +7,8 @@
 #include "draw/page/page.h"
 #include "io/pipe.h"
 #include "draw/view/png_file.h"
-#include "io/text_file.h"
+#include "io/output.h"
+#include "options/pipeline_args.h"
 
 struct arguments {
     struct list captures, presets, settings;
@@ -16,7 +17,7 @@ struct arguments {
     bool json;
 };
 
-enum { KEY_PRESETS = 256, KEY_SET, KEY_REPEAT };
+enum { KEY_PRESETS = 256, KEY_REPEAT };
 
 /* clang-format off */
 static const struct argp_option options[] = {
@@ -73,7 +74,7 @@ static bool write_table(const char *folder, const struct contest_table *table, s
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
     json_t *json = contest_json(table);
     char *text = json ? json_dumps(json, JSON_INDENT(1)) : NULL, *csv = contest_csv(table);
-    bool ok = text && csv ? text_file_write(json_path, text, err) && text_file_write(csv_path, csv, err)
+    bool ok = text && csv ? output_text(json_path, text, err) && output_text(csv_path, csv, err)
                           : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     free(csv);
     free(text);
@@ -177,8 +178,9 @@ static enum status cmd_compare_run(int argc, char **argv) {
     struct glint_error err = {0};
     struct contest contest = {.rounds = a.rounds};
     const struct glint_device_options device = {.select = a.device};
-    bool ok = contest_begin(&contest, a.presets.items, &a.settings, &err) &&
-              (contest.device = glint_device_create(&device, &err)) != NULL;
+    bool ok = contest_begin(&contest, a.presets.items, &a.settings, &err);
+    if (ok) pipeline_note_fog(&cmd_compare, contest.contestants[0].pipeline, &a.captures);
+    ok = ok && (contest.device = glint_device_create(&device, &err)) != NULL;
     enum status status = ok ? compare(&contest, &a, &err) : command_fail(&cmd_compare, &err);
     contest_finish(&contest);
     glint_device_destroy(&contest.device);

@@ -6,15 +6,18 @@
 
 struct arguments {
     const char *path, *out, *rectangle;
+    bool overwrite;
     struct glint_edit_rectangle to;
 };
 
 static const struct argp_option options[] = {
     {"output", 'o', "G", 0, "The copy, a new file", 0},
+    OVERWRITE_OPTION,
     {0},
 };
 static const struct arg_target targets[] = {
-    STORED('o', struct arguments, out),
+    STORED_OUTPUT('o', struct arguments, out, OUTPUT_EXR),
+    STORED(KEY_OVERWRITE, struct arguments, overwrite),
     {0},
 };
 static const struct example examples[] = {

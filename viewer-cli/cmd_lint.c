@@ -12,7 +12,7 @@
 
 struct arguments {
     const char *path, *out;
-    bool json, fix, list, markdown;
+    bool json, fix, list, markdown, overwrite;
 };
 
 enum { KEY_FIX = 256, KEY_LIST, KEY_MARKDOWN };
@@ -23,6 +23,7 @@ static const struct argp_option options[] = {
     {"list",     KEY_LIST,     NULL, 0, "List all possible findings by name", 0},
     {"markdown", KEY_MARKDOWN, NULL, 0, "Print the list as Markdown, with how each finding is measured and what corrects it", 0},
     {"output",   'o',          "F2", 0, "The copy that --fix writes", 0},
+    OVERWRITE_OPTION,
     {"json",     'j',          NULL, 0, "Print JSON", 0},
     {0},
 };
@@ -30,7 +31,8 @@ static const struct argp_option options[] = {
 static const struct arg_target targets[] = {
     STORED(KEY_FIX, struct arguments, fix),
     STORED(KEY_LIST, struct arguments, list),
-    STORED('o', struct arguments, out),
+    STORED_OUTPUT('o', struct arguments, out, OUTPUT_EXR),
+    STORED(KEY_OVERWRITE, struct arguments, overwrite),
     STORED('j', struct arguments, json),
     {0},
 };

@@ -12,20 +12,22 @@ enum { KEY_PROGRESS = 256 };
 
 struct arguments {
     const char *manifest, *out;
-    bool explain;
+    bool explain, overwrite;
     uint32_t jobs;
     bool lines;
 };
 
 static const struct argp_option options[] = {
     {"output", 'o', "FILE", 0, "Capture to write, or - for stdout", 0},
+    OVERWRITE_OPTION,
     {"explain", 'e', NULL, 0, "Print everything as it was understood, defaults included, and write nothing", 0},
     {"jobs", 'j', "N", 0, "Number of threads (default: one per core)", 0},
     PROGRESS_OPTION,
     {0},
 };
 static const struct arg_target targets[] = {
-    STORED('o', struct arguments, out),
+    STORED_OUTPUT('o', struct arguments, out, OUTPUT_EXR),
+    STORED(KEY_OVERWRITE, struct arguments, overwrite),
     STORED('e', struct arguments, explain),
     STORED_NUMBER('j', struct arguments, jobs, 1, 1024),
     STORED(KEY_PROGRESS, struct arguments, lines),

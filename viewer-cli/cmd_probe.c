@@ -11,7 +11,7 @@ struct arguments {
     struct pipeline_args pipeline;
     const char *capture, *out;
     int32_t pixel[2];
-    bool has_pixel, json, alone;
+    bool has_pixel, json, alone, overwrite;
 };
 
 enum { KEY_ALONE = 256 };
@@ -19,6 +19,7 @@ enum { KEY_ALONE = 256 };
 /* clang-format off */
 static const struct argp_option options[] = {
     {"output",  'o',         "FILE.svg",      0, "Draw the ray over the depths that it passed, in screen space and in each cube map", 0},
+    OVERWRITE_OPTION,
     {"alone",   KEY_ALONE,   NULL,            0, "Do not trace the same ray with the reference tracers (screen_trace/dda and cubemap_trace/exact)", 0},
     PIPELINE_OPTIONS,
     {"json",    'j',         NULL,            0, "Print JSON", 0},
@@ -38,7 +39,8 @@ static const struct example examples[] = {
 };
 
 static const struct arg_target targets[] = {
-    STORED('o', struct arguments, out),
+    STORED_OUTPUT('o', struct arguments, out, OUTPUT_SVG),
+    STORED(KEY_OVERWRITE, struct arguments, overwrite),
     STORED('j', struct arguments, json),
     STORED(KEY_ALONE, struct arguments, alone),
     PIPELINE_TARGETS(struct arguments, pipeline),

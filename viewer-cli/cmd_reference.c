@@ -16,7 +16,7 @@ struct arguments {
     bool overwrite, json, progress;
 };
 
-enum { KEY_RAYS = 256, KEY_NOISE, KEY_SENSITIVITY, KEY_LIKE, KEY_OVERWRITE, KEY_PROGRESS };
+enum { KEY_RAYS = 256, KEY_NOISE, KEY_SENSITIVITY, KEY_LIKE, KEY_PROGRESS };
 enum { RAYS = 64, RAYS_FOR_NOISE = 16384, RAYS_FOR_SENSITIVITY = 32 };
 
 /* clang-format off */
@@ -156,17 +156,6 @@ static json_t *missing_json(const struct missing *missing) {
     return rows;
 }
 
-static bool fades(const struct glint_pipeline *pipeline) {
-    for (size_t i = 0; i < glint_pipeline_pass_count(pipeline); i++) {
-        const struct glint_pass *pass = glint_pipeline_pass(pipeline, i);
-        for (size_t r = 0; r < pass->row_count; r++)
-            if (pass->rows[r].kind == GLINT_ROW_SPEC && !strcmp(pass->rows[r].name, "fog") &&
-                glint_pipeline_value(pipeline, pass, &pass->rows[r]) != 0)
-                return true;
-    }
-    return false;
-}
-
 static bool compare_with_truth(const struct glint_reference *reference, struct glint_capture *capture,
                                const struct glint_pipeline *pipeline, struct missing *missing,
                                struct glint_error *err) {
@@ -175,7 +164,7 @@ static bool compare_with_truth(const struct glint_reference *reference, struct g
     float *truth_error = NULL, *own_error = NULL;
     uint8_t *surfaces = NULL;
     missing->known = glint_study_truth(capture, pipeline, &truth, &truth_error, &no_truth);
-    missing->fog = glint_capture_frame(capture)->has_fog && fades(pipeline);
+    missing->fog = glint_capture_frame(capture)->has_fog && pipeline_fog(pipeline);
     bool ok = !missing->known ||
               ((surfaces = glint_study_surfaces(capture, err)) != NULL &&
                glint_reference_pixels(reference, &own, &own_error, err) &&

@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "command.h"
-#include "capture/missing.h"
 #include "replay/against.h"
 #include "options/pass_names.h"
 #include "io/pipe.h"
@@ -40,7 +39,7 @@ static const struct argp_option options[] = {
     {"against",     KEY_AGAINST,     "WHAT", 0, "Compare with a better solution. truth: the path-traced reflection and mirror rays in the capture (truth.*); turns on "
         "--diagnostics; use downsample.jitter=false to compare rays. reference: the preset reference on the same capture; "
         "reference=RUN: a run of glint reference. both (or both=RUN): both, and the difference between truth and reference. The "
-        "truth has no fog: with truth and both add --set pipeline.fog=false, also when tracing RUN", 0},
+        "truth has no fog: with truth, both and a RUN without fog it is left out here, too", 0},
     METRIC_OPTIONS,
     {"watch",       KEY_WATCH,       NULL,   0, "Replay again whenever the preset file or a shader changes: RUN contains the newest version, RUN/first the first one, "
         "and RUN/watch.html compares both and reloads itself. Shaders that do not compile are ignored until they do. Stop with "
@@ -109,8 +108,10 @@ struct job {
     struct glint_replay *replay;
     struct glint_pipeline *pipeline;
     struct against *against;
-    struct missing *missing; /* what was warned of */
-    json_t *runs;            /* NULL: print tables */
+    bool before; /* whether a capture was replayed, and its frame number */
+    uint32_t number;
+    json_t *warned; /* what was, as keys */
+    json_t *runs;   /* NULL: print tables */
 };
 
 static const char *const phases[] = {"read", "upload", "passes", "readback", "write"};
@@ -264,8 +265,27 @@ static char **run_folders(const struct arguments *a, struct glint_error *err) {
     return NULL;
 }
 
+/* Prints the warnings of the last run, each once a call. */
+static void warn(const struct job *job) {
+    const char *text;
+    for (size_t i = 0; (text = glint_replay_warning(job->replay, i)); i++) {
+        if (!json_object_get(job->warned, text)) command_note(&cmd_replay, "%s", text);
+        json_object_set_new(job->warned, text, json_true());
+    }
+}
+
+/* A frame that does not follow the one before it begins without history, which the order of the arguments does not tell. */
+static void note_gap(struct job *job, const struct glint_capture *capture, const char *history) {
+    const struct glint_frame *frame = glint_capture_frame(capture);
+    if (job->before && !history && !frame->cut && frame->number != job->number + 1)
+        command_note(&cmd_replay, "%s: frame %u after frame %u: it begins without history", glint_capture_path(capture),
+                     frame->number, job->number);
+    job->before = true;
+    job->number = frame->number;
+}
+
 /* `history`: run of the previous frame; NULL: the last replayed capture, if it is the previous frame. */
-static bool replay_one(const struct job *job, const char *path, const char *folder, const char *history,
+static bool replay_one(struct job *job, const char *path, const char *folder, const char *history,
                        struct glint_error *err) {
     struct glint_replay_options options = pipeline_args_options(&job->a->pipeline);
     options.history = history;
@@ -278,6 +298,7 @@ static bool replay_one(const struct job *job, const char *path, const char *fold
         pipe_finish(&pipe);
         return false;
     }
+    note_gap(job, capture, history);
     progress_begin(&progress);
     job->against->progress = progress_report;
     job->against->user = &progress;
@@ -285,8 +306,6 @@ static bool replay_one(const struct job *job, const char *path, const char *fold
     struct found found = {0};
     bool ok = glint_replay_load(job->replay, capture, err) &&
               glint_replay_run(job->replay, job->pipeline, &options, progress_report, &progress, err);
-    const size_t known = job->missing->count;
-    missing_add(job->missing, job->replay); /* before other pipelines are run to compare with */
     ok = ok &&
          (!folder || (report_keep_errors(folder, NULL, err) &&
                       glint_replay_write(job->replay, folder, progress_report, &progress, err))) &&
@@ -294,7 +313,7 @@ static bool replay_one(const struct job *job, const char *path, const char *fold
          (!compared || against_compare(job->against, job->replay, capture, job->pipeline, compared, err)) &&
          (!compared || !folder || report_keep_errors(folder, compared, err));
     progress_end(&progress);
-    missing_note(&cmd_replay, job->missing, known);
+    if (ok) warn(job);
     if (ok && job->runs)
         json_array_append_new(
             job->runs, run_json(path, folder, compared, &found, job->replay, glint_device_get_info(job->device)));
@@ -328,7 +347,7 @@ static bool count_kept(const struct job *job, char **folders, size_t *kept, stru
 }
 
 /* Replays all captures even if some fail, but stops after Ctrl-C. */
-static enum status replay_all(const struct job *job) {
+static enum status replay_all(struct job *job) {
     const struct list *captures = &job->a->captures;
     enum status status = STATUS_DONE;
     struct glint_error err = {0};
@@ -372,11 +391,12 @@ static enum status cmd_replay_run(int argc, char **argv) {
     command_parse(&cmd_replay, argc, argv, &a);
     char *cache = cache_folder(a.cache);
     a.pipeline.replay.cache = cache;
-    struct missing missing = {.count = 0};
-    struct job job = {.a = &a, .against = &a.against, .missing = &missing};
+    struct job job = {.a = &a, .against = &a.against, .warned = json_object()};
     struct glint_error err = {0};
     enum status status;
-    job.pipeline = a.watch ? NULL : pipeline_args_create(&a.pipeline, &err);
+    if (against_prepare(&a.against, &a.pipeline.without_fog, &err) && !a.watch)
+        job.pipeline = pipeline_args_create(&a.pipeline, &err);
+    if (job.pipeline && a.pipeline.without_fog) pipeline_note_fog(&cmd_replay, job.pipeline, &a.captures);
     if (job.pipeline || a.watch) job.device = pipeline_args_device(&a.pipeline, &err);
     if (job.pipeline && job.device) job.replay = glint_replay_create(job.device, &err);
     if (job.device && a.watch) {
@@ -390,6 +410,7 @@ static enum status cmd_replay_run(int argc, char **argv) {
     glint_replay_destroy(&job.replay);
     glint_device_destroy(&job.device);
     glint_pipeline_destroy(&job.pipeline);
+    json_decref(job.warned);
     pipeline_args_finish(&a.pipeline);
     list_free(&a.captures);
     free(cache);

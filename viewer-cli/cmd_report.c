@@ -10,6 +10,7 @@
 struct arguments {
     struct list folders, images;
     const char *out;
+    bool overwrite;
     uint32_t chart;
 };
 
@@ -18,6 +19,7 @@ enum { KEY_IMAGES = 256, KEY_CHART };
 /* clang-format off */
 static const struct argp_option options[] = {
     {"output", 'o',        "FILE",     0, "File to write: FILE.html for the page, FILE.svg for one of its charts", 0},
+    OVERWRITE_OPTION,
     {"images", KEY_IMAGES, "NAME,...", 0, "Images of the runs to show (default: all of full or half resolution)", 0},
     {"chart",  KEY_CHART,  "N",        0, "Number of the chart that FILE.svg contains (default 1)", 0},
     {0},
@@ -32,7 +34,8 @@ static const struct example examples[] = {
 };
 
 static const struct arg_target targets[] = {
-    STORED('o', struct arguments, out),
+    STORED_OUTPUT('o', struct arguments, out, OUTPUT_HTML | OUTPUT_SVG),
+    STORED(KEY_OVERWRITE, struct arguments, overwrite),
     STORED_NAMES(KEY_IMAGES, struct arguments, images),
     STORED_NUMBER(KEY_CHART, struct arguments, chart, 1, 1000),
     STORED(ARGP_KEY_ARG, struct arguments, folders),
@@ -49,8 +52,6 @@ static error_t cmd_report_parse(int key, char *arg, struct argp_state *state) {
     (void)arg;
     if (key != ARGP_KEY_END) return ARGP_ERR_UNKNOWN;
     if (!a->out) argp_error(state, "no output file given: -o FILE.html");
-    else if (!ends_with(a->out, ".html") && !ends_with(a->out, ".svg"))
-        argp_error(state, "%s: expected FILE.html or FILE.svg", a->out);
     return 0;
 }
 

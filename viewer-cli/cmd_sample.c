@@ -14,7 +14,7 @@
 
 struct arguments {
     const char *scene, *out;
-    bool list, json;
+    bool list, json, overwrite;
     struct glint_sample_options sample;
 };
 
@@ -51,6 +51,7 @@ enum {
 /* clang-format off */
 static const struct argp_option options[] = {
     {"output",      'o',             "FILE",  0, "Capture to write, or - for stdout; with several frames, .NNNN is inserted before the suffix", 0},
+    OVERWRITE_OPTION,
     {"list",        'l',             NULL,    0, "List the scenes", 0},
     {"json",        'j',             NULL,    0, "With --list: print JSON", 0},
     {"size",        KEY_SIZE,        "WxH",   0, "Image size (default 1280x720)", 0},
@@ -100,7 +101,8 @@ static const char *const probes[] = {"imperfect", "perfect", "auto", NULL};
 static const char *const compressions[] = {"zip", "none", "zips", "piz", "pxr24", "rle", NULL};
 
 static const struct arg_target targets[] = {
-    STORED('o', struct arguments, out),
+    STORED_OUTPUT('o', struct arguments, out, OUTPUT_EXR),
+    STORED(KEY_OVERWRITE, struct arguments, overwrite),
     STORED('l', struct arguments, list),
     STORED('j', struct arguments, json),
     STORED_NUMBER(KEY_CUBE_SIZE, struct arguments, sample.cube_size, 4, 4096),

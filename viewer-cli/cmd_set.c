@@ -12,7 +12,7 @@
 struct arguments {
     const char *path, *out;
     struct list settings;
-    bool list, json;
+    bool list, json, overwrite;
 };
 
 enum { KEY_LIST = 256 };
@@ -20,13 +20,15 @@ enum { KEY_LIST = 256 };
 /* clang-format off */
 static const struct argp_option options[] = {
     {"output", 'o',      "G",  0, "The copy, a new file", 0},
+    OVERWRITE_OPTION,
     {"list",   KEY_LIST, NULL, 0, "List all keys with what they take and mean. ", 0},
     {"json",   'j',      NULL, 0, "With --list, print JSON", 0},
     {0},
 };
 /* clang-format on */
 static const struct arg_target targets[] = {
-    STORED('o', struct arguments, out),
+    STORED_OUTPUT('o', struct arguments, out, OUTPUT_EXR),
+    STORED(KEY_OVERWRITE, struct arguments, overwrite),
     STORED('j', struct arguments, json),
     STORED(KEY_LIST, struct arguments, list),
     {0},

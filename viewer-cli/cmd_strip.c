@@ -4,6 +4,7 @@
 
 struct arguments {
     const char *path, *out;
+    bool overwrite;
     struct list keep, drop;
 };
 
@@ -14,13 +15,15 @@ static const struct argp_option options[] = {
     {"keep",   KEY_KEEP, "LIST", 0, "Leave out everything else. Parts and channels that every capture must have stay all the same", 0},
     {"drop",   KEY_DROP, "LIST", 0, "Leave out these", 0},
     {"output", 'o',      "G",    0, "The copy, a new file", 0},
+    OVERWRITE_OPTION,
     {0},
 };
 /* clang-format on */
 static const struct arg_target targets[] = {
     STORED_NAMES(KEY_KEEP, struct arguments, keep),
     STORED_NAMES(KEY_DROP, struct arguments, drop),
-    STORED('o', struct arguments, out),
+    STORED_OUTPUT('o', struct arguments, out, OUTPUT_EXR),
+    STORED(KEY_OVERWRITE, struct arguments, overwrite),
     STORED(ARGP_KEY_ARG, struct arguments, path),
     {0},
 };

@@ -7,7 +7,7 @@
 #include "command.h"
 #include "options/pipeline_args.h"
 #include "sweep/sweep.h"
-#include "io/text_file.h"
+#include "io/output.h"
 
 struct arguments {
     struct sweep sweep;
@@ -123,7 +123,9 @@ static bool begin_sweep(struct arguments *a, struct glint_error *err) {
     sweep->all = a->pipeline.replay.all;
     if (!answer_args_metric(a->metric, &sweep->metric, err)) return false;
     sweep->metrics = GLINT_METRICS_CHEAP | 1u << sweep->metric;
+    a->pipeline.without_fog = sweep->against.truth;
     if (!(sweep->base = pipeline_args_create(&a->pipeline, err))) return false;
+    if (sweep->against.truth) pipeline_note_fog(&cmd_sweep, sweep->base, &sweep->captures);
     sweep->space = a->hypercube ? glint_space_create_hypercube(sweep->base, a->axes.items, a->hypercube, a->seed, err)
                                 : glint_space_create(sweep->base, a->axes.items, err);
     char sample[64] = "grid";
@@ -138,8 +140,8 @@ static bool write_tables(const struct sweep *sweep, struct glint_error *err) {
     json_t *json = sweep_json(sweep);
     char *text = json ? json_dumps(json, JSON_INDENT(1)) : NULL, *csv = sweep_csv(sweep);
     bool ok = (text && csv) || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    ok = ok && sweep_path(sweep, "points.json", path, err) && text_file_write(path, text, err) &&
-         sweep_path(sweep, "points.csv", path, err) && text_file_write(path, csv, err);
+    ok = ok && sweep_path(sweep, "points.json", path, err) && output_text(path, text, err) &&
+         sweep_path(sweep, "points.csv", path, err) && output_text(path, csv, err);
     free(csv);
     free(text);
     json_decref(json);

@@ -12,7 +12,7 @@ struct arguments {
     struct tune tune;
     struct pipeline_args pipeline;
     const char *metric, *budget_ms, *budget_fetches, *error, *cost;
-    bool json;
+    bool json, overwrite;
 };
 
 enum {
@@ -44,6 +44,7 @@ static const struct argp_option options[] = {
     {"vary",      KEY_VARY,      "NAME[=VALUES]", 0, "Parameters to tune: SLOT.PARAM in its declared range, SLOT.PARAM=A..B, SLOT.PARAM=A,B, SLOT=VARIANT,VARIANT, "
         "pipeline.rays=A..B (default: all parameters that can influence the reflection)", 0},
     {"output",    'o',           "PRESET.json",  0, "Preset to write, with a record of how it was found; --preset reads it", 0},
+    OVERWRITE_OPTION,
     {"folder",    KEY_FOLDER,    "FOLDER",       0, "Folder for evaluations, references and the page (default: PRESET.tune). A search resumes from it, and a search with "
         "another budget and the same start reuses its evaluations", 0},
     {"held-out",  KEY_HELD_OUT,  "F",            0, "Capture on which the result is measured, but not tuned; may be repeated", 0},
@@ -100,7 +101,8 @@ static const struct arg_target targets[] = {
     STORED(KEY_VARY, struct arguments, tune.vary),
     STORED(KEY_HELD_OUT, struct arguments, tune.held_out),
     STORED(KEY_FOLDER, struct arguments, tune.folder),
-    STORED('o', struct arguments, tune.out),
+    STORED_OUTPUT('o', struct arguments, tune.out, OUTPUT_JSON),
+    STORED(KEY_OVERWRITE, struct arguments, overwrite),
     STORED('j', struct arguments, json),
     STORED(ARGP_KEY_ARG, struct arguments, tune.captures),
     PIPELINE_TARGETS(struct arguments, pipeline),
@@ -129,12 +131,10 @@ static void read_limit(struct tune *tune, const char *option, const char *text, 
 
 static void check_arguments(struct arguments *a, struct argp_state *state) {
     struct tune *tune = &a->tune;
-    const size_t length = tune->out ? strlen(tune->out) : 0, all = tune->captures.count + tune->held_out.count;
+    const size_t all = tune->captures.count + tune->held_out.count;
     if (!!a->budget_ms + !!a->budget_fetches + !!a->error != 1)
         argp_error(state, "expected one of --budget-ms, --budget-fetches and --error");
     if (!tune->out) argp_error(state, "no output file given: -o PRESET.json");
-    if (length <= 5 || strcmp(tune->out + length - 5, ".json") != 0 || tune->out[length - 6] == '/')
-        argp_error(state, "-o %s: expected a file name NAME.json", tune->out);
     if (a->cost && !a->error) argp_error(state, "--cost can only be used with --error");
     answer_args_check(&tune->against, all, state);
     tune->by_error = a->error != NULL;
@@ -183,8 +183,10 @@ static bool begin_tune(struct arguments *a, struct glint_error *err) {
     tune->shaders = &a->pipeline.shader;
     for (size_t i = 0; i < tune->slots.count; i++)
         if (!glint_slot_check(tune->slots.items[i], err)) return false;
-    if (!choose_metric(a, err) || !(tune->base = pipeline_args_create(&a->pipeline, err)) ||
-        !(tune->device = pipeline_args_device(&a->pipeline, err)) || !glint_make_folder(tune->folder, err) ||
+    a->pipeline.without_fog = tune->against.truth;
+    if (!choose_metric(a, err) || !(tune->base = pipeline_args_create(&a->pipeline, err))) return false;
+    if (tune->against.truth) pipeline_note_fog(&cmd_tune, tune->base, &tune->captures);
+    if (!(tune->device = pipeline_args_device(&a->pipeline, err)) || !glint_make_folder(tune->folder, err) ||
         !tune_load(tune, err) || !tune_make_axes(tune, err))
         return false;
     if (!tune->axis_count)

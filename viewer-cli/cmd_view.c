@@ -17,7 +17,7 @@
 struct arguments {
     struct source_choice choice;
     const char *out, *tev;
-    bool sheet, levels, terminal;
+    bool overwrite, sheet, levels, terminal;
     enum terminal_mode terminal_mode;
     struct statistics_options statistics;
     struct list paths;
@@ -55,6 +55,7 @@ enum {
 /* clang-format off */
 static const struct argp_option options[] = {
     {"output",    'o',           "FILE",     0, "PNG file to write, or - for stdout (default: draw in the terminal)", 0},
+    OVERWRITE_OPTION,
     {"terminal",  KEY_TERMINAL,  "MODE",     OPTION_ARG_OPTIONAL, "Draw in the terminal even if stdout is not one: ", 0},
     {"stats",     KEY_STATS,     NULL,       0, "Print statistics of each channel", 0},
     {"histogram", KEY_HISTOGRAM, NULL,       0, "Print a histogram of each channel over --range and --scale (default: all finite values, linear)", 0},
@@ -115,7 +116,8 @@ static const struct arg_target targets[] = {
     STORED(KEY_OCIO, struct arguments, render.ocio.config),
     STORED(KEY_INPUT, struct arguments, render.ocio.input),
     STORED(ARGP_KEY_ARG, struct arguments, paths),
-    STORED('o', struct arguments, out),
+    STORED_OUTPUT('o', struct arguments, out, OUTPUT_PNG),
+    STORED(KEY_OVERWRITE, struct arguments, overwrite),
     STORED_NAMES(KEY_IMAGE, struct arguments, images),
     STORED(KEY_PART, struct arguments, choice.part),
     STORED(KEY_LAYER, struct arguments, choice.layer),

@@ -17,18 +17,20 @@ struct parsing {
 
 static error_t command_parse_key(int key, char *arg, struct argp_state *state) {
     const struct parsing *parsing = state->input;
+    const struct arg_table table = {parsing->command->targets, parsing->command->options, parsing->command->operand};
     switch (key) {
     case ARGP_KEY_INIT:
         if (parsing->command->numbers) state->child_inputs[0] = state->input;
         return 0;
     case ARGP_KEY_FINI:
+        return 0;
     case ARGP_KEY_SUCCESS:
+        args_check_outputs(&table, state, parsing->input);
         return 0;
     case ARGP_KEY_NO_ARGS:
         if (parsing->command->operand) argp_error(state, "no %s given", parsing->command->operand);
         break;
     }
-    const struct arg_table table = {parsing->command->targets, parsing->command->options, parsing->command->operand};
     if (args_store(&table, key, arg, state, parsing->input)) return 0;
     if (!parsing->command->parse) return ARGP_ERR_UNKNOWN;
     state->input = parsing->input;

@@ -55,13 +55,6 @@ static bool inputs_match(const struct run *run) {
     return match;
 }
 
-static json_int_t history_number(const struct glint_run *history) {
-    json_t *root = json_loads(glint_run_json(history), 0, NULL);
-    const json_int_t number = json_integer_value(json_object_get(root, "frame"));
-    json_decref(root);
-    return number;
-}
-
 static bool makes_diagnostics(const struct run *run) {
     for (size_t i = 0; i < run->graph->image_count; i++)
         if (run->graph->images[i].row->kind == GLINT_ROW_DIAGNOSTIC && run->graph->images[i].source == SOURCE_MADE)
@@ -75,8 +68,8 @@ static void warn_of_missing(const struct glint_replay *replay, const struct run 
     const struct glint_absence *all = glint_absences(&count);
     for (size_t i = 0; i < replay->missing_count; i++) {
         const struct glint_absence *missing = replay->missing[i];
-        json_array_append_new(list, json_sprintf("the capture has no %s%s%s: %s", missing->role,
-                                                 missing->channels[0] ? ":" : "", missing->channels, missing->cost));
+        json_array_append_new(list, json_sprintf("no %s%s%s: %s", missing->role, missing->channels[0] ? ":" : "",
+                                                 missing->channels, missing->cost));
     }
     for (size_t i = 0; i < run->graph->image_count; i++) {
         const struct graph_image *image = &run->graph->images[i];
@@ -96,9 +89,6 @@ static json_t *warnings_record(const struct glint_replay *replay, const struct r
     if (run->plan->inputs && !inputs_match(run))
         json_array_append_new(list, json_sprintf("%s was made from another capture", run->options->inputs));
     const struct glint_frame *frame = glint_capture_frame(run->source->capture);
-    if (run->plan->history && history_number(run->plan->history) + 1 != (json_int_t)frame->number)
-        json_array_append_new(list, json_sprintf("%s holds frame %lld, but this is frame %u", run->options->history,
-                                                 (long long)history_number(run->plan->history), frame->number));
     if (run->sizes->history && !frame->has_previous)
         json_array_append_new(list,
                               json_string("the capture has no previous camera: the camera is assumed not to move"));
@@ -120,6 +110,12 @@ static json_t *end_reasons_record(void) {
     return list;
 }
 
+static json_t *matrix_record(const double matrix[16]) {
+    json_t *list = json_array();
+    for (int i = 0; i < 16; i++) json_array_append_new(list, json_real(matrix[i]));
+    return list;
+}
+
 static json_t *faces_record(const struct glint_cube_faces *faces) {
     return json_pack("{s[II]s[II]}", "uploaded", (json_int_t)faces->uploaded, (json_int_t)faces->uploaded_of,
                      "filtered", (json_int_t)faces->filtered, (json_int_t)faces->filtered_of);
@@ -133,15 +129,16 @@ json_t *run_record(const struct glint_replay *replay, const struct run *run) {
     json_t *passes = json_array();
     for (size_t p = 0; p < run->graph->pass_count; p++)
         json_array_append_new(passes, pass_record(&replay->results, run, p));
-    return json_pack("{si s{ssss} so sI sI sI so s{s[ii]s[ii]} ss sb so so sI so sb so so so so}", "format", 1, "tool",
-                     "name", "glint", "version", GLINT_VERSION, "device", device_record(&run->gpu->info), "frame",
-                     (json_int_t)frame->number, "rays", (json_int_t)glint_pipeline_rays(run->plan->pipeline),
-                     "first_ray", (json_int_t)run->plan->pipeline->first_ray, "preset",
-                     text_or_null(run->plan->pipeline->name), "resolution", "full", (int)full[0], (int)full[1], "half",
-                     (int)half[0], (int)half[1], "precision", options->float_precision ? "float" : "half",
-                     "diagnostics", options->diagnostics, "inputs", text_or_null(options->inputs), "history",
-                     text_or_null(options->history), "active_cubemaps", (json_int_t)run->sizes->active, "cube_faces",
-                     faces_record(&run->plan->faces), "all", options->all, "survey",
-                     surveyed ? survey_record(&replay->planner.survey, frame) : json_null(), "passes", passes,
-                     "end_reasons", end_reasons_record(), "warnings", warnings_record(replay, run));
+    return json_pack(
+        "{si s{ssss} so sI s{so so} sI sI so s{s[ii]s[ii]} ss sb so so sI so sb so so so so}", "format", 1, "tool",
+        "name", "glint", "version", GLINT_VERSION, "device", device_record(&run->gpu->info), "frame",
+        (json_int_t)frame->number, "camera", "world_to_view", matrix_record(frame->camera.world_to_view),
+        "view_to_clip", matrix_record(frame->camera.view_to_clip), "rays",
+        (json_int_t)glint_pipeline_rays(run->plan->pipeline), "first_ray", (json_int_t)run->plan->pipeline->first_ray,
+        "preset", text_or_null(run->plan->pipeline->name), "resolution", "full", (int)full[0], (int)full[1], "half",
+        (int)half[0], (int)half[1], "precision", options->float_precision ? "float" : "half", "diagnostics",
+        options->diagnostics, "inputs", text_or_null(options->inputs), "history", text_or_null(options->history),
+        "active_cubemaps", (json_int_t)run->sizes->active, "cube_faces", faces_record(&run->plan->faces), "all",
+        options->all, "survey", surveyed ? survey_record(&replay->planner.survey, frame) : json_null(), "passes",
+        passes, "end_reasons", end_reasons_record(), "warnings", warnings_record(replay, run));
 }

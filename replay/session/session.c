@@ -105,6 +105,10 @@ const struct glint_absence *glint_replay_missing(const struct glint_replay *repl
     return i < replay->missing_count ? replay->missing[i] : NULL;
 }
 
+const char *glint_replay_warning(const struct glint_replay *replay, size_t i) {
+    return json_string_value(json_array_get(json_object_get(replay->results.record, "warnings"), i));
+}
+
 bool glint_replay_run(struct glint_replay *replay, const struct glint_pipeline *pipeline,
                       const struct glint_replay_options *options, glint_progress progress, void *user,
                       struct glint_error *err) {

@@ -18,9 +18,10 @@ void targets_finish(struct target **targets) {
     *targets = NULL;
 }
 
-/* Reads the reflection of a run, which must be of this capture, and its standard error if the run stores one. */
-static bool read_run(const char *folder, struct glint_capture *capture, struct target *target,
+/* Reads the reflection of a run, which must be of this capture and answer the same question, and its standard error if the run stores one. */
+static bool read_run(const char *folder, const struct target_request *request, struct target *target,
                      struct glint_error *err) {
+    struct glint_capture *capture = request->capture;
     char hash[33];
     struct glint_run *run = glint_run_open(folder, err);
     if (!run) return false;
@@ -31,7 +32,8 @@ static bool read_run(const char *folder, struct glint_capture *capture, struct t
     if (ok && (!theirs || strcmp(theirs, hash) != 0))
         ok = glint_fail(err, GLINT_ERROR_USAGE, "%s: expected a run of %s (%s), found one of %s (%s)", folder,
                         glint_capture_path(capture), hash, path ? path : "another capture", theirs ? theirs : "?");
-    ok = ok && glint_study_run_reflection(run, &target->pixels, err) && glint_study_run_error(run, &target->error, err);
+    ok = ok && glint_study_fits(run, folder, request->pipeline, err) &&
+         glint_study_run_reflection(run, &target->pixels, err) && glint_study_run_error(run, &target->error, err);
     json_decref(json);
     glint_run_close(&run);
     return ok;
@@ -67,7 +69,7 @@ static bool trace_reference(const struct target_request *request, const char *fo
 static bool find_reference(const struct target_request *request, struct target *target, struct glint_error *err) {
     char path[4096];
     if (request->options->reference_run)
-        return read_run(request->options->reference_run, request->capture, target, err);
+        return read_run(request->options->reference_run, request, target, err);
     if (!request->options->reference_folder) return trace_reference(request, NULL, target, err);
     return reference_path(request->options->reference_folder, request->capture, target->question, path, sizeof path,
                           err) &&

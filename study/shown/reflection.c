@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <jansson.h>
+
 static bool composes(const struct glint_pass *pass) {
     return pass && glint_pass_role(pass, GLINT_ROLE_COMPOSED);
 }
@@ -146,6 +148,35 @@ void study_question(const struct glint_pipeline *pipeline, char question[QUESTIO
         if (parameter_text(pipeline, pass->slot, row->image, value))
             snprintf(question + end, QUESTION_SIZE - end, "%s%s.%s=%s", end ? " " : "", pass->slot, row->image, value);
     }
+}
+
+/* A value of run.json as parameter_text writes it. */
+static void json_text(const json_t *value, char text[64]) {
+    if (json_is_string(value)) snprintf(text, 64, "%s", json_string_value(value));
+    else snprintf(text, 64, "%.17g", json_is_boolean(value) ? json_is_true(value) : json_number_value(value));
+}
+
+bool glint_study_fits(const struct glint_run *run, const char *folder, const struct glint_pipeline *pipeline,
+                      struct glint_error *err) {
+    const struct glint_pass *pass;
+    const struct glint_row *row;
+    json_t *json = json_loads(glint_run_json(run), 0, NULL), *theirs;
+    bool ok = true;
+    for (size_t i = 0, p; ok && (row = question_row(pipeline, i, &pass)); i++) {
+        char value[64], other[64];
+        if (!parameter_text(pipeline, pass->slot, row->image, value)) continue;
+        json_array_foreach(json_object_get(json, "passes"), p, theirs) {
+            const char *slot = json_string_value(json_object_get(theirs, "slot"));
+            const json_t *found = json_object_get(json_object_get(theirs, "parameters"), row->image);
+            if (!ok || !slot || strcmp(slot, pass->slot) != 0 || !found) continue;
+            json_text(found, other);
+            ok = !strcmp(value, other) ||
+                 glint_fail(err, GLINT_ERROR_USAGE, "%s: expected a run with %s.%s=%s, as here, found %s", folder, slot,
+                            row->image, value, other);
+        }
+    }
+    json_decref(json);
+    return ok;
 }
 
 struct glint_pipeline *glint_study_reference(const struct glint_pipeline *pipeline, struct glint_error *err) {

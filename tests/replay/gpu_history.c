@@ -161,10 +161,13 @@ static void a_frame_alone_has_the_bits_of_its_shot(void **state) {
         if (i == 2) {
             snapshot_take(&whole, fixture->replay);
             made_check_cuts(fixture, &made, (struct glint_replay_options){.history = folders[1]});
-            made_run(fixture, &made, &(struct glint_replay_options){.history = folders[0]});
-            assert_true(remembered(fixture).frames == 2.5f);
-            assert_false(glint_replay_write(fixture->replay, folders[0], NULL, NULL, &err));
+            made_run(fixture, &made, &(struct glint_replay_options){.history = folders[1]});
+            assert_false(glint_replay_write(fixture->replay, folders[1], NULL, NULL, &err));
             fixture_says(&err, "expected another folder");
+            err = (struct glint_error){0};
+            assert_false(glint_replay_run(fixture->replay, &made.pipeline,
+                                          &(struct glint_replay_options){.history = folders[0]}, NULL, NULL, &err));
+            fixture_says(&err, "expected frame 62, the one before, found frame 61");
         }
         unload_frame(fixture, capture);
     }

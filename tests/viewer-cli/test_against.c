@@ -8,6 +8,7 @@
 #include <string.h>
 
 #define CAPTURE in_folder("box.exr")
+#define RAIN in_folder("rain.exr")
 
 static const json_t *image_of(const json_t *json) {
     const json_t *run = json_array_get(json_object_get(json, "runs"), 0);
@@ -82,7 +83,7 @@ static void metrics_are_chosen(UNUSED void **state) {
 static void advice_of_help_works_in_every_preset(UNUSED void **state) {
     static const char *const presets[] = {"mafia3", "mafia_de", "gtav", "kf2"};
     char *help = glint_ok("replay", "--help");
-    assert_contains(help, "pipeline.fog=false");
+    assert_contains(help, "without fog");
     free(help);
     for (size_t i = 0; i < sizeof presets / sizeof *presets; i++)
         free(glint_ok("replay", CAPTURE, "--against=truth", "--preset", presets[i], "--set=pipeline.fog=false"));
@@ -109,6 +110,48 @@ static void ends_are_held_against_the_truth_and_the_reference(UNUSED void **stat
     assert_true(number(ours, "screen") > number(ours, "cube map"));
     json_decref(json);
     free(text);
+}
+
+/* The image's errors against the truth, as text, after checking what is said of fog. */
+static char *truth_errors(const char *setting, const char *said) {
+    struct outcome outcome = glint("replay", RAIN, "--against=truth", "--json", setting, NULL);
+    assert_int_equal(outcome.status, 0);
+    assert_contains(outcome.err, said);
+    json_t *json = parse_json(outcome.out);
+    char *text = json_dumps(image_of(json), JSON_SORT_KEYS);
+    json_decref(json);
+    outcome_free(&outcome);
+    return text;
+}
+
+static void both_sides_have_the_same_fog(UNUSED void **state) {
+    static const char left_out[] = "its fog is left out", applied[] = "its fog is applied";
+    free(glint_ok("sample", "rain_street", "-o", RAIN, "--size=48x27", "--cube-size=8", "--truth=1"));
+    char *unsaid = truth_errors(NULL, left_out), *off = truth_errors("--set=pipeline.fog=false", left_out),
+         *on = truth_errors("--set=pipeline.fog=true", applied);
+    assert_string_equal(unsaid, off);
+    assert_string_not_equal(unsaid, on);
+    free(unsaid), free(off), free(on);
+
+    char *clear = NULL, *fogged = NULL, *both = NULL;
+    assert_true(asprintf(&clear, "--against=reference=%s", in_folder("clear")) > 0);
+    assert_true(asprintf(&fogged, "--against=reference=%s", in_folder("fogged")) > 0);
+    assert_true(asprintf(&both, "--against=both=%s", in_folder("fogged")) > 0);
+    free(glint_ok("reference", RAIN, "-o", in_folder("clear"), "--rays=2", "--set=pipeline.fog=false"));
+    free(glint_ok("reference", RAIN, "-o", in_folder("fogged"), "--rays=2"));
+    struct outcome outcome = glint("replay", RAIN, clear, NULL);
+    assert_int_equal(outcome.status, 0);
+    assert_contains(outcome.err, left_out);
+    outcome_free(&outcome);
+    outcome = glint("replay", RAIN, fogged, NULL);
+    assert_int_equal(outcome.status, 0);
+    assert_null(strstr(outcome.err, left_out));
+    outcome_free(&outcome);
+    glint_fails(2, "expected a run with resolve.fog=0, as here, found 1", "replay", RAIN, both);
+    glint_fails(2, "expected a run with downsample.ndf=blinn_phong, as here, found ggx", "replay", RAIN, fogged,
+                "--set=downsample.ndf=blinn_phong");
+    glint_fails(1, "nodir", "replay", RAIN, "--against=reference=nodir");
+    free(clear), free(fogged), free(both);
 }
 
 static void what_is_no_number_fails(UNUSED void **state) {
@@ -139,6 +182,7 @@ int main(void) {
         cmocka_unit_test(metrics_are_chosen),
         cmocka_unit_test(advice_of_help_works_in_every_preset),
         cmocka_unit_test(ends_are_held_against_the_truth_and_the_reference),
+        cmocka_unit_test(both_sides_have_the_same_fog),
         cmocka_unit_test(what_is_no_number_fails),
     };
     return cmocka_run_group_tests(tests, make_capture, remove_folder);

@@ -381,8 +381,36 @@ static void ctrl_c_leaves_no_half_file(UNUSED void **state) {
     free(out);
 }
 
+/* Runs of another size, another frame and another camera are no history, and what begins without history says so. */
+static void history_must_be_of_the_frame_before(UNUSED void **state) {
+    static const struct {
+        const char *name, *scene, *size, *first, *said;
+    } others[] = {
+        {"far.exr", "room", "--size=48x27", "--first-frame=3", "expected frame 2, the one before, found frame 1"},
+        {"big.exr", "room", "--size=64x36", "--first-frame=2", "expected 64 x 36 pixels, found 48 x 27"},
+        {"street.exr", "street", "--size=48x27", "--first-frame=2",
+         "its camera is not that capture's previous camera"}};
+    char *history = NULL;
+    assert_true(asprintf(&history, "--history=%s", in_folder("one")) > 0);
+    free(glint_ok("sample", "room", "-o", in_folder("shot.exr"), "--frames=2", "--size=48x27", "--cube-size=8"));
+    free(glint_ok("replay", in_folder("shot.0001.exr"), "-o", in_folder("one")));
+    free(glint_ok("replay", in_folder("shot.0002.exr"), history));
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
+        free(glint_ok("sample", others[i].scene, "-o", in_folder(others[i].name), others[i].size, others[i].first,
+                      "--cube-size=8"));
+        glint_fails(2, others[i].said, "replay", in_folder(others[i].name), history);
+        glint_fails(2, others[i].said, "probe", in_folder(others[i].name), "5,5", history);
+    }
+    free(history);
+    struct outcome outcome = glint("replay", in_folder("shot.0002.exr"), in_folder("shot.0001.exr"), NULL);
+    assert_int_equal(outcome.status, 0);
+    assert_contains(outcome.err, "frame 1 after frame 2: it begins without history");
+    outcome_free(&outcome);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(history_must_be_of_the_frame_before),
         cmocka_unit_test(validate_accepts_it_and_refuses_a_damaged_one),
         cmocka_unit_test(plan_lists_every_pass_with_a_reason),
         cmocka_unit_test(plan_says_what_the_scene_has_nothing_for),

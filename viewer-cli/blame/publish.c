@@ -2,7 +2,7 @@
 #include <stdlib.h>
 
 #include "blame/blame.h"
-#include "io/text_file.h"
+#include "io/output.h"
 
 static const double EVERY_SECONDS = 5;
 
@@ -11,7 +11,7 @@ static bool write_json(const struct blame *blame, struct glint_error *err) {
     json_t *json = blame_json(blame);
     char *text = json ? json_dumps(json, JSON_INDENT(1)) : NULL;
     const bool ok = (text || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory")) &&
-                    journal_path(blame->out, "shares.json", path, err) && text_file_write(path, text, err);
+                    journal_path(blame->out, "shares.json", path, err) && output_text(path, text, err);
     free(text);
     json_decref(json);
     return ok;

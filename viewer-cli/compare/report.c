@@ -5,7 +5,6 @@
 
 #include "compare/compare.h"
 #include "io/table.h"
-#include "io/text_file.h"
 
 static double coverage_of(const struct showing *s, int k) {
     return s->reflecting[k] ? (double)s->given[k] / (double)s->reflecting[k] : 0;

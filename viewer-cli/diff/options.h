@@ -10,7 +10,7 @@
 struct diff_args {
     struct diff_options options;
     const char *heat, *beside, *flicker, *html;
-    bool only_different, verbose, quiet, json;
+    bool overwrite, only_different, verbose, quiet, json;
 };
 
 enum {
@@ -45,6 +45,7 @@ enum {
     {"side-by-side",  KEY_BESIDE,        "FILE.png", 0, "Write both images and the heat map side by side; for several images, one row for each that differs", 0}, \
     {"flicker",       KEY_FLICKER,       "FILE.png", 0, "Write an animated PNG that alternates between both images; of several images, the first that differs", 0}, \
     {"html",          KEY_HTML,          "FILE.html", 0, "Write an HTML page with tables, histograms, and each image that differs under a slider with pixel values", 0}, \
+    OVERWRITE_OPTION, \
     {"od",            KEY_ONLY_DIFFERENT, NULL, 0, "Write these files only if something differs", 0}, \
     METRIC_OPTIONS, \
     {"all",           'a',               NULL, 0, "Accepted for compatibility with idiff -a; all parts are always compared", 0}, \
@@ -53,10 +54,11 @@ enum {
     {"json",          'j',               NULL, 0, "Print JSON", 0}
 /* Where those go that need no more than parsing: `args` is the struct diff_args in the command's arguments of this type. */
 #define DIFF_TARGETS(type, args) \
-    STORED('o', type, args.heat), \
-    STORED(KEY_BESIDE, type, args.beside), \
-    STORED(KEY_FLICKER, type, args.flicker), \
-    STORED(KEY_HTML, type, args.html), \
+    STORED_OUTPUT('o', type, args.heat, OUTPUT_PNG), \
+    STORED_OUTPUT(KEY_BESIDE, type, args.beside, OUTPUT_PNG), \
+    STORED_OUTPUT(KEY_FLICKER, type, args.flicker, OUTPUT_PNG), \
+    STORED_OUTPUT(KEY_HTML, type, args.html, OUTPUT_HTML), \
+    STORED(KEY_OVERWRITE, type, args.overwrite), \
     STORED(KEY_ONLY_DIFFERENT, type, args.only_different), \
     STORED_NUMBER(KEY_ALLOW, type, args.options.limits.allow_failures, 0, UINT32_MAX), \
     STORED('v', type, args.verbose), \

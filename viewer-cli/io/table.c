@@ -193,3 +193,12 @@ const char *number_text(double value) {
     else snprintf(text, 48, "%.4g", value);
     return text;
 }
+
+void csv_text(FILE *out, const char *text) {
+    fputc('"', out);
+    for (; *text; text++) {
+        if (*text == '"') fputc('"', out);
+        fputc(*text, out);
+    }
+    fputc('"', out);
+}

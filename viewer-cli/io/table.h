@@ -36,4 +36,7 @@ const char *bytes_text(uint64_t bytes);
 /* A number with at most four significant digits. */
 const char *number_text(double value);
 
+/* Writes a text as a quoted cell of CSV. */
+void csv_text(FILE *out, const char *text);
+
 #endif

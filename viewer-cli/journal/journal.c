@@ -8,7 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "io/text_file.h"
+#include "io/output.h"
 
 bool journal_path(const char *folder, const char *name, char path[4096], struct glint_error *err) {
     return snprintf(path, 4096, "%s/%s", folder, name) < 4096 ||
@@ -60,7 +60,7 @@ static bool read_log(struct journal *journal, const char *path, struct glint_err
 
 static bool write_definition(const json_t *definition, const char *path, struct glint_error *err) {
     char *text = json_dumps(definition, JSON_INDENT(1));
-    const bool ok = text ? text_file_write(path, text, err) : fail_memory(err);
+    const bool ok = text ? output_text(path, text, err) : fail_memory(err);
     free(text);
     return ok;
 }

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "nearest.h"
 
@@ -45,11 +46,15 @@ uint32_t arg_uint(const char *option, const char *text, uint32_t lowest, uint32_
     return (uint32_t)value;
 }
 
-static uint32_t number_of(const struct arg_table *table, const struct arg_target *target, const char *text,
-                          struct argp_state *state) {
+static const char *option_name(const struct arg_table *table, const struct arg_target *target) {
     const struct argp_option *option = table->options;
     while (option->key != target->key) option++;
-    return arg_uint(option->name, text, target->lowest, target->highest, state);
+    return option->name;
+}
+
+static uint32_t number_of(const struct arg_table *table, const struct arg_target *target, const char *text,
+                          struct argp_state *state) {
+    return arg_uint(option_name(table, target), text, target->lowest, target->highest, state);
 }
 
 bool args_store(const struct arg_table *table, int key, char *arg, struct argp_state *state, void *arguments) {
@@ -62,6 +67,9 @@ bool args_store(const struct arg_table *table, int key, char *arg, struct argp_s
         break;
     case STORES_FLAG:
         *(bool *)field = true;
+        break;
+    case STORES_OUTPUT:
+        *(const char **)field = arg;
         break;
     case STORES_TEXT:
         if (key == ARGP_KEY_ARG && *(const char **)field)
@@ -82,6 +90,52 @@ bool args_store(const struct arg_table *table, int key, char *arg, struct argp_s
         break;
     }
     return true;
+}
+
+/* Whether `text` names this file, alone or before the ':' of FILE:PART:LAYER. */
+static bool names_file(const char *text, const struct stat *file) {
+    char path[4096];
+    struct stat status;
+    if (snprintf(path, sizeof path, "%s", text) >= (int)sizeof path) return false;
+    for (char *end = path + strlen(path); end; end = strrchr(path, ':')) {
+        *end = '\0';
+        if (stat(path, &status) == 0 && status.st_dev == file->st_dev && status.st_ino == file->st_ino) return true;
+    }
+    return false;
+}
+
+/* Any argument but `output` itself that names the same file: as it is, or behind the '=' of --option=FILE and SLOT=FILE. */
+static const char *named_besides(const char *output, const struct stat *file, const struct argp_state *state) {
+    for (int i = 1; i < state->argc; i++)
+        for (const char *text = state->argv[i]; text; text = (text = strchr(text, '=')) ? text + 1 : NULL)
+            if (text != output && names_file(text, file)) return text;
+    return NULL;
+}
+
+static void check_output(const struct arg_table *table, const struct arg_target *target, bool overwrite,
+                         struct argp_state *state, void *arguments) {
+    const char *path = *(const char **)((char *)arguments + target->offset);
+    struct glint_error err = {0};
+    struct stat status;
+    if (!path) return;
+    const char *option = option_name(table, target);
+    if (!output_check(path, target->lowest, overwrite, &err)) argp_error(state, "--%s: %s", option, err.message);
+    for (const struct arg_target *other = table->targets; other < target; other++) {
+        const char *taken = other->kind == STORES_OUTPUT ? *(const char **)((char *)arguments + other->offset) : NULL;
+        if (taken && strcmp(path, "-") != 0 && !strcmp(taken, path))
+            argp_error(state, "--%s: %s: --%s writes to it, too", option, path, option_name(table, other));
+    }
+    if (stat(path, &status) == 0 && S_ISREG(status.st_mode) && named_besides(path, &status, state))
+        argp_error(state, "--%s: %s is an input, too (%s): nothing would be left of it; choose another name", option,
+                   path, named_besides(path, &status, state));
+}
+
+void args_check_outputs(const struct arg_table *table, struct argp_state *state, void *arguments) {
+    bool overwrite = false;
+    for (const struct arg_target *t = table->targets; t && t->kind; t++)
+        if (t->key == KEY_OVERWRITE) overwrite = *(bool *)((char *)arguments + t->offset);
+    for (const struct arg_target *t = table->targets; t && t->kind; t++)
+        if (t->kind == STORES_OUTPUT) check_output(table, t, overwrite, state, arguments);
 }
 
 void arg_numbers(const char *option, const char *text, double *out, size_t count, struct argp_state *state) {

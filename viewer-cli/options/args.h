@@ -8,6 +8,7 @@
 
 #include "glint/common.h"
 #include "status.h"
+#include "io/output.h"
 
 /* A growing, NULL-terminated list of pointers into the program's arguments. */
 struct list {
@@ -26,9 +27,18 @@ const char *const *list_or_null(const struct list *list);
    which a text keeps one, the command's operand. */
 struct arg_target {
     int key;
-    enum { STORES_NOTHING, STORES_FLAG, STORES_TEXT, STORES_ITEM, STORES_NAMES, STORES_UINT32, STORES_UINT64 } kind;
+    enum {
+        STORES_NOTHING,
+        STORES_FLAG,
+        STORES_TEXT,
+        STORES_ITEM,
+        STORES_NAMES,
+        STORES_UINT32,
+        STORES_UINT64,
+        STORES_OUTPUT
+    } kind;
     size_t offset;
-    uint32_t lowest, highest; /* of a number */
+    uint32_t lowest, highest; /* of a number; of an output, lowest is its kinds */
 };
 /* clang-format off */
 #define STORED(key, type, field) \
@@ -38,7 +48,15 @@ struct arg_target {
     {key, _Generic(((type *)NULL)->field, struct list: STORES_NAMES), offsetof(type, field), 0, 0}
 #define STORED_NUMBER(key, type, field, lowest, highest) \
     {key, _Generic(((type *)NULL)->field, uint32_t: STORES_UINT32, uint64_t: STORES_UINT64), offsetof(type, field), lowest, highest}
+/* The name of a file that is written: OUTPUT_ bits say what it contains (io/output.h). */
+#define STORED_OUTPUT(key, type, field, kinds) \
+    {key, _Generic(((type *)NULL)->field, const char *: STORES_OUTPUT), offsetof(type, field), kinds, 0}
+/* Commands with such an output have this option, too. */
+#define OVERWRITE_OPTION \
+    {"overwrite", KEY_OVERWRITE, NULL, 0, "Replace a file that exists and is of another kind; an input is never replaced", 0}
 /* clang-format on */
+enum { KEY_OVERWRITE = 4096 };
+
 /* Where the arguments of a command go. */
 struct arg_table {
     const struct arg_target *targets; /* may be NULL */
@@ -47,6 +65,9 @@ struct arg_table {
 };
 /* Stores the argument where the targets say; false if they do not contain the key. */
 bool args_store(const struct arg_table *table, int key, char *arg, struct argp_state *state, void *arguments);
+
+/* Checks the names of all outputs when everything is parsed: see output_check; and none is a file that the arguments name besides. */
+void args_check_outputs(const struct arg_table *table, struct argp_state *state, void *arguments);
 
 uint32_t arg_uint(const char *option, const char *text, uint32_t lowest, uint32_t highest, struct argp_state *state);
 /* Parses exactly `count` numbers that are separated by commas. */

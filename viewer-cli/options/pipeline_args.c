@@ -1,6 +1,9 @@
 /* The options of commands that run pipelines. */
 #include "options/pipeline_args.h"
 
+#include <string.h>
+
+#include "glint/capture.h"
 #include "options/pass_names.h"
 
 void pipeline_args_finish(struct pipeline_args *args) {
@@ -29,6 +32,7 @@ static bool assign_all(struct glint_pipeline *pipeline, const struct list *list,
 
 bool pipeline_args_apply(const struct pipeline_args *args, struct glint_pipeline *pipeline, struct glint_error *err) {
     return assign_all(pipeline, &args->use, glint_pipeline_use, err) &&
+           (!args->without_fog || pipeline_fog_off(pipeline, err)) &&
            assign_all(pipeline, &args->set, glint_pipeline_set, err) &&
            assign_all(pipeline, &args->shader, glint_pipeline_shader, err);
 }
@@ -56,6 +60,40 @@ struct glint_replay_options pipeline_args_options(const struct pipeline_args *ar
     return options;
 }
 
+/* ---- Fog ---- */
+
 bool pipeline_fog_off(struct glint_pipeline *pipeline, struct glint_error *err) {
     return glint_pipeline_set(pipeline, "pipeline.fog=false", err);
+}
+
+bool pipeline_fog(const struct glint_pipeline *pipeline) {
+    for (size_t i = 0; i < glint_pipeline_pass_count(pipeline); i++) {
+        const struct glint_pass *pass = glint_pipeline_pass(pipeline, i);
+        const struct glint_row *row = glint_pass_parameter(pass, "fog");
+        if (row && glint_pipeline_value(pipeline, pass, row) != 0) return true;
+    }
+    return false;
+}
+
+static bool has_fog(const char *path) {
+    struct glint_capture *capture = strcmp(path, "-") != 0 ? glint_capture_open(path, NULL, NULL) : NULL;
+    const bool fog = capture && glint_capture_frame(capture)->has_fog;
+    glint_capture_close(&capture);
+    return fog;
+}
+
+void pipeline_note_fog(const struct command *command, const struct glint_pipeline *pipeline,
+                       const struct list *captures) {
+    for (size_t i = 0; i < captures->count; i++) {
+        const char *path = captures->items[i];
+        if (!has_fog(path)) continue;
+        if (pipeline_fog(pipeline))
+            command_note(command, "%s: its fog is applied, and what it is compared with has none", path);
+        else
+            command_note(
+                command,
+                "%s: its fog is left out, as what it is compared with has none; --set pipeline.fog=true applies it",
+                path);
+        return;
+    }
 }

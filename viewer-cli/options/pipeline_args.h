@@ -11,6 +11,7 @@ struct pipeline_args {
     struct list use, set, shader;
     struct list passes, outputs, skip, force;
     struct glint_replay_options replay; /* pipeline_args_options fills its lists */
+    bool without_fog; /* fog is off unless --set says otherwise: what the result is compared with has none */
 };
 
 enum {
@@ -70,10 +71,15 @@ enum {
 void pipeline_args_finish(struct pipeline_args *args);
 /* Creates the pipeline of the arguments. Unknown names are errors with the nearest known name. */
 struct glint_pipeline *pipeline_args_create(const struct pipeline_args *args, struct glint_error *err);
-/* Applies --use, --set and --shader to another pipeline. */
+/* Applies --use, without_fog, --set and --shader to another pipeline. */
 bool pipeline_args_apply(const struct pipeline_args *args, struct glint_pipeline *pipeline, struct glint_error *err);
-/* Switches fog off, which the truth does not contain. */
+/* Switches fog off in all passes, for a comparison with the truth, which has none. */
 bool pipeline_fog_off(struct glint_pipeline *pipeline, struct glint_error *err);
+/* Whether some pass of it applies fog. */
+bool pipeline_fog(const struct glint_pipeline *pipeline);
+/* If one of the captures has fog, says that a comparison with something that has none is one without it. */
+void pipeline_note_fog(const struct command *command, const struct glint_pipeline *pipeline,
+                       const struct list *captures);
 struct glint_device *pipeline_args_device(const struct pipeline_args *args, struct glint_error *err);
 struct glint_replay_options pipeline_args_options(const struct pipeline_args *args);
 

@@ -18,10 +18,33 @@ void against_parse(struct against *against, char *text, struct argp_state *state
     if (run && !*run) argp_error(state, "--against=%s=RUN: the name of the run is empty", text);
 }
 
+static bool is_without_fog(const struct glint_run *run) {
+    json_t *json = json_loads(glint_run_json(run), 0, NULL), *pass;
+    bool without = false;
+    size_t i;
+    json_array_foreach(json_object_get(json, "passes"), i, pass) without |=
+        json_is_false(json_object_get(json_object_get(pass, "parameters"), "fog"));
+    json_decref(json);
+    return without;
+}
+
+bool against_prepare(const struct against *against, bool *without_fog, struct glint_error *err) {
+    struct glint_run *run = against->run ? glint_run_open(against->run, err) : NULL;
+    *without_fog = against->truth || (run && is_without_fog(run));
+    const bool ok = run || !against->run;
+    glint_run_close(&run);
+    return ok;
+}
+
 bool against_begin(struct against *against, struct glint_device *device, const struct glint_pipeline *pipeline,
                    struct glint_error *err) {
     against->device = device;
-    return !against->reference || (against->pipeline = glint_study_reference(pipeline, err)) != NULL;
+    if (!against->reference) return true;
+    if (!(against->pipeline = glint_study_reference(pipeline, err))) return false;
+    struct glint_run *run = against->run ? glint_run_open(against->run, err) : NULL;
+    const bool ok = !against->run || (run && glint_study_fits(run, against->run, pipeline, err));
+    glint_run_close(&run);
+    return ok;
 }
 
 void against_finish(struct against *against) {

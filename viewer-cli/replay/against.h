@@ -23,6 +23,8 @@ struct against {
 
 /* Reads "truth", "reference", "reference=RUN", "both" or "both=RUN". */
 void against_parse(struct against *against, char *text, struct argp_state *state);
+/* Opens the run that holds the reference, if there is one, before any work. *without_fog: what is compared with has no fog, as the truth. */
+bool against_prepare(const struct against *against, bool *without_fog, struct glint_error *err);
 /* Makes ready for runs of `pipeline`; does nothing when there is nothing to compare with. */
 bool against_begin(struct against *against, struct glint_device *device, const struct glint_pipeline *pipeline,
                    struct glint_error *err);

@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "io/text_file.h"
+#include "io/output.h"
 
 static json_t *names_json(const struct list *list) {
     json_t *names = json_array();
@@ -55,7 +55,7 @@ json_t *shot_settings(const struct glint_pipeline *pipeline, const struct pipeli
 
 static bool write_settings(const char *path, const json_t *settings, struct glint_error *err) {
     char *text = json_dumps(settings, JSON_INDENT(1) | JSON_SORT_KEYS);
-    bool ok = text ? text_file_write(path, text, err) : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    bool ok = text ? output_text(path, text, err) : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     free(text);
     return ok;
 }

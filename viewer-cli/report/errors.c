@@ -7,7 +7,7 @@
 
 #include "replay/against.h"
 #include "report/report.h"
-#include "io/text_file.h"
+#include "io/output.h"
 
 static bool errors_path(char path[4096], const char *folder, struct glint_error *err) {
     return snprintf(path, 4096, "%s/errors.json", folder) < 4096 ||
@@ -22,7 +22,7 @@ bool report_keep_errors(const char *folder, const struct comparison *compared, s
     json_t *json = json_object();
     against_json(compared, json);
     char *text = json_dumps(json, JSON_INDENT(1));
-    bool ok = text ? text_file_write(path, text, err) : glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
+    bool ok = text ? output_text(path, text, err) : glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
     free(text);
     json_decref(json);
     return ok;

@@ -8,7 +8,7 @@
 #include "journal/journal.h"
 #include "draw/view/png_file.h"
 #include "draw/view/render.h"
-#include "io/text_file.h"
+#include "io/output.h"
 
 enum { LAYERS = 3 };
 
@@ -115,7 +115,7 @@ static bool write_text(const char *folder, const char *name, json_t *json, struc
     char path[4096];
     char *text = json ? json_dumps(json, JSON_INDENT(1)) : NULL;
     const bool ok = (text || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory")) &&
-                    journal_path(folder, name, path, err) && text_file_write(path, text, err);
+                    journal_path(folder, name, path, err) && output_text(path, text, err);
     free(text);
     json_decref(json);
     return ok;

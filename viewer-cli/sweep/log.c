@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "io/text_file.h"
 
 /* Everything that the results depend on. */
 static json_t *define(const struct sweep *sweep, const char *const *axes, const char *sample,

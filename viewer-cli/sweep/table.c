@@ -4,7 +4,6 @@
 
 #include "sweep/sweep.h"
 #include "io/table.h"
-#include "io/text_file.h"
 
 static const char *const classes[] = {"all", "mirror-like", "glossy", "rough"};
 enum { CLASSES = sizeof classes / sizeof *classes };

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "options/pass_names.h"
-#include "io/text_file.h"
+#include "io/output.h"
 #include "tune/tune.h"
 
 static json_t *value_json(const struct glint_row *row, double value) {
@@ -158,7 +158,7 @@ bool tune_write_preset(const struct tune *tune, struct glint_error *err) {
     json_t *json = preset_json(pipeline, name, title);
     json_object_set_new(json, "provenance", provenance_json(tune));
     char *text = json_dumps(json, JSON_INDENT(4));
-    const bool ok = text ? text_file_write(tune->out, text, err) : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    const bool ok = text ? output_text(tune->out, text, err) : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     free(text);
     json_decref(json);
     glint_pipeline_destroy(&pipeline);

@@ -271,6 +271,8 @@ bool glint_capture_lacks(const struct glint_capture *capture, const struct glint
 /* What the passes of the last plan or run would read and the capture does not have: the i-th, NULL past the last. Passes do without it in the
    way that their reasons state. Valid as long as the library is loaded. */
 const struct glint_absence *glint_replay_missing(const struct glint_replay *replay, size_t i);
+/* The i-th of the "warnings" of the last run's run.json, valid until the next run; NULL past the last. */
+const char *glint_replay_warning(const struct glint_replay *replay, size_t i);
 bool glint_replay_run(struct glint_replay *replay, const struct glint_pipeline *pipeline,
                       const struct glint_replay_options *options, glint_progress progress, void *user,
                       struct glint_error *err);
@@ -330,7 +332,7 @@ void glint_run_close(struct glint_run **run);
    "survey" (null when none was needed), "active_cubemaps",
    "cube_faces" {uploaded, filtered}: each the number of faces and the number without culling,
    "bad_values" [{image, slot (null: the capture's), channel, x, y, value, not_finite, clamped}, …],
-   "seconds" by phase, "peak_memory_bytes", "warnings",
+   "camera" {world_to_view, view_to_clip}, "seconds" by phase, "peak_memory_bytes", "warnings",
    "passes" [{slot, variant, ran, reason, cached, cached_work, dispatches, work {texels, of, rays}, host, shader,
    parameters {name: value}, time_ns {n, min, median, max},
    images [{name, file, part, channels, unit, meaning, width, height, format}, …]}, …].

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "draw/blobs.h"
-#include "io/text_file.h"
+#include "io/output.h"
 
 /* ---- Pictures: each is stored once and referred to by its index ---- */
 
@@ -137,7 +137,7 @@ bool page_write(const char *path, const json_t *document, const char *folder, st
     if (ok) json_object_set(copy, "files", files.uris);
     char *text = ok && copy ? html(copy) : NULL;
     ok = ok &&
-         (text ? text_file_write(path, text, err) : glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path));
+         (text ? output_text(path, text, err) : glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path));
     free(text);
     json_decref(files.places);
     json_decref(files.uris);

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "draw/blobs.h"
-#include "io/text_file.h"
+#include "io/output.h"
 
 struct drawing {
     char *chart; /* JSON */
@@ -49,7 +49,7 @@ static bool draw_all(struct drawing *drawing, const char *path, struct glint_err
 bool page_chart_write(const char *path, const json_t *chart, struct glint_error *err) {
     /* ASCII, because Duktape expects characters beyond 16 bits as surrogate pairs */
     struct drawing drawing = {.chart = json_dumps(chart, JSON_ENSURE_ASCII | JSON_COMPACT | JSON_ENCODE_ANY)};
-    bool ok = drawing.chart ? draw_all(&drawing, path, err) && text_file_write(path, drawing.svg, err)
+    bool ok = drawing.chart ? draw_all(&drawing, path, err) && output_text(path, drawing.svg, err)
                             : glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
     free(drawing.chart);
     free(drawing.svg);

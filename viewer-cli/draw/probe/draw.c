@@ -7,7 +7,7 @@
 
 #include "draw/probe/panels.h"
 #include "io/table.h"
-#include "io/text_file.h"
+#include "io/output.h"
 
 enum { HEAD = 62, LEGEND = 62 };
 
@@ -101,7 +101,7 @@ bool probe_draw(const char *path, const struct probe *probe, struct glint_error 
         fclose(d.out);
         ok = empty ? glint_fail(err, GLINT_ERROR_FORMAT, "%s: pixel %u,%u has no ray to draw", path, probe->pixel[0],
                                 probe->pixel[1])
-                   : text_file_write(path, text, err);
+                   : output_text(path, text, err);
     }
     free(text);
     free(body);
