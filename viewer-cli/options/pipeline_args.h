@@ -5,6 +5,8 @@
 #include "options/args.h"
 #include "glint/replay.h"
 
+struct command;
+
 struct pipeline_args {
     const char *preset; /* NULL: mafia3 */
     const char *device; /* NULL: the preferred one */
