@@ -156,7 +156,7 @@ def said(glint, manifest, folder):
         return "validate: " + run.stdout.strip().split("\n")[0].replace(f"{capture}: ", "")
     run = subprocess.run([glint, "lint", capture, "--json"], capture_output=True, text=True)
     findings = json.loads(run.stdout)["findings"]
-    return "lint: " + "; ".join(f"`{f['id']}` ({f['likelihood']})" for f in findings) if findings else "nothing"
+    return "lint: " + "; ".join(f"`{f['id']}` ({f['likelihood']}{', or: ' + f['or'] if 'or' in f else ''})" for f in findings) if findings else "nothing"
 
 
 def original(dump):
