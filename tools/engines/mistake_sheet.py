@@ -4,6 +4,7 @@ import subprocess
 
 CUT = "280x158+130+150"  # the karts, and the road before them
 COLUMNS = 4
+LABEL = "--text:x=5:y=26:size=24:color=1,1,1:shadow=2:font=/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf"
 
 
 def take(glint, folder, number, preset):
@@ -25,7 +26,7 @@ def lay_out(folder, rows, path):
         if not number or not wrong.exists():
             continue
         subprocess.run(["oiiotool", right, "--ch", "R,G,B", "--cut", CUT, wrong, "--ch", "R,G,B", "--cut", CUT, "--mosaic:pad=2", "2x1",
-                        "--text:x=5:y=24:size=22:color=1,1,1:shadow=2", str(number), "-o", tile], check=True)
+                        LABEL, str(number), "-o", tile], check=True)
         tiles.append(tile)
     lines = (len(tiles) + COLUMNS - 1) // COLUMNS
     subprocess.run(["oiiotool", *tiles, "--mosaic:pad=8", f"{COLUMNS}x{lines}", "--resize", "1400x0", "--compression", "jpeg:80", "-o", path], check=True)

@@ -95,7 +95,7 @@ def view_flipped(m, _):
 
 perceptual = both(channel("gbuffer", "material.roughness", {"texture": "power", "scale": 1 / 2048}), encoding("gbuffer", roughness="perceptual"))
 
-# Name, change, and the preset whose reflection shows it.
+# Name, change, and the preset whose reflection shows it: kf2 traces mirror rays through scene, mafia3 lobes through lit and the sky.
 MISTAKES = (
     ("none", lambda m, _: None, "kf2"),
     ("the range of clip z is that of Direct3D", frame(clip_z="zero_to_one"), "kf2"),
@@ -110,23 +110,23 @@ MISTAKES = (
     ("z of the normals has the wrong sign", sign("Z"), "kf2"),
     ("the depth's bottom row is on top", texture("depth", rows="top_first"), "kf2"),
     ("the normals' bottom row is on top", texture("normal", rows="bottom_first"), "kf2"),
-    ("the light's bottom row is on top", texture("light", rows="bottom_first"), "kf2"),
+    ("the light's bottom row is on top", texture("light", rows="bottom_first"), "mafia3"),
     ("the depth is read as view-linear", encoding("gbuffer", depth="view_linear"), "kf2"),
     ("depth and stencil in the other order", texture("depth", format="VK_FORMAT_D24_UNORM_S8_UINT"), "kf2"),
     ("the depth is the previous frame's", swap("depth", "depth_before"), "kf2"),
-    ("the light is the previous frame's, and the reverse", swap("light", "light_before"), "kf2"),
-    ("the light is the previous frame's", channel("lit", "RGB", "light_before.rgb"), "kf2"),
-    ("the light is the previous frame's, which is not there", both(channel("lit", "RGB", "light_before.rgb"), without("previous.lit")), "kf2"),
-    ("the light has no sky", dark_sky, "kf2"),
-    ("the light is half a texel to the right", pixels("light", half_texel), "kf2"),
+    ("the light is the previous frame's, and the reverse", swap("light", "light_before"), "mafia3"),
+    ("the light is the previous frame's", channel("lit", "RGB", "light_before.rgb"), "mafia3"),
+    ("the light is the previous frame's, which is not there", both(channel("lit", "RGB", "light_before.rgb"), without("previous.lit")), "mafia3"),
+    ("the light has no sky", dark_sky, "mafia3"),
+    ("the light is half a texel to the right", pixels("light", half_texel), "mafia3"),
     ("the normals are half a texel to the right", pixels("normal", half_texel), "kf2"),
     ("the previous camera is this frame's", same_previous, "kf2"),
     ("the previous camera is the next frame's", moved_previous(-1), "kf2"),
     ("the previous camera is that of two frames ago", moved_previous(2), "kf2"),
-    ("the light is linear, and is declared as sRGB", encoding("lit", color="srgb"), "kf2"),
-    ("the light is sRGB, and is read as linear", pixels("light", to_srgb), "kf2"),
-    ("red and blue of the light are swapped", channel("lit", "RGB", "light.bgr"), "kf2"),
-    ("the light is the finished picture, with highlights", channel("lit", "RGB", "scene.rgb"), "kf2"),
+    ("the light is linear, and is declared as sRGB", encoding("lit", color="srgb"), "mafia3"),
+    ("the light is sRGB, and is read as linear", pixels("light", to_srgb), "mafia3"),
+    ("red and blue of the light are swapped", channel("lit", "RGB", "light.bgr"), "mafia3"),
+    ("the light is the finished picture, with highlights", channel("lit", "RGB", "scene.rgb"), "mafia3"),
     ("the roughness is declared as perceptual", perceptual, "mafia3"),
     ("the sky is linear, and is declared as sRGB", encoding("sky", color="srgb"), "mafia3"),
     ("the sky's faces are mirrored", texture("sky", cube={"mirror": True}), "mafia3"),
@@ -156,7 +156,7 @@ def said(glint, manifest, folder):
         return "validate: " + run.stdout.strip().split("\n")[0].replace(f"{capture}: ", "")
     run = subprocess.run([glint, "lint", capture, "--json"], capture_output=True, text=True)
     findings = json.loads(run.stdout)["findings"]
-    return "lint: " + "; ".join(f"`{f['id']}` ({f['likelihood']})" for f in findings) if findings else "nothing"
+    return "lint: " + "; ".join(f"`{f['id']}` ({f['likelihood']}{', or: ' + f['or'] if 'or' in f else ''})" for f in findings) if findings else "nothing"
 
 
 def original(dump):

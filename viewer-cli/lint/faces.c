@@ -31,8 +31,9 @@ static double share_of(const struct lint_votes *votes, int face, int stored, int
     return all ? (double)agree / (double)all : 0;
 }
 
-/* Finds a stored face and orientation that matches one face better than as stored; false when none is clearly better. */
-static bool find_better_face(const struct lint_votes *votes, int face, int *stored, int *turn) {
+/* Finds a stored face and orientation that matches one face better than as stored, at this many times as many samples; false when none is
+   clearly better. */
+static bool find_better_face(const struct lint_votes *votes, int face, double factor, int *stored, int *turn) {
     const size_t all = votes->agree[face][face][0] + votes->beyond[face][face][0];
     size_t most = votes->agree[face][face][0];
     double best = share_of(votes, face, face, 0);
@@ -40,8 +41,9 @@ static bool find_better_face(const struct lint_votes *votes, int face, int *stor
     const double before = best;
     *stored = face;
     *turn = 0;
-    for (int s = 0; s < 6; s++)
+    for (int i = 0; i < 6; i++) /* of faces that match as well, the face itself */
         for (int t = 0; t < LINT_TURNS; t++) {
+            const int s = (face + i) % 6;
             const size_t agree = votes->agree[face][s][t];
             if (agree < LINT_ENOUGH / 2 || agree <= most || share_of(votes, face, s, t) <= best) continue;
             most = agree;
@@ -50,7 +52,7 @@ static bool find_better_face(const struct lint_votes *votes, int face, int *stor
             *turn = t;
         }
     return all >= LINT_ENOUGH / 2 && best >= LINT_MIN_SHARE && 1 - best < 0.5 * (1 - before) && best > before + 0.05 &&
-           5 * most > 6 * least;
+           (double)most > factor * (double)least;
 }
 
 static const char *turn_name(int turn) {
@@ -71,11 +73,11 @@ struct verdict {
     char text[256];
 };
 
-static struct verdict judge(const struct lint_votes *votes) {
+static struct verdict judge(const struct lint_votes *votes, double factor) {
     struct verdict v = {.same_turn = -1};
     size_t length = 0;
     for (int f = 0; f < 6; f++) {
-        if (!find_better_face(votes, f, &v.face[f], &v.turn[f])) {
+        if (!find_better_face(votes, f, factor, &v.face[f], &v.turn[f])) {
             v.face[f] = f;
             v.turn[f] = 0;
             continue;
@@ -110,7 +112,7 @@ static void find_cube_faces(const struct lint_data *data, struct lint_reading *r
         for (size_t c = 0; c < data->cube_count; c++)
             if (data->cubes[c].has_distance) count_votes(&votes, data, reading, c, world);
     }
-    const struct verdict v = judge(&votes);
+    const struct verdict v = judge(&votes, 1.2);
     if (!v.changed) return;
     memcpy(other.face, v.face, sizeof v.face);
     memcpy(other.turn, v.turn, sizeof v.turn);
@@ -120,14 +122,14 @@ static void find_cube_faces(const struct lint_data *data, struct lint_reading *r
     *agreement = now;
 }
 
-/* Skies differ by clouds and hour, so most of what is seen must match. */
+/* Skies differ by clouds and hour, so most of what is seen must match; but they are smooth, so that much of a mirrored one matches, too. */
 static void find_sky_faces(const struct lint_data *data, struct lint_reading *reading, struct lint_agreement *agreement,
                            struct lint_findings *findings) {
     struct lint_votes votes = {{{{0}}}, {{{0}}}};
     struct lint_reading other = *reading;
     if (agreement->count[LINT_SKY] < LINT_ENOUGH) return;
     lint_sky_votes(data, reading, &votes);
-    const struct verdict v = judge(&votes);
+    const struct verdict v = judge(&votes, 1.05);
     memcpy(other.sky_face, v.face, sizeof v.face);
     memcpy(other.sky_turn, v.turn, sizeof v.turn);
     const struct lint_agreement now = lint_agree(data, &other, agreement, 1u << LINT_SKY);

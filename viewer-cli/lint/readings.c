@@ -32,6 +32,11 @@ static double far_of(const struct lint_data *data) {
     return isfinite(far) ? far : 1;
 }
 
+/* With a factor of 1, pre-exposed is linear. */
+static enum glint_color_encoding pre_exposed(const struct lint_data *data, enum glint_color_encoding otherwise) {
+    return data->frame.pre_exposure == 1 ? otherwise : GLINT_COLOR_PRE_EXPOSED;
+}
+
 /* Values that are known only at run time. */
 #define CLIP_Y "?clipY"
 #define CLIP_Z "?clipZ"
@@ -318,8 +323,9 @@ static void try_sky_scale(const struct lint_data *data, const struct lint_readin
     c.reading.sky_scale *= lint_sky_scale(data, reading);
     c.agreement = lint_agree(data, &c.reading, agreement, 1u << LINT_SKY);
     c.gain = gain(agreement, &c.agreement, &c.measure);
+    const double missed = 1 - c.agreement.share[LINT_SKY], least = 1 - best->agreement.share[LINT_SKY];
     const bool only = best->row == NONE,
-               as_good = is_curved(&best->reading) != is_curved(reading) && c.gain >= 0.8 * best->gain;
+               as_good = is_curved(&best->reading) != is_curved(reading) && missed <= 2 * least + 0.02;
     if (c.gain > 0 && c.agreement.share[LINT_SKY] >= LINT_MIN_SHARE && (only || as_good)) contest->best = c;
 }
 
