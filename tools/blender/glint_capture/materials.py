@@ -114,6 +114,34 @@ class Reader:
         return _source(shader.node.inputs["Normal"])
 
 
+def emission(tree, shader):
+    """The shader of what the material emits; None where it emits nothing that this tool finds."""
+    if shader is None or shader.node.type == "EMISSION":
+        return shader
+    node = shader.node
+    if node.type == "BSDF_PRINCIPLED":
+        names = {n: n if n in node.inputs else "Emission Color" for n in ("Emission", "Emission Strength")}
+        color, strength = (_input(node, (names[n],)) for n in names)
+        if strength == 0.0 or color == (0.0, 0.0, 0.0):
+            return None
+        glow = tree.nodes.new("ShaderNodeEmission")
+        connect(tree, color, glow.inputs["Color"])
+        connect(tree, strength, glow.inputs["Strength"])
+        return glow.outputs[0]
+    if node.type not in ("MIX_SHADER", "ADD_SHADER"):
+        return None
+    sides = [emission(tree, _source(socket)) for socket in node.inputs if socket.type == "SHADER"]
+    if not any(sides):
+        return None
+    both = tree.nodes.new(node.bl_idname)
+    if node.type == "MIX_SHADER":
+        connect(tree, _input(node, (node.inputs[0].name,)), both.inputs[0])
+    for socket, side in zip((s for s in both.inputs if s.type == "SHADER"), sides):
+        if side is not None:
+            tree.links.new(side, socket)
+    return both.outputs[0]
+
+
 def surface(tree):
     """The material's output and the shader that is linked to it."""
     output = tree.get_output_node("CYCLES")
