@@ -19,10 +19,16 @@ ENVIRONMENT_SAMPLES = 16
 class Manifest:
     """The manifest and its textures, NumPy files in a folder."""
 
-    def __init__(self, folder):
-        self.folder = folder
+    def __init__(self, folder, name="manifest", prefix=""):
+        self.folder, self.name, self.prefix = folder, name, prefix
         os.makedirs(folder, exist_ok=True)
         self.content = {"glint": 1, "frame": {}, "textures": {}, "parts": {}}
+
+    def copy(self, name, prefix):
+        """Another manifest of the same textures, whose own ones get a prefix."""
+        made = Manifest(self.folder, name, prefix)
+        made.content = json.loads(json.dumps(self.content))
+        return made
 
     def texture(self, name, values):
         np.save(os.path.join(self.folder, name + ".npy"), np.ascontiguousarray(values, np.float32))
@@ -32,13 +38,13 @@ class Manifest:
         """channels: letters or a channel's name, and its array."""
         part = dict(more)
         for channel, values in channels.items():
-            texture = f"{name}.{channel}".replace(".", "_")
+            texture = f"{self.prefix}{name}.{channel}".replace(".", "_")
             self.texture(texture, values)
             part[channel] = texture if values.ndim == 2 else {"texture": texture, "channel": "rgb"[:values.shape[2]]}
         self.content["parts"][name] = part
 
     def write(self):
-        path = os.path.join(self.folder, "manifest.json")
+        path = os.path.join(self.folder, self.name + ".json")
         with open(path, "w", encoding="utf-8") as file:
             json.dump(self.content, file, indent=1)
             file.write("\n")
@@ -194,10 +200,19 @@ class Dump:
         depth = self.surface["Depth"]
         reflects = (self.material["specular"] > 0) | (self.material["metalness"] > 0)
         self.manifest.part("truth.mirror", truth.mirror(self.scene, self.depsgraph(), self.camera, depth, self.normal, reflects))
-        found = truth.reflection(self.scene, self.layer, self.wanted.truth, self.wanted.truth_light == "lit", depth, self.say)
-        with np.errstate(invalid="ignore"):
-            noise = np.median(found["error"][found["error"] > 0]) if "error" in found and (found["error"] > 0).any() else 0
-        self.manifest.part("truth.reflection.ggx", found, attributes={"truthSamples": self.wanted.truth, "truthNoise": float(noise)})
+        override = truth.prepare(self.scene, self.layer, self.say)
+        if self.wanted.truth_light != "lit":
+            self.truth_of_reflection(self.manifest)
+        if self.wanted.truth_light != "all":
+            override.only_diffuse()
+            self.truth_of_reflection(self.manifest if self.wanted.truth_light == "lit" else self.manifest.copy("manifest-lit", "lit_"))
+
+    def truth_of_reflection(self, manifest):
+        found = truth.reflection(self.scene, self.layer, self.wanted.truth, self.surface["Depth"])
+        noise = found["error"][found["error"] > 0] if "error" in found else np.zeros(0)
+        manifest.part("truth.reflection.ggx", found,
+                      attributes={"truthSamples": self.wanted.truth, "truthNoise": float(np.median(noise)) if len(noise) else 0.0})
+        manifest.write()
 
     # ---- the whole ----
 

@@ -12,7 +12,8 @@ ROWS = (
     ("cube_size", int, 128, "texels along a face of the cube maps and of the sky"),
     ("far", float, 1000.0, "how far cube maps reach, in units"),
     ("truth", int, 0, "samples a pixel of the path traced truth; 0: none"),
-    ("truth_light", ("lit", "all"), "lit", "what arrives from where a truth's ray ends: lit, the diffuse light that captures hold; all, what that place reflects as well"),
+    ("truth_light", ("all", "lit", "both"), "all", "what a truth holds of the place where its ray ends: all of its light, or what lit holds, the diffuse light; "
+                                                   "both: all, and manifest-lit.json with the other"),
     ("view_layer", str, "", "the view layer; the first one that is rendered, if not given"),
     ("multilayer", str, "", "also write the frame as Blender's own multilayer EXR to this file, for glint pack --blender"),
     ("glint", str, "glint", "the program that packs; where it is not found, the command is printed"),

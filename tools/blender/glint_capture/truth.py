@@ -4,6 +4,7 @@ Cycles' own glossy shader would weight each direction by the masking of microfac
 mirror whose normal is a microfacet's, drawn for every sample from the visible normals (Heitz, Sampling the GGX Distribution of Visible Normals,
 2018, section 3). Draws below the horizon are black, and an AOV counts the others: the mean is over these."""
 import math
+import warnings
 
 import bpy
 import mathutils
@@ -62,19 +63,24 @@ def _lobe():
     return group
 
 
-def _override(layer, only_diffuse, say):
-    """What camera rays meet becomes the mirror; every other ray meets the materials as they are, or (only_diffuse) their diffuse part."""
-    materials.add_aov(layer, ARRIVED, "VALUE")
-    lobe, reader = _lobe(), materials.Reader(lambda text: None)
-    for material in materials.used(say):
-        tree = material.node_tree
-        output, shader = materials.surface(tree)
-        if shader is None:
-            continue
+class Override:
+    """What camera rays meet becomes the mirror; every other ray meets the materials as they are, or their diffuse part."""
+
+    def __init__(self, layer, say):
+        materials.add_aov(layer, ARRIVED, "VALUE")
+        self.reader, self.changed = materials.Reader(lambda text: None), []
+        lobe = _lobe()
+        for material in materials.used(say):
+            tree = material.node_tree
+            output, shader = materials.surface(tree)
+            if shader is not None:
+                self._change(tree, output, shader, lobe)
+
+    def _change(self, tree, output, shader, lobe):
         made = tree.nodes.new("ShaderNodeGroup")
         made.node_tree = lobe
-        materials.connect(tree, reader.value(tree, shader, "roughness"), made.inputs["Roughness"])
-        normal = reader.normal(tree, shader) or tree.nodes.new("ShaderNodeNewGeometry").outputs["Normal"]
+        materials.connect(tree, self.reader.value(tree, shader, "roughness"), made.inputs["Roughness"])
+        normal = self.reader.normal(tree, shader) or tree.nodes.new("ShaderNodeNewGeometry").outputs["Normal"]
         tree.links.new(normal, made.inputs["Normal"])
         materials.write_aov(tree, ARRIVED, made.outputs["Arrived"])
         path, mix = tree.nodes.new("ShaderNodeLightPath"), tree.nodes.new("ShaderNodeMixShader")
@@ -82,8 +88,12 @@ def _override(layer, only_diffuse, say):
         tree.links.new(shader, mix.inputs[1])
         tree.links.new(made.outputs["Shader"], mix.inputs[2])
         tree.links.new(mix.outputs[0], output.inputs["Surface"])
-        if only_diffuse:
-            _first_hit_diffuse(tree, reader, shader, path, mix)
+        self.changed.append((tree, shader, path, mix))
+
+    def only_diffuse(self):
+        """From here on."""
+        for tree, shader, path, mix in self.changed:
+            _first_hit_diffuse(tree, self.reader, shader, path, mix)
 
 
 def _first_hit_diffuse(tree, reader, shader, path, mix):
@@ -114,10 +124,9 @@ def _first_hit_diffuse(tree, reader, shader, path, mix):
     tree.links.new(choice.outputs[0], mix.inputs[1])
 
 
-def reflection(scene, layer, samples, only_diffuse, depth, say):
-    """The channels of truth.reflection.ggx. Changes the materials for good: the last thing that is rendered."""
-    _override(layer, only_diffuse, say)
-    cycles = scene.cycles
+def prepare(scene, layer, say):
+    """Changes the scene for good: nothing but the truth can be rendered after it."""
+    override, cycles = Override(layer, say), scene.cycles
     cycles.filter_width = FILTER
     cycles.sample_clamp_direct = cycles.sample_clamp_indirect = cycles.blur_glossy = 0
     cycles.max_bounces, cycles.glossy_bounces = cycles.max_bounces + 1, cycles.glossy_bounces + 1
@@ -125,6 +134,11 @@ def reflection(scene, layer, samples, only_diffuse, depth, say):
     for item in bpy.data.objects:
         if item.type == "LIGHT":
             item.visible_glossy = False  # the highlights of lamps are neither in lit nor in the sky
+    return override
+
+
+def reflection(scene, layer, samples, depth):
+    """The channels of truth.reflection.ggx, after prepare."""
     batches = min(BATCHES, samples)
     seen = np.isfinite(depth)
     means, total, weight = [], 0, 0
@@ -140,7 +154,8 @@ def reflection(scene, layer, samples, only_diffuse, depth, say):
     result = {"RGB": color, "weight": np.where(usable, weight / samples, 0)}
     if batches > 1:
         luminance = color @ (0.2126, 0.7152, 0.0722)
-        with np.errstate(divide="ignore", invalid="ignore"):
+        with np.errstate(divide="ignore", invalid="ignore"), warnings.catch_warnings():
+            warnings.simplefilter("ignore", RuntimeWarning)  # pixels of the sky, of which all batches are NaN
             error = np.nanstd(np.stack(means), axis=0, ddof=1) / math.sqrt(batches) / luminance
         result["error"] = np.where(usable & (luminance > 0) & np.isfinite(error), error, 0)
     return {name: np.ascontiguousarray(values, np.float32) for name, values in result.items()}
