@@ -51,6 +51,7 @@ bool image_format(const struct node *texture, const struct format **format, stru
 bool image_no_memory(const struct node *texture, struct glint_error *err);
 
 bool image_read_exr(struct image *image, const struct node *texture, const char *path, struct glint_error *err);
+bool image_read_blender(struct image *image, const struct node *texture, const char *path, struct glint_error *err);
 bool image_read_npy(struct image *image, const struct node *texture, struct glint_error *err);
 bool image_read_ktx2(struct image *image, const struct node *texture, struct glint_error *err);
 bool image_read_dds(struct image *image, const struct node *texture, struct glint_error *err);

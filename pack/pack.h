@@ -87,6 +87,9 @@ bool channels_choose(struct part *part, struct glint_error *err);
 bool channels_convert(struct part *part, struct glint_error *err);
 void channels_finish(struct part *part);
 
+/* Adds to the manifest what is in a multilayer EXR file of Blender: its texture, and channels that the manifest does not say. */
+bool blender_add(struct pack *pack, const char *path, struct glint_error *err);
+
 /* ---- Frame ---- */
 
 /* The projection that a matrix describes, for a depth buffer in [0, 1]. */
