@@ -186,13 +186,34 @@ static bool is_said(json_t *part, const char *channel) {
            (strchr(channel, '.') ? json_object_get(part, layer) : json_object_get(part, "RGB")) != NULL;
 }
 
+/* Which terms lit is made of, and which of them the file lacks. */
+static void note_light(const struct pack *pack, const struct node *channel, const struct file *file,
+                       const char *first) {
+    char text[400], missing[200] = "";
+    size_t length = (size_t)snprintf(text, sizeof text, "(%s", first);
+    static const char *const before[] = {" + ", ") · ", " + ", " + "};
+    for (size_t i = 0; i < LIGHTS - 1; i++) {
+        char pass[32];
+        const int bytes = snprintf(pass, sizeof pass, "%s.%s", light[i], channel->key);
+        const bool found = find_channel(file, pass, (size_t)bytes) != NULL;
+        const size_t used = strlen(missing);
+        if (!found) snprintf(missing + used, sizeof missing - used, "%s%s", used ? ", " : "", light[i]);
+        length += (size_t)snprintf(text + length, sizeof text - length, "%s%s", before[i],
+                                   found    ? light[i]
+                                   : i == 1 ? "1"
+                                            : "0");
+    }
+    pack_note(pack, GLINT_PACK_FOUND, channel, "%s", text);
+    if (missing[0])
+        pack_note(pack, GLINT_PACK_DEFAULT, channel, "no pass %s; the light that it holds is missing", missing);
+}
+
 static bool add_row(struct pack *pack, const struct file *file, size_t row, struct glint_error *err) {
     const struct node root = node_root(&pack->manifest), parts = node_child(&root, "parts");
     const struct row *r = &rows[row];
     const struct node part = node_child(&parts, r->part), channel = node_child(&part, r->channel);
     if (is_said(part.value, r->channel)) return true;
-    const bool is_metal_free =
-        !strcmp(r->passes, "albedo.R DiffCol.R") && file->found[row] && strstr(file->found[row], "DiffCol") != NULL;
+    const bool is_diffuse = file->found[row] && strstr(file->found[row], ".DiffCol.");
     if (!file->found[row] && r->needed)
         return node_fail(&channel, err, GLINT_ERROR_FORMAT, "the file has no channel %s%.*s: %s", file->layer,
                          (int)strcspn(r->passes, " "), r->passes, r->without);
@@ -200,9 +221,10 @@ static bool add_row(struct pack *pack, const struct file *file, size_t row, stru
         if (r->without[0]) pack_note(pack, GLINT_PACK_DEFAULT, &channel, "%s", r->without);
         return true;
     }
-    pack_note(pack, GLINT_PACK_FOUND, &channel, "%s%s%s%s", r->scale < 0 ? "-" : "", file->found[row],
-              strcmp(r->part, "lit") ? "" : ", with DiffInd, DiffCol, Emit and Env",
-              is_metal_free ? "; of metals it is black, an AOV albedo is not" : "");
+    if (!strcmp(r->part, "lit")) note_light(pack, &channel, file, file->found[row]);
+    else
+        pack_note(pack, GLINT_PACK_FOUND, &channel, "%s%s%s", r->scale < 0 ? "-" : "", file->found[row],
+                  is_diffuse ? "; it is black where a metal is, an AOV albedo is not" : "");
     char name[64];
     snprintf(name, sizeof name, "%s.%s", r->part, r->channel);
     json_t *said = part.value ? json_incref(part.value) : json_object();
