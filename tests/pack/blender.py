@@ -87,7 +87,7 @@ class Tests:
     def test_all_passes(self):
         for letter in "fe":
             channels = passes()
-            if letter == "e":  # half holds no 1e10; Blender writes Depth as float, where all else is half
+            if letter == "e":  # 1e10 in a file of half floats
                 channels["ViewLayer.Depth.Z"] = lambda x, y: float("inf") if y == 0 else value("Depth.Z", x, y)
             exr(self.path, channels, letter)
             self.manifest()

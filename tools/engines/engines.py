@@ -4,10 +4,11 @@ Finished steps stay in FOLDER and are not repeated; delete a step's result to do
 import argparse
 import pathlib
 
+import blender
 import games
 
 # Each has prove(glint, folder), which does all steps, and pictures(glint, folder, docs), which writes the pictures of its page.
-ENGINES = {"renderdoc": games}
+ENGINES = {"renderdoc": games, "blender": blender}
 
 
 def main():
