@@ -133,6 +133,8 @@ def write_tables(path, tables):
 
 def prove(glint, folder):
     folder = folder / "blender"
+    folder.mkdir(parents=True, exist_ok=True)
+    Steps(folder).do("materials", ["materials.log"], lambda: blender(folder, TOOLS / "verify_materials.py", "materials.log"))
     for name in SCENES:
         prove_scene(glint, name, folder / name)
     print("\n".join(figures(folder)), flush=True)

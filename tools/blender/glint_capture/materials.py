@@ -19,6 +19,7 @@ SHADERS = {
     "HOLDOUT": NONE,
 }
 OTHER = {**NONE, "albedo": (0.8, 0.8, 0.8)}
+SOCKETS = {"VALUE": "NodeSocketFloat", "COLOR": "NodeSocketColor", "NORMAL": "NodeSocketVector"}
 CHANNELS = {"roughness": "VALUE", "metalness": "VALUE", "specular": "VALUE", "albedo": "COLOR"}
 TRANSPARENT = ("EMISSION", "BSDF_TRANSPARENT", "HOLDOUT", "BACKGROUND")  # the other side of an Add Shader says what the surface is
 
@@ -55,11 +56,25 @@ def _input(node, names):
     raise KeyError(names[0])
 
 
+def _inside(node, shader):
+    """The node inside of a group that hands a shader to the outside; None."""
+    found = next((n for n in node.node_tree.nodes if n.type == "GROUP_OUTPUT" and n.is_active_output), None)
+    return found if found and shader.name in found.inputs else None
+
+
+def _bring_out(node, inside, name, kind, value):
+    """A new output of the group, where it has none of this name."""
+    if name not in node.outputs:
+        node.node_tree.outputs.new(kind, name)
+        connect(node.node_tree, value(), inside.inputs[name])
+    return node.outputs[name]
+
+
 class Reader:
     """Follows a material's shader to a channel of it, adding nodes where shaders are mixed."""
 
     def __init__(self, say):
-        self.say = say
+        self.say, self.material = say, ""  # for messages
 
     def value(self, tree, shader, channel):
         """A socket of the tree, or a constant. `shader`: an output of a shader's node, None if there is none."""
@@ -76,7 +91,7 @@ class Reader:
             return self._group(node, shader, channel)
         rule = SHADERS.get(node.type)
         if rule is None:
-            self.say(f"{tree.name}: the node {node.name} ({node.bl_label}) has no {channel} that this tool knows; {OTHER[channel]} is written")
+            self.say(f"{self.material}: this tool does not know the shader {node.bl_label}; roughness 1, specular 0 and an albedo of 0.8 are written")
             return OTHER[channel]
         if channel == "roughness" and getattr(node, "distribution", "") == "SHARP":
             return 0.0
@@ -94,21 +109,21 @@ class Reader:
 
     def _group(self, node, shader, channel):
         """The value inside, brought out by an output that the group gets."""
-        tree = node.node_tree
-        inside = next((n for n in tree.nodes if n.type == "GROUP_OUTPUT" and n.is_active_output), None)
-        if inside is None or shader.name not in inside.inputs:
+        inside = _inside(node, shader)
+        if inside is None:
             return OTHER[channel]
-        name = f"glint {shader.name} {channel}"
-        if name not in node.outputs:
-            tree.outputs.new("NodeSocketFloat" if CHANNELS[channel] == "VALUE" else "NodeSocketColor", name)
-            connect(tree, self.value(tree, _source(inside.inputs[shader.name]), channel), inside.inputs[name])
-        return node.outputs[name]
+        return _bring_out(node, inside, f"glint {shader.name} {channel}", SOCKETS[CHANNELS[channel]],
+                          lambda: self.value(node.node_tree, _source(inside.inputs[shader.name]), channel))
 
     def normal(self, tree, shader):
         """The shading normal that the shader is given; None where it is the surface's own."""
         while shader is not None and shader.node.type in ("MIX_SHADER", "ADD_SHADER"):
             sides = [_source(socket) for socket in shader.node.inputs if socket.type == "SHADER"]
             shader = next((s for s in sides if s is not None and s.node.type not in TRANSPARENT), None)
+        if shader is not None and shader.node.type == "GROUP" and shader.node.node_tree:
+            inside = _inside(shader.node, shader)
+            within = inside and self.normal(shader.node.node_tree, _source(inside.inputs[shader.name]))
+            return within and _bring_out(shader.node, inside, f"glint {shader.name} normal", SOCKETS["NORMAL"], lambda: within)
         if shader is None or "Normal" not in shader.node.inputs:
             return None
         return _source(shader.node.inputs["Normal"])
@@ -198,7 +213,7 @@ def add_outputs(layer, say):
         add_aov(layer, name, kind)
     for material in used(say):
         _with_nodes(material, say)
-        tree = material.node_tree
+        tree, reader.material = material.node_tree, material.name
         _, shader = surface(tree)
         for name in CHANNELS:
             write_aov(tree, name, reader.value(tree, shader, name))
