@@ -1,4 +1,5 @@
 /* glint pack: a capture from loose textures and a manifest. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "glint/pack.h"
@@ -8,10 +9,10 @@
 #include "command.h"
 #include "options/args.h"
 
-enum { KEY_PROGRESS = 256 };
+enum { KEY_PROGRESS = 256, KEY_BLENDER, KEY_CAMERA };
 
 struct arguments {
-    const char *manifest, *out;
+    const char *manifest, *blender, *camera, *out;
     bool explain, overwrite;
     uint32_t jobs;
     bool lines;
@@ -21,6 +22,9 @@ static const struct argp_option options[] = {
     {"output", 'o', "FILE", 0, "Capture to write, or - for stdout", 0},
     OVERWRITE_OPTION,
     {"explain", 'e', NULL, 0, "Print everything as it was understood, defaults included, and write nothing", 0},
+    {"blender", KEY_BLENDER, "FRAME.exr", 0, "In place of MANIFEST: a multilayer EXR file of Blender", 0},
+    {"camera", KEY_CAMERA, "FILE", 0, "The manifest that belongs to it, with the camera (default: FRAME.camera.json)",
+     0},
     {"jobs", 'j', "N", 0, "Number of threads (default: one per core)", 0},
     PROGRESS_OPTION,
     {0},
@@ -31,20 +35,30 @@ static const struct arg_target targets[] = {
     STORED('e', struct arguments, explain),
     STORED_NUMBER('j', struct arguments, jobs, 1, 1024),
     STORED(KEY_PROGRESS, struct arguments, lines),
-    STORED(ARGP_KEY_ARG, struct arguments, manifest),
+    STORED(KEY_BLENDER, struct arguments, blender),
+    STORED(KEY_CAMERA, struct arguments, camera),
     {0},
 };
 static const struct example examples[] = {
     {"glint pack frame.json --explain", "reads and checks everything, and prints what was understood"},
     {"glint pack frame.json -o frame.exr", "writes the capture, and prints each default that it used"},
+    {"glint pack --blender frame.exr -o F.exr", "of a render of Blender, with its camera in frame.camera.json"},
     {"glint extract street.exr -o street", "shows a manifest: that of a capture"},
     {0},
 };
 
 static error_t cmd_pack_parse(int key, char *arg, struct argp_state *state) {
-    (void)arg;
-    const struct arguments *a = state->input;
+    struct arguments *a = state->input;
+    if (key == ARGP_KEY_ARG) {
+        if (a->manifest) argp_error(state, "expected one manifest, found %s and %s", a->manifest, arg);
+        a->manifest = arg;
+        return 0;
+    }
     if (key != ARGP_KEY_END) return ARGP_ERR_UNKNOWN;
+    if (!a->manifest && !a->blender) argp_error(state, "no manifest given");
+    if (a->manifest && a->blender)
+        argp_error(state, "expected a manifest or --blender, found both; --camera names the latter's");
+    if (a->camera && !a->blender) argp_error(state, "--camera belongs to --blender");
     if (!a->explain == !a->out) argp_error(state, "expected -o FILE or --explain");
     return 0;
 }
@@ -60,6 +74,21 @@ static void on_note(void *user, enum glint_pack_note kind, const char *key, cons
     else command_note(&cmd_pack, "%s", line);
 }
 
+static bool pack_blender(const struct arguments *a, const char *out, const struct glint_pack_options *options,
+                         struct glint_error *err) {
+    static const char suffix[] = ".exr", own[] = ".camera.json";
+    size_t length = strlen(a->blender);
+    if (a->camera) return glint_pack_blender(a->blender, a->camera, out, options, err);
+    if (length >= sizeof suffix && !strcmp(a->blender + length + 1 - sizeof suffix, suffix))
+        length -= sizeof suffix - 1;
+    char *camera = malloc(length + sizeof own);
+    if (!camera) return fail_memory(err);
+    snprintf(camera, length + sizeof own, "%.*s%s", (int)length, a->blender, own);
+    const bool ok = glint_pack_blender(a->blender, camera, out, options, err);
+    free(camera);
+    return ok;
+}
+
 static enum status cmd_pack_run(int argc, char **argv) {
     struct arguments a = {0};
     struct progress progress = {0};
@@ -72,7 +101,7 @@ static enum status cmd_pack_run(int argc, char **argv) {
     progress_begin(&progress);
     const struct glint_pack_options pack = {
         .threads = a.jobs, .note = on_note, .note_user = &a, .progress = progress_report, .progress_user = &progress};
-    bool ok = glint_pack(a.manifest, out, &pack, &err);
+    bool ok = a.blender ? pack_blender(&a, out, &pack, &err) : glint_pack(a.manifest, out, &pack, &err);
     progress_end(&progress);
     ok = ok && (!a.out || pipe_output_flush(&pipe, &err));
     pipe_finish(&pipe);
@@ -81,7 +110,7 @@ static enum status cmd_pack_run(int argc, char **argv) {
 
 const struct command cmd_pack = {
     .name = "pack",
-    .arguments = "MANIFEST",
+    .arguments = "MANIFEST | --blender FRAME.exr",
     .summary = "make a capture of loose textures",
     .description =
         "Makes a capture of the textures that an engine dumped, raw memory or image files, and of a JSON file, the "
@@ -90,7 +119,6 @@ const struct command cmd_pack = {
         "is printed. Errors name the manifest's line and key. docs/pack.md describes the manifest.",
     .options = options,
     .targets = targets,
-    .operand = "manifest",
     .parse = cmd_pack_parse,
     .examples = examples,
     .run = cmd_pack_run,

@@ -62,6 +62,8 @@ static bool ends_with(const char *path, const char *suffix) {
 
 bool image_read(struct image *image, const struct node *texture, const char *path, bool cube, struct glint_error *err) {
     *image = (struct image){0};
+    const char *passes = node_text(texture, "passes");
+    if (passes && !strcmp(passes, "blender")) return image_read_blender(image, texture, path, err);
     if (ends_with(path, ".exr")) return image_read_exr(image, texture, path, err);
     if (!file_read(path, IMAGE_MAX_BYTES, &image->bytes, err)) return node_wrap(texture, err);
     if (ends_with(path, ".png")) return read_oiio(image, texture, path, "png", err);

@@ -5,6 +5,7 @@
 #include "image.h"
 
 bool image_read_exr(struct image *image, const struct node *texture, const char *path, struct glint_error *err);
+bool image_read_blender(struct image *image, const struct node *texture, const char *path, struct glint_error *err);
 bool image_read_npy(struct image *image, const struct node *texture, struct glint_error *err);
 bool image_read_ktx2(struct image *image, const struct node *texture, struct glint_error *err);
 bool image_read_dds(struct image *image, const struct node *texture, struct glint_error *err);

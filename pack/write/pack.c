@@ -290,14 +290,25 @@ static bool pack_opened(struct pack *pack, const char *out, struct glint_error *
     return ok;
 }
 
-bool glint_pack(const char *manifest, const char *out, const struct glint_pack_options *options,
-                struct glint_error *err) {
+static bool pack_file(const char *manifest, const char *blender, const char *out,
+                      const struct glint_pack_options *options, struct glint_error *err) {
     struct pack pack = {.has_frame = false};
     struct glint_error own = {0};
     if (!err) err = &own; /* messages of what lies below are put together with lines */
     if (options) pack.options = *options;
-    const bool ok = manifest_open(&pack.manifest, manifest, &pack.options, err) && pack_opened(&pack, out, err);
+    const bool ok = manifest_open(&pack.manifest, manifest, &pack.options, err) &&
+                    (!blender || blender_add(&pack.manifest, blender, err)) && pack_opened(&pack, out, err);
     textures_finish(&pack.textures);
     manifest_close(&pack.manifest);
     return ok;
+}
+
+bool glint_pack(const char *manifest, const char *out, const struct glint_pack_options *options,
+                struct glint_error *err) {
+    return pack_file(manifest, NULL, out, options, err);
+}
+
+bool glint_pack_blender(const char *blender, const char *manifest, const char *out,
+                        const struct glint_pack_options *options, struct glint_error *err) {
+    return pack_file(manifest, blender, out, options, err);
 }

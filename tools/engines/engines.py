@@ -6,10 +6,11 @@ import pathlib
 import time
 
 import babylon
+import blender
 import games
 
 # Each has prove(glint, folder), which does all steps, and pictures(glint, folder, docs), which writes the pictures of its page.
-ENGINES = {"renderdoc": games, "babylon": babylon}
+ENGINES = {"renderdoc": games, "babylon": babylon, "blender": blender}
 
 
 def main():

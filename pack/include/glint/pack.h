@@ -32,6 +32,11 @@ struct glint_pack_options {
 bool glint_pack(const char *manifest, const char *out, const struct glint_pack_options *options,
                 struct glint_error *err);
 
+/* The same of a multilayer EXR file that Blender wrote. The manifest holds what is not in it: the camera in `frame`, and parts and channels of
+   your own, which come before those of the file. */
+bool glint_pack_blender(const char *blender, const char *manifest, const char *out,
+                        const struct glint_pack_options *options, struct glint_error *err);
+
 /* Writes FOLDER/manifest.json and textures that glint_pack makes the same capture of, and copies sibling files. The manifest is written
    last. Files that are there already are overwritten, but never the capture itself. */
 bool glint_extract(const char *capture, const char *folder, const struct glint_pack_options *options,
