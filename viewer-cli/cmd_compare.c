@@ -154,13 +154,16 @@ static enum status compare(struct contest *contest, const struct arguments *a, s
     bool ok = showings || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     if (ok && a->out) ok = (pictures = begin_pictures(a, &sheet, (uint32_t)contest->count + 1, err)) != NULL;
     progress_begin(&progress);
+    struct missing missing = {0};
     contest->progress = &progress;
+    contest->missing = &missing;
     for (size_t i = 0; ok && i < a->captures.count; i++)
         ok = run_capture(contest, a->captures.items[i], &showings[i * contest->count], pictures ? &pictures[i] : NULL,
                          err);
     if (ok && a->out) ok = write_all(a->out, &table, &sheet, pictures, err);
     progress_end(&progress);
     enum status status = ok ? STATUS_DONE : command_fail(&cmd_compare, err);
+    missing_note(&cmd_compare, &missing, 0);
     if (ok && a->json) status = print_json(contest_json(&table));
     else if (ok) contest_print(&table);
     if (ok && status == STATUS_DONE) status = report_failures(&table);

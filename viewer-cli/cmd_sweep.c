@@ -179,6 +179,7 @@ static enum status cmd_sweep_run(int argc, char **argv) {
     enum status status = ok ? STATUS_DONE : command_fail(&cmd_sweep, &err);
     if (!ok && err.code == GLINT_ERROR_INTERRUPTED)
         command_note(&cmd_sweep, "results are kept in %s; the same command resumes from there", sweep->out);
+    missing_note(&cmd_sweep, &sweep->missing, 0);
     if (ok && a.json) status = print_json(sweep_json(sweep));
     else if (ok) sweep_print(sweep);
     if (ok && status == STATUS_DONE) status = report_failures(sweep);

@@ -9,6 +9,7 @@
 #include "channels.h"
 #include "convert.h"
 #include "encodings.h"
+#include "blender.h"
 #include "extras.h"
 #include "frame.h"
 #include "keys.h"

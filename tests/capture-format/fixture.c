@@ -54,7 +54,7 @@ struct glint_frame fixture_frame(void) {
     frame.depth_far = 500;
     frame.motion_range = 0.5;
     frame.has_fog = true;
-    frame.fog = (struct glint_fog){{0.5f, 0.6f, 0.7f}, 0.01, -2, 80};
+    frame.fog = (struct glint_fog){{0.5f, 0.6f, 0.7f}, 0.01, -2, 80, false};
     frame.class_count = 2;
     frame.classes[0] = (struct glint_stencil_class){.value = 3, .mask = 7, .name = "sky"};
     frame.classes[1] = (struct glint_stencil_class){.value = 4, .name = "character = player"};

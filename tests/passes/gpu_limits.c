@@ -249,7 +249,7 @@ static void even_ball(uint32_t number, const double d[3], float out[5]) {
 static void fog_lies_before_what_is_reflected(void **state) {
     struct gpu *gpu = *state;
     for (int even = 0; even < 2; ++even) {
-        const struct glint_fog fog = {{1, 0, 2}, 0.04, -1, even ? 0 : 4};
+        const struct glint_fog fog = {{1, 0, 2}, 0.04, -1, even ? 0 : 4, false};
         load_capture(gpu, &(struct plain){.fog = &fog, .cube_size = 8, .cube_count = 1, .cube = even_ball});
         gpu_set(gpu, "screen_trace.length_m=0");
         gpu_run(gpu);

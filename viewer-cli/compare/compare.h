@@ -2,6 +2,7 @@
 #ifndef GLINT_VIEWER_COMPARE_H
 #define GLINT_VIEWER_COMPARE_H
 
+#include "capture/missing.h"
 #include "options/args.h"
 #include "glint/judge.h"
 #include "io/progress.h"
@@ -48,6 +49,7 @@ struct contest {
     struct glint_device *device;
     struct glint_judge *judge; /* created with the first capture; the index of a contestant is its lineage */
     struct progress *progress;
+    struct missing *missing; /* what the captures lack of what the pipelines read */
 };
 
 /* Makes the pipelines of presets, by name or file, NULL-terminated. Settings are PRESET:SLOT.PARAM=VALUE. Fog is switched

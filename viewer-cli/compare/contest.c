@@ -156,9 +156,10 @@ static bool measure_contestant(const struct contest *contest, size_t i, struct s
     const struct glint_pipeline *pipeline = contest->contestants[i].pipeline;
     const uint8_t *surfaces = glint_judge_surfaces(contest->judge);
     if (!glint_judge_evaluate(contest->judge, pipeline, (uint32_t)i, &a->verdict, progress_report, contest->progress,
-                              err) ||
-        !note_passes(s, &a->verdict, err) || !read_picture(contest->judge, s, a, err))
+                              err))
         return false;
+    missing_add(contest->missing, glint_judge_replay(contest->judge));
+    if (!note_passes(s, &a->verdict, err) || !read_picture(contest->judge, s, a, err)) return false;
     s->ends = a->verdict.ends;
     count_given(s, a->verdict.coverage, surfaces, (size_t)a->verdict.reflection.width * a->verdict.reflection.height);
     s->compared = a->verdict.no_truth.code == GLINT_OK;

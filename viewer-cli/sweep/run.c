@@ -104,6 +104,7 @@ static bool measure_point(struct work *work, size_t point, struct glint_error *e
     if (!pipeline) return false;
     label(work, "point", point + 1);
     bool ok = glint_judge_evaluate(work->judge, pipeline, 0, &verdict, report, work, &own);
+    if (ok) missing_add(&work->sweep->missing, glint_judge_replay(work->judge));
     const double start = now_seconds();
     ok = ok && draw_point(work, point, &own);
     if (ok && work->sweep->against.truth && verdict.no_truth.code != GLINT_OK) /* the truth is missing for all points */

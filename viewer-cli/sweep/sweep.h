@@ -4,6 +4,7 @@
 
 #include <jansson.h>
 
+#include "capture/missing.h"
 #include "options/answer_args.h"
 #include "options/args.h"
 #include "glint/space.h"
@@ -48,6 +49,7 @@ struct sweep {
     enum glint_metric metric;
     uint32_t metrics;
     struct progress *progress;
+    struct missing missing; /* what the captures lack of what the pipelines read */
 
     size_t points;
     struct sweep_row *rows; /* index: capture · points + point */
