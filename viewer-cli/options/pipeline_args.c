@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "glint/capture.h"
+#include "command.h"
 #include "options/pass_names.h"
 
 void pipeline_args_finish(struct pipeline_args *args) {
