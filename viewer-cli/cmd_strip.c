@@ -20,12 +20,9 @@ static const struct argp_option options[] = {
 };
 /* clang-format on */
 static const struct arg_target targets[] = {
-    STORED_NAMES(KEY_KEEP, struct arguments, keep),
-    STORED_NAMES(KEY_DROP, struct arguments, drop),
-    STORED_OUTPUT('o', struct arguments, out, OUTPUT_EXR),
-    STORED(KEY_OVERWRITE, struct arguments, overwrite),
-    STORED(ARGP_KEY_ARG, struct arguments, path),
-    {0},
+    STORED_NAMES(KEY_KEEP, struct arguments, keep),        STORED_NAMES(KEY_DROP, struct arguments, drop),
+    STORED_OUTPUT('o', struct arguments, out, OUTPUT_EXR), STORED(KEY_OVERWRITE, struct arguments, overwrite),
+    STORED(ARGP_KEY_ARG, struct arguments, path),          {0},
 };
 static const struct example examples[] = {
     {"glint strip frame.exr --keep gbuffer,lit -o repro.exr", "keeps what screen rays need"},

@@ -68,8 +68,7 @@ static bool trace_reference(const struct target_request *request, const char *fo
 
 static bool find_reference(const struct target_request *request, struct target *target, struct glint_error *err) {
     char path[4096];
-    if (request->options->reference_run)
-        return read_run(request->options->reference_run, request, target, err);
+    if (request->options->reference_run) return read_run(request->options->reference_run, request, target, err);
     if (!request->options->reference_folder) return trace_reference(request, NULL, target, err);
     return reference_path(request->options->reference_folder, request->capture, target->question, path, sizeof path,
                           err) &&

@@ -4,7 +4,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-
 /* Everything that the results depend on. */
 static json_t *define(const struct sweep *sweep, const char *const *axes, const char *sample,
                       const struct list *shaders, struct glint_error *err) {

@@ -47,7 +47,8 @@ bool glint_study_truth(struct glint_capture *capture, const struct glint_pipelin
                        struct glint_pixels *pixels, float **error, struct glint_error *err);
 /* Whether a run answers the same question as a pipeline: has the same values of the parameters that define what is to be estimated, as far
    as both have them. The error names the run by its folder, and the first value that differs. */
-bool glint_study_fits(const struct glint_run *run, const char *folder, const struct glint_pipeline *pipeline, struct glint_error *err);
+bool glint_study_fits(const struct glint_run *run, const char *folder, const struct glint_pipeline *pipeline,
+                      struct glint_error *err);
 /* The preset `reference` with those parameters of `pipeline` that define what is to be estimated: its lobe and its fog. */
 struct glint_pipeline *glint_study_reference(const struct glint_pipeline *pipeline, struct glint_error *err);
 

@@ -136,8 +136,7 @@ bool page_write(const char *path, const json_t *document, const char *folder, st
     bool ok = load_files(&files, err);
     if (ok) json_object_set(copy, "files", files.uris);
     char *text = ok && copy ? html(copy) : NULL;
-    ok = ok &&
-         (text ? output_text(path, text, err) : glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path));
+    ok = ok && (text ? output_text(path, text, err) : glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path));
     free(text);
     json_decref(files.places);
     json_decref(files.uris);
