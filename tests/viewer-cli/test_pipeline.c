@@ -387,7 +387,7 @@ static void history_must_be_of_the_frame_before(UNUSED void **state) {
         const char *name, *scene, *size, *first, *said;
     } others[] = {
         {"far.exr", "room", "--size=48x27", "--first-frame=3", "expected frame 2, the one before, found frame 1"},
-        {"big.exr", "room", "--size=64x36", "--first-frame=2", "expected 64 x 36 pixels, found 48 x 27"},
+        {"wide.exr", "room", "--size=64x36", "--first-frame=2", "expected 64 x 36 pixels, found 48 x 27"},
         {"street.exr", "street", "--size=48x27", "--first-frame=2",
          "its camera is not that capture's previous camera"}};
     char *history = NULL;
