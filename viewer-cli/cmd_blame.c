@@ -126,7 +126,8 @@ static bool begin_blame(struct arguments *a, struct glint_error *err) {
     blame->all = a->pipeline.replay.all;
     if (!choose_metric(a, err)) return false;
     blame->base = glint_pipeline_create(a->pipeline.preset ? a->pipeline.preset : "mafia3", err);
-    a->pipeline.without_fog = true; /* of all answers, so that shares of different ones can be compared */
+    a->pipeline.without_fog =
+        captures_have_fog(&blame->captures); /* of all answers, so that shares of different ones can be compared */
     if (!blame->base || !pipeline_args_apply(&a->pipeline, blame->base, err)) return false;
     pipeline_note_fog(&cmd_blame, blame->base, &blame->captures);
     if (!(blame->players = glint_players_create(blame->base, blame->player_rays, err))) return false;

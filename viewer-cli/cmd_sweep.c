@@ -123,7 +123,7 @@ static bool begin_sweep(struct arguments *a, struct glint_error *err) {
     sweep->all = a->pipeline.replay.all;
     if (!answer_args_metric(a->metric, &sweep->metric, err)) return false;
     sweep->metrics = GLINT_METRICS_CHEAP | 1u << sweep->metric;
-    a->pipeline.without_fog = sweep->against.truth;
+    a->pipeline.without_fog = sweep->against.truth && captures_have_fog(&sweep->captures);
     if (!(sweep->base = pipeline_args_create(&a->pipeline, err))) return false;
     if (sweep->against.truth) pipeline_note_fog(&cmd_sweep, sweep->base, &sweep->captures);
     sweep->space = a->hypercube ? glint_space_create_hypercube(sweep->base, a->axes.items, a->hypercube, a->seed, err)

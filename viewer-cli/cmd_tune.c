@@ -183,7 +183,7 @@ static bool begin_tune(struct arguments *a, struct glint_error *err) {
     tune->shaders = &a->pipeline.shader;
     for (size_t i = 0; i < tune->slots.count; i++)
         if (!glint_slot_check(tune->slots.items[i], err)) return false;
-    a->pipeline.without_fog = tune->against.truth;
+    a->pipeline.without_fog = tune->against.truth && captures_have_fog(&tune->captures);
     if (!choose_metric(a, err) || !(tune->base = pipeline_args_create(&a->pipeline, err))) return false;
     if (tune->against.truth) pipeline_note_fog(&cmd_tune, tune->base, &tune->captures);
     if (!(tune->device = pipeline_args_device(&a->pipeline, err)) || !glint_make_folder(tune->folder, err) ||

@@ -83,6 +83,12 @@ static bool has_fog(const char *path) {
     return fog;
 }
 
+bool captures_have_fog(const struct list *captures) {
+    for (size_t i = 0; i < captures->count; i++)
+        if (!strcmp(captures->items[i], "-") || has_fog(captures->items[i])) return true;
+    return false;
+}
+
 void pipeline_note_fog(const struct command *command, const struct glint_pipeline *pipeline,
                        const struct list *captures) {
     for (size_t i = 0; i < captures->count; i++) {

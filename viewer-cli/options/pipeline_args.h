@@ -79,6 +79,8 @@ bool pipeline_args_apply(const struct pipeline_args *args, struct glint_pipeline
 bool pipeline_fog_off(struct glint_pipeline *pipeline, struct glint_error *err);
 /* Whether some pass of it applies fog. */
 bool pipeline_fog(const struct glint_pipeline *pipeline);
+/* Whether one of the captures has fog; stdin, "-", may have. */
+bool captures_have_fog(const struct list *captures);
 /* If one of the captures has fog, says that a comparison with something that has none is one without it. */
 void pipeline_note_fog(const struct command *command, const struct glint_pipeline *pipeline,
                        const struct list *captures);
