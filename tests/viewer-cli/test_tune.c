@@ -224,8 +224,8 @@ static void what_is_wrong_is_named(UNUSED void **state) {
     glint_fails(2, "expected one of --budget-ms, --budget-fetches and --error", "tune", room, "-o", out, budget,
                 "--error=0.1");
     glint_fails(2, "no output file given", "tune", room, budget);
-    glint_fails(2, "expected a file name NAME.json", "tune", room, "-o", "bad", budget);
-    glint_fails(2, "expected a file name NAME.json", "tune", room, "-o", ".json", budget);
+    glint_fails(2, "expected FILE.json", "tune", room, "-o", "bad", budget);
+    glint_fails(2, "expected FILE.json", "tune", room, "-o", ".json", budget);
     glint_fails(2, "expected a number above 0", "tune", room, "-o", out, "--budget-ms=-1");
     glint_fails(2, "expected a number above 0", "tune", room, "-o", out, "--budget-ms=nan");
     glint_fails(2, "expected a number above 0", "tune", room, "-o", out, "--budget-ms=2x");
