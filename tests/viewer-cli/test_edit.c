@@ -253,9 +253,9 @@ static void inputs_are_refused_as_outputs(void **state) {
     assert_int_equal(symlink(made, soft), 0);
     const char *const names[] = {made, hard, soft};
     for (size_t i = 0; i < 3; i++) {
-        glint_fails(2, "is the input", "set", made, "frame=7", "-o", names[i]);
-        glint_fails(2, "is the input", "crop", made, "0,0,4,4", "-o", names[i]);
-        glint_fails(2, "is the input", "strip", names[i], "--drop", "sky", "-o", made);
+        glint_fails(2, "is an input, too", "set", made, "frame=7", "-o", names[i]);
+        glint_fails(2, "is an input, too", "crop", made, "0,0,4,4", "-o", names[i]);
+        glint_fails(2, "is an input, too", "strip", names[i], "--drop", "sky", "-o", made);
     }
     free(glint_ok("info", made));
     free(glint_ok("sample", "room", "-o", in_folder("shot.exr"), "--frames", "2", "--size=24x16", "--cube-size", "8"));
