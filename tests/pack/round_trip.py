@@ -137,6 +137,10 @@ class Tests:
         before = contents(os.path.join(folder, "lit.raw"))
         for name in ("lit.raw", "manifest.json"):
             said = glint("pack", os.path.join(folder, "manifest.json"), "-o", os.path.join(folder, name), status=2)
+            assert "expected FILE.exr" in said, said
+            link = os.path.join(folder, f"{name}.exr")
+            os.symlink(name, link)
+            said = glint("pack", os.path.join(folder, "manifest.json"), "-o", link, "--overwrite", status=2)
             assert "is an input" in said, said
         assert contents(os.path.join(folder, "lit.raw")) == before
         os.symlink(self.path("street.exr"), self.path("manifest.json"))
