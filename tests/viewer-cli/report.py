@@ -30,7 +30,7 @@ class Tests:
         os.makedirs(self.path("b"))
         with open(self.path("b/errors.json"), "w", encoding="utf-8") as file:
             file.write("{}")
-        glint("replay", self.capture, "-o", self.path("b"), "--set=downsample.jitter=false", "--set=pipeline.fog=false",
+        glint("replay", self.capture, "-o", self.path("b"), "--set=downsample.jitter=false",
               "--set=cubemap_trace.steps_hq=8", "--use=blur=none", "--skip=temporal", "--repeat=3")
 
     def path(self, name):
