@@ -155,7 +155,7 @@ class Tests:
             said = self.pack(status=1)
             assert text in said, said
         exr(self.path, passes())
-        assert "expected another output" in self.pack("-o", self.path, status=2)
+        assert "is an input, too" in self.pack("-o", self.path, status=2)
         self.manifest(textures={"blender": {"file": "frame.exr"}})
         assert "textures.blender: expected another name" in self.pack(status=1)
         os.unlink(self.camera)

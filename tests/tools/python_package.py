@@ -204,8 +204,8 @@ class Tests:
         turn = np.linalg.qr(numbers.standard_normal((3, 3)))[0]
         view = np.block([[turn, numbers.standard_normal((3, 1)) * 1e6], [np.zeros((1, 3)), np.ones((1, 1))]])
         frame = glint.Frame(glint.Camera(view, CLIP), glint.Camera(EYE, CLIP), True, numbers.standard_normal(3), [0.25, -0.5], 2.0, 0.125, 0.01, 0.1, 4000.0,
-                            0.5, 16.0, 2 ** 32 - 1, "-z", "down", "minus_one_to_one", glint.Fog([0.5, 0.25, 1], 0.01, -3.0, 40.0),
-                            [glint.StencilClass(i, 3, f"class {i}") for i in range(32)])
+                            0.5, 16.0, 2 ** 32 - 1, "-z", "down", "minus_one_to_one", glint.Fog([0.5, 0.25, 1], 0.01, -3.0, 40.0, True),
+                            [glint.StencilClass(i, 3, f"class {i}") for i in range(32)], glint.MaterialModel(4, 0.84, 8, 2))
         hull = numbers.standard_normal((64, 4))
         cube = glint.CubeMap(numbers.standard_normal(3) * 1e6, True, 0.5, 9, "hull", planes=hull)
         box = glint.CubeMap([1, 2, 3], inner="box", box_min=[-1, -2, -3], box_max=[1, 2, 3])
@@ -226,7 +226,7 @@ class Tests:
             if name in ("camera", "previous"):
                 assert np.array_equal(mine.view_to_clip, theirs.view_to_clip) and np.allclose(mine.world_to_view, theirs.world_to_view, rtol=1e-14, atol=1e-14)
             elif name == "fog":
-                assert np.array_equal(mine.color, theirs.color) and (mine.density, mine.base, mine.scale_height) == (theirs.density, theirs.base, theirs.scale_height)
+                assert np.array_equal(mine.color, theirs.color) and (mine.density, mine.base, mine.scale_height, mine.adds) == (theirs.density, theirs.base, theirs.scale_height, theirs.adds)
             else:
                 assert same(theirs, np.asarray(mine) if isinstance(theirs, np.ndarray) else mine), name
         assert np.allclose(capture.frame.camera.position, np.linalg.solve(turn, -view[:3, 3]), rtol=1e-12)

@@ -53,6 +53,21 @@ class Fog:
     """height along up at which the density applies, units"""
     scale_height: float = 0.0
     """units of height over which the density falls to 1/e; 0: the same at every height"""
+    adds: bool = False
+    """its colour is added, and what lies behind it loses nothing"""
+
+
+@mirrors("glint_material_model")
+@dataclass(eq=False)
+class MaterialModel:
+    """How the engine's materials differ from those of the format."""
+    metal_reflectance: float = 1.0
+    """reflectance of a metal at normal incidence as a multiple of its albedo, at most 1 in the end; 0: 1"""
+    roughest_reflection: float = 0.0
+    """surfaces of at least this roughness reflect nothing in the engine; 0: all do"""
+    gloss_scale: float = 10.0
+    """roughness log2_power: power = 2^(gloss_scale · stored + gloss_offset); both 0: 10 and 1"""
+    gloss_offset: float = 1.0
 
 
 @mirrors("glint_stencil_class")
@@ -104,6 +119,7 @@ class Frame:
     fog: Fog | None = None
     classes: list[StencilClass] = counted("class_count", list)
     """at most 32"""
+    material: MaterialModel | None = None
 
 
 @mirrors("glint_cubemap")
