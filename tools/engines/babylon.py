@@ -82,4 +82,4 @@ def pictures(glint, folder, docs):
     tiles = [folder / f"picture-{i}.png" for i in range(len(shown))]
     for tile, what in zip(tiles, shown):
         call(glint, "view", *what, "--no-legend", "-o", tile)
-    call("oiiotool", *tiles, "--mosaic:pad=4", f"2x{len(shown) // 2}", "--ch", "R,G,B", "--compression", "jpeg:82", "-o", docs / "babylon.jpg")
+    call("oiiotool", "--nosoftwareattrib", *tiles, "--mosaic:pad=4", f"2x{len(shown) // 2}", "--ch", "R,G,B", "--compression", "jpeg:82", "-o", docs / "babylon.jpg")

@@ -164,5 +164,5 @@ def pictures(glint, folder, docs):
                 call(glint, "view", *what, "--no-legend", "-o", tiles[-1])
             tiles.append(at / f"picture-{preset}-error.png")
             error(run, at / f"{capture}.exr", tiles[-1])
-        call("oiiotool", *tiles, "--mosaic:pad=4", "4x2", "--ch", "R,G,B", "--compression", "jpeg:82", "-o", docs / f"blender-{name}.jpg")
+        call("oiiotool", "--nosoftwareattrib", *tiles, "--mosaic:pad=4", "4x2", "--ch", "R,G,B", "--compression", "jpeg:82", "-o", docs / f"blender-{name}.jpg")
     write_tables(docs / "blender.md", {"errors": figures(folder), "by hand": differences(folder), "verified": verified(folder)})

@@ -29,4 +29,4 @@ def lay_out(folder, rows, path):
                         LABEL, str(number), "-o", tile], check=True)
         tiles.append(tile)
     lines = (len(tiles) + COLUMNS - 1) // COLUMNS
-    subprocess.run(["oiiotool", *tiles, "--mosaic:pad=8", f"{COLUMNS}x{lines}", "--resize", "1400x0", "--compression", "jpeg:80", "-o", path], check=True)
+    subprocess.run(["oiiotool", "--nosoftwareattrib", *tiles, "--mosaic:pad=8", f"{COLUMNS}x{lines}", "--resize", "1400x0", "--compression", "jpeg:80", "-o", path], check=True)
