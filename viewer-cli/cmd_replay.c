@@ -395,7 +395,7 @@ static enum status cmd_replay_run(int argc, char **argv) {
     struct glint_error err = {0};
     enum status status;
     const bool prepared = against_prepare(&a.against, &a.pipeline.without_fog, &err);
-    a.pipeline.without_fog &= captures_have_fog(&a.captures);
+    a.pipeline.without_fog = a.pipeline.without_fog && captures_have_fog(&a.captures);
     if (prepared && !a.watch) job.pipeline = pipeline_args_create(&a.pipeline, &err);
     if (job.pipeline && a.pipeline.without_fog) pipeline_note_fog(&cmd_replay, job.pipeline, &a.captures);
     if (job.pipeline || a.watch) job.device = pipeline_args_device(&a.pipeline, &err);

@@ -1,6 +1,5 @@
 /* glint report: writes runs, sweeps and other studies as one self-contained page. */
 #include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 #include "command.h"
@@ -41,11 +40,6 @@ static const struct arg_target targets[] = {
     STORED(ARGP_KEY_ARG, struct arguments, folders),
     {0},
 };
-
-static bool ends_with(const char *text, const char *end) {
-    size_t length = strlen(text), tail = strlen(end);
-    return length > tail && !strcmp(text + length - tail, end);
-}
 
 static error_t cmd_report_parse(int key, char *arg, struct argp_state *state) {
     const struct arguments *a = state->input;
@@ -97,7 +91,7 @@ static enum status cmd_report_run(int argc, char **argv) {
     struct glint_error err = {0};
     json_t *document = make_document(&a, &err);
     bool ok = document != NULL;
-    if (ok && ends_with(a.out, ".svg")) ok = write_chart(&a, document, &err);
+    if (ok && output_is(a.out, OUTPUT_SVG)) ok = write_chart(&a, document, &err);
     else if (ok) ok = page_write(a.out, document, a.folders.items[0], &err);
     json_decref(document);
     list_free(&a.folders);

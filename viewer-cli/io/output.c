@@ -50,6 +50,12 @@ static void list_suffixes(unsigned bits, char *text, size_t room) {
             used += (size_t)snprintf(text + used, room - used, "%sFILE%s", used ? " or " : "", kinds[k].suffix);
 }
 
+bool output_is(const char *path, enum output_kind kind) {
+    for (size_t k = 0; k < KINDS; k++)
+        if (kinds[k].bit == (unsigned)kind) return ends_with(path, kinds[k].suffix);
+    return false;
+}
+
 bool output_check(const char *path, unsigned bits, bool overwrite, struct glint_error *err) {
     struct stat status;
     const bool there = stat(path, &status) == 0;

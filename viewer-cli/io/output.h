@@ -15,6 +15,8 @@ enum output_kind {
     OUTPUT_EXR = 16,
 };
 
+/* Whether the name has the suffix of this kind, whatever the case of its letters. */
+bool output_is(const char *path, enum output_kind kind);
 /* Whether a file of one of these kinds may get this name: its suffix is that of its contents, and a file that is already there is of the
    same kind, unless `overwrite`. "-" and what is no regular file (a pipe, /dev/null) may always be written to. */
 bool output_check(const char *path, unsigned kinds, bool overwrite, struct glint_error *err);
