@@ -53,13 +53,7 @@ static error_t cmd_probe_parse(int key, char *arg, struct argp_state *state) {
     case ARGP_KEY_ARG:
         if (a->has_pixel) argp_error(state, "expected one capture and one pixel, found also %s", arg);
         if (!a->capture) a->capture = arg;
-        else {
-            char rest;
-            a->has_pixel = sscanf(arg, "%6d,%6d%c", &a->pixel[0], &a->pixel[1], &rest) == 2;
-            if (!a->has_pixel)
-                argp_error(state, "%s: expected a pixel X,Y in whole numbers from the top left corner, such as 640,360",
-                           arg);
-        }
+        else arg_pixel(arg, a->pixel, state), a->has_pixel = true;
         return 0;
     case ARGP_KEY_END:
         if (!a->capture) argp_error(state, "no capture given");
@@ -69,26 +63,11 @@ static error_t cmd_probe_parse(int key, char *arg, struct argp_state *state) {
     return ARGP_ERR_UNKNOWN;
 }
 
-/* The reference tracers, which skip nothing; all other passes stay. */
-static struct glint_pipeline *reference_of(const struct glint_pipeline *pipeline, struct glint_error *err) {
-    static const struct {
-        const char *slot, *none, *assignment; /* set via none, so that no parameter of the other variant is kept */
-    } uses[] = {{"screen_trace", "screen_trace=none", "screen_trace=dda"},
-                {"cubemap_trace", "cubemap_trace=none", "cubemap_trace=exact"}};
-    struct glint_pipeline *copy = glint_pipeline_copy(pipeline, err);
-    for (size_t u = 0; copy && u < 2; u++)
-        for (size_t i = 0; copy && i < glint_pipeline_pass_count(pipeline); i++)
-            if (strcmp(glint_pipeline_pass(pipeline, i)->slot, uses[u].slot) == 0 &&
-                (!glint_pipeline_use(copy, uses[u].none, err) || !glint_pipeline_use(copy, uses[u].assignment, err)))
-                glint_pipeline_destroy(&copy);
-    return copy;
-}
-
 static bool run_reference(const struct arguments *a, struct probe *probe, struct glint_replay *replay,
                           const struct glint_pipeline *pipeline, const struct glint_replay_options *options,
                           struct glint_error *err) {
     if (a->alone) return true;
-    struct glint_pipeline *reference = reference_of(pipeline, err);
+    struct glint_pipeline *reference = probe_reference(pipeline, err);
     const bool ok = reference && probe_run(probe, &probe->reference, replay, reference, options, err);
     glint_pipeline_destroy(&reference);
     probe->has_reference = ok;

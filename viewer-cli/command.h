@@ -51,6 +51,7 @@ extern const struct command
     cmd_tune,
     cmd_stability,
     cmd_probe,
+    cmd_explain,
     cmd_diff,
     cmd_check,
     cmd_view,

@@ -23,6 +23,7 @@ const struct command *const commands[] = {
     &cmd_tune,
     &cmd_stability,
     &cmd_probe,
+    &cmd_explain,
     &cmd_diff,
     &cmd_check,
     &cmd_view,

@@ -151,6 +151,12 @@ void arg_numbers(const char *option, const char *text, double *out, size_t count
     }
 }
 
+void arg_pixel(const char *text, int32_t pixel[2], struct argp_state *state) {
+    char rest;
+    if (sscanf(text, "%6d,%6d%c", &pixel[0], &pixel[1], &rest) != 2)
+        argp_error(state, "%s: expected a pixel X,Y in whole numbers from the top left corner, such as 640,360", text);
+}
+
 void arg_size(const char *option, const char *text, uint32_t *width, uint32_t *height, struct argp_state *state) {
     unsigned w = 0, h = 0;
     int used = 0;

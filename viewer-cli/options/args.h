@@ -72,6 +72,8 @@ void args_check_outputs(const struct arg_table *table, struct argp_state *state,
 uint32_t arg_uint(const char *option, const char *text, uint32_t lowest, uint32_t highest, struct argp_state *state);
 /* Parses exactly `count` numbers that are separated by commas. */
 void arg_numbers(const char *option, const char *text, double *out, size_t count, struct argp_state *state);
+/* "X,Y" in whole numbers, of an argument that is no option. */
+void arg_pixel(const char *text, int32_t pixel[2], struct argp_state *state);
 void arg_size(const char *option, const char *text, uint32_t *width, uint32_t *height, struct argp_state *state);
 /* The index of `text` in a NULL-terminated list of names. */
 int arg_choice(const char *option, const char *text, const char *const *names, struct argp_state *state);

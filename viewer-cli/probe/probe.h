@@ -43,6 +43,8 @@ struct probe {
 bool probe_run(struct probe *probe, struct probe_side *side, struct glint_replay *replay,
                const struct glint_pipeline *pipeline, const struct glint_replay_options *options,
                struct glint_error *err);
+/* The pipeline with the reference tracers, which skip nothing; all other passes stay. */
+struct glint_pipeline *probe_reference(const struct glint_pipeline *pipeline, struct glint_error *err);
 void probe_side_finish(struct probe_side *side);
 /* The last record of this kind by a pass of the slot; NULL: none. */
 const struct glint_probe_record *probe_last(const struct probe_side *side, const char *slot, const char *kind);

@@ -106,6 +106,20 @@ bool probe_run(struct probe *probe, struct probe_side *side, struct glint_replay
     return read_side(probe, side, replay, err);
 }
 
+struct glint_pipeline *probe_reference(const struct glint_pipeline *pipeline, struct glint_error *err) {
+    static const struct {
+        const char *slot, *none, *assignment; /* set via none, so that no parameter of the other variant is kept */
+    } uses[] = {{"screen_trace", "screen_trace=none", "screen_trace=dda"},
+                {"cubemap_trace", "cubemap_trace=none", "cubemap_trace=exact"}};
+    struct glint_pipeline *copy = glint_pipeline_copy(pipeline, err);
+    for (size_t u = 0; copy && u < 2; u++)
+        for (size_t i = 0; copy && i < glint_pipeline_pass_count(pipeline); i++)
+            if (strcmp(glint_pipeline_pass(pipeline, i)->slot, uses[u].slot) == 0 &&
+                (!glint_pipeline_use(copy, uses[u].none, err) || !glint_pipeline_use(copy, uses[u].assignment, err)))
+                glint_pipeline_destroy(&copy);
+    return copy;
+}
+
 void probe_side_finish(struct probe_side *side) {
     free(side->passes);
     free(side->trace.records);
