@@ -257,7 +257,8 @@ static void describe_best(const struct explain *e, struct sentence *s, const cha
     if (e->goal == EXPLAIN_REFLECTION)
         say(s, ", and that of the pixels around it from %s to %s", number_text(e->start.around),
             number_text(best->around));
-    if (e->tried == 1) say(s, "; nothing else was tried.");
+    if (!strncmp(best->change, "pipeline.rays", 13)) say(s, ": it is mostly noise, and nothing else was tried.");
+    else if (e->tried == 1) say(s, "; nothing else was tried.");
     else say(s, "; of %zu changes tried%s it helps most.", e->tried, e->more ? " (--tries allows more)" : "");
 }
 
