@@ -366,8 +366,8 @@ void main() {
         vec3 origin = mat3(frame.world_from_view) * view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
         vec3 direction = mirror_direction(origin, normal.xyz);
         uint best = texelFetch(cubemap_best, pixel, 0).x;
-        if (frame.counts.x == 0u) result = Result(travelled_without_cubemaps(start_m), NO_PLACE, END_no_cubemap, 0u, 0u);
-        else if (!has_distances()) result = Result(INFINITE, best, END_fallback, 0u, 0u);
+        if (frame.counts.x == 0u) result = Result(travelled_without_cubemaps(start_m, direction), NO_PLACE, END_no_cubemap, 0u, 0u);
+        else if (frame.distances.x == 0u) result = Result(INFINITE, best, END_fallback, 0u, 0u);
         else result = march(origin, direction, start_m, best);
     }
     probe_cubemap_end(result.travelled_m, result.place, result.end, result.steps, result.fetches);
