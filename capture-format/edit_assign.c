@@ -305,7 +305,8 @@ static bool applies(const struct glint_edit_part *part, const struct row *row, c
     if (!role) return false;
     if (row->encoding) return has_encoding(part, row->encoding->which);
     if (row->attribute)
-        return !strcmp(role->name, glint_scope_role(row->attribute->scope)) && strncmp(part->info.name, "previous.", 9) != 0;
+        return !strcmp(role->name, glint_scope_role(row->attribute->scope)) &&
+               strncmp(part->info.name, "previous.", 9) != 0;
     for (size_t c = 0; c < part->info.channel_count; c++)
         if (!*value || same_channel(value, part->info.channels[c].name)) return true;
     return false;

@@ -54,7 +54,8 @@ int32_t glint_role_level(const char *part) {
     const size_t length = at ? strlen(at) - (sizeof suffix - 1) : 0;
     if (length < 1 || length > 2) return 0;
     at += sizeof suffix - 1;
-    if (at[0] < '1' || at[0] > '9' || (length == 2 && (at[1] < '0' || at[1] > '9'))) return 0; /* a number has one name */
+    if (at[0] < '1' || at[0] > '9' || (length == 2 && (at[1] < '0' || at[1] > '9')))
+        return 0; /* a number has one name */
     return length == 1 ? at[0] - '0' : 10 * (at[0] - '0') + at[1] - '0';
 }
 
@@ -159,14 +160,14 @@ int glint_encoding_value(const char *which, const char *name) {
 
 /* ---- attributes ---- */
 
-#define GROUP_NONE GLINT_NO_GROUP
-#define GROUP_has_previous offsetof(struct glint_frame, has_previous)
-#define GROUP_has_player offsetof(struct glint_frame, has_player)
-#define GROUP_has_fog offsetof(struct glint_frame, has_fog)
-#define GROUP_has_ground offsetof(struct glint_sky, has_ground)
-#define GROUP_has_roughness offsetof(struct glint_probe, has_roughness)
-#define GROUP_has_box offsetof(struct glint_probe, has_box)
-#define GROUP_has_material offsetof(struct glint_frame, has_material)
+#define GROUP_NONE(scope) GLINT_NO_GROUP
+#define GROUP_has_previous(scope) offsetof(STRUCT_##scope, has_previous)
+#define GROUP_has_player(scope) offsetof(STRUCT_##scope, has_player)
+#define GROUP_has_fog(scope) offsetof(STRUCT_##scope, has_fog)
+#define GROUP_has_ground(scope) offsetof(STRUCT_##scope, has_ground)
+#define GROUP_has_roughness(scope) offsetof(STRUCT_##scope, has_roughness)
+#define GROUP_has_box(scope) offsetof(STRUCT_##scope, has_box)
+#define GROUP_has_material(scope) offsetof(STRUCT_##scope, has_material)
 #define NEED_REQUIRED true
 #define NEED_OPTIONAL false
 
@@ -183,7 +184,7 @@ static const struct glint_attribute_row attributes[] = {
      name,                                                                                                             \
      GLINT_KIND_##kind,                                                                                                \
      offsetof(STRUCT_##scope, member),                                                                                 \
-     GROUP_##group,                                                                                                    \
+     GROUP_##group(scope),                                                                                             \
      NEED_##need,                                                                                                      \
      GLINT_RANGE_##range,                                                                                              \
      fallback,                                                                                                         \

@@ -18,6 +18,7 @@
 
 float seen_distance(vec3 from_center, uint place) {
     int size = int(frame.counts.z);
+    if (fact_some_distances && !has_distances(place)) return 1e-30; // it sees no ray
     if (!interpolate || size < 2) return texelFetch(cubemap_distance, face_texel(from_center, place, size), 0).x;
     return on_planes(cubemap_distance, from_center, place);
 }
@@ -367,7 +368,7 @@ void main() {
         vec3 direction = mirror_direction(origin, normal.xyz);
         uint best = texelFetch(cubemap_best, pixel, 0).x;
         if (frame.counts.x == 0u) result = Result(travelled_without_cubemaps(start_m, direction), NO_PLACE, END_no_cubemap, 0u, 0u);
-        else if (frame.distances.x == 0u) result = Result(INFINITE, best, END_fallback, 0u, 0u);
+        else if (!has_distances(best)) result = Result(INFINITE, best, END_fallback, 0u, 0u);
         else result = march(origin, direction, start_m, best);
     }
     probe_cubemap_end(result.travelled_m, result.place, result.end, result.steps, result.fetches);

@@ -7,5 +7,5 @@ const uint NO_PLACE = 255u;
 uint place_of_sky(uint place) { return frame.counts.w > 0u ? NO_PLACE : place; }
 
 // Rays cannot be traced in a cube map without distances; its texels of cubemap_distance are those of the sky.
-bool has_distances(uint place) { return (frame.distances.x >> place & 1u) != 0u; }
+bool has_distances(uint place) { return (frame.distances.x >> (place & 31u) & 1u) != 0u; }
 #endif
