@@ -41,8 +41,11 @@ static const struct {
     {"gbuffer", "albedo"},
     {"gbuffer", "vertexNormal"},
     {"gbuffer", "stencil"},
+    {"cubemap.001", "distance"}, /* of one among several */
+    {"cubemap.001", NULL},
 };
 enum { OPTIONAL = sizeof optional / sizeof *optional };
+static const uint32_t BLIND = 1u << (OPTIONAL - 2), GONE = 1u << (OPTIONAL - 1);
 
 static bool is_of(const char *part, const char *name) {
     const size_t length = strlen(name);
@@ -297,6 +300,68 @@ static void rays_without_distances_are_looked_up(void **state) {
     unload(pair);
 }
 
+/* The ends of all rays of the last run, with cube maps by their numbers in the capture; 255: none. */
+struct ends {
+    size_t count;
+    float *travelled;
+    float *start, *end; /* cube maps */
+};
+static struct ends ends_of(const struct pair *pair) {
+    size_t maps;
+    struct ends ends;
+    float *numbers = image_of(pair, "active_index", &maps);
+    ends.travelled = image_of(pair, "travelled", &ends.count);
+    ends.start = image_of(pair, "cubemap_best", &ends.count);
+    ends.end = image_of(pair, "cubemap_index", &ends.count);
+    for (size_t i = 0; i < ends.count; i++) {
+        if (ends.start[i] < 255) ends.start[i] = numbers[(size_t)ends.start[i]];
+        if (ends.end[i] < 255) ends.end[i] = numbers[(size_t)ends.end[i]];
+    }
+    free(numbers);
+    return ends;
+}
+static void ends_free(struct ends *ends) {
+    free(ends->travelled), free(ends->start), free(ends->end);
+}
+
+/* Where one of the cube maps has no distances, rays that start in it are looked up in it by direction, and the others end as if it were not there.
+   Catches: distances of all cube maps given up for those of one; rays that take it for one that shows nothing but sky. */
+static void rays_are_traced_where_there_are_distances(void **state) {
+    struct pair *pair = pair_of(state);
+    static const char *const variants[] = {"cubemap_trace=march", "cubemap_trace=exact"};
+    for (size_t v = 0; v < 2; v++) {
+        const char *const setting = v ? NULL : "cubemap_trace.count=strides"; /* switches cost no steps */
+        run_off_screen(pair, "room", "mafia3", variants[v], setting, BLIND);
+        expect_reason(pair, "cubemap_trace", true, "");
+        struct ends blind = ends_of(pair);
+        run_off_screen(pair, "room", "mafia3", variants[v], setting, GONE);
+        struct ends gone = ends_of(pair);
+        size_t looked_up = 0, traced = 0, switched = 0, differ = 0;
+        assert_int_equal(blind.count, gone.count);
+        for (size_t i = 0; i < blind.count; i++) {
+            if (blind.start[i] == 255) continue;
+            if (blind.start[i] == 1) {
+                looked_up++;
+                assert_true(blind.travelled[i] == INFINITY && blind.end[i] == 1);
+                continue;
+            }
+            /* without cubemap.001 the numbers of later cube maps stay */
+            const bool same = blind.travelled[i] == gone.travelled[i] ||
+                              fabsf(blind.travelled[i] - gone.travelled[i]) <= 1e-4F * gone.travelled[i];
+            assert_true(blind.start[i] == gone.start[i] && blind.end[i] != 1);
+            traced++;
+            switched += gone.end[i] != gone.start[i] && gone.end[i] < 255;
+            differ += !same || blind.end[i] != gone.end[i];
+        }
+        print_message("# %s: %zu looked up, %zu traced, %zu of them by several; %zu end elsewhere\n", variants[v],
+                      looked_up, traced, switched, differ);
+        assert_true(looked_up > 10 && traced > 10 && switched > 0);
+        assert_int_equal(differ, 0);
+        ends_free(&blind), ends_free(&gone);
+    }
+    unload(pair);
+}
+
 /* The number of rays of the last run that end in the sky; they have its colour, and no other ray has a colour. */
 static size_t rays_to_the_sky(struct pair *pair) {
     size_t count, endless = 0;
@@ -382,6 +447,7 @@ int main(int argc, char **argv) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_plan_says_why),
         cmocka_unit_test(rays_without_distances_are_looked_up),
+        cmocka_unit_test(rays_are_traced_where_there_are_distances),
         cmocka_unit_test(rays_without_cubemaps_end_in_the_sky),
         cmocka_unit_test(motion_that_is_absent_is_the_cameras),
         cmocka_unit_test(every_preset_replays_what_there_is),
