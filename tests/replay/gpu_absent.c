@@ -304,19 +304,26 @@ static void rays_without_distances_are_looked_up(void **state) {
 struct ends {
     size_t count;
     float *travelled;
-    float *start, *end; /* cube maps */
+    uint32_t *start, *end; /* cube maps */
 };
+static uint32_t *indices_of(const struct pair *pair, const char *name, const uint32_t *numbers) {
+    struct glint_error err = {0};
+    const struct glint_image *image = glint_replay_find_image(pair->planned, name);
+    assert_non_null(image);
+    const size_t count = (size_t)image->width * image->height;
+    uint32_t *values = malloc(count * sizeof *values);
+    assert_non_null(values);
+    pair_check(glint_replay_read_image(pair->planned, image, GLINT_U32, values, &err), &err);
+    for (size_t i = 0; numbers && i < count; i++)
+        if (values[i] < 255) values[i] = numbers[values[i]];
+    return values;
+}
 static struct ends ends_of(const struct pair *pair) {
-    size_t maps;
     struct ends ends;
-    float *numbers = image_of(pair, "active_index", &maps);
+    uint32_t *numbers = indices_of(pair, "active_index", NULL);
     ends.travelled = image_of(pair, "travelled", &ends.count);
-    ends.start = image_of(pair, "cubemap_best", &ends.count);
-    ends.end = image_of(pair, "cubemap_index", &ends.count);
-    for (size_t i = 0; i < ends.count; i++) {
-        if (ends.start[i] < 255) ends.start[i] = numbers[(size_t)ends.start[i]];
-        if (ends.end[i] < 255) ends.end[i] = numbers[(size_t)ends.end[i]];
-    }
+    ends.start = indices_of(pair, "cubemap_best", numbers);
+    ends.end = indices_of(pair, "cubemap_index", numbers);
     free(numbers);
     return ends;
 }
