@@ -143,9 +143,9 @@ class Writer:
         part.channels = (_channel * len(planes))(*(self._described(c, p, (storage or {}).get(c)) for c, p in planes.items()))
         part.attributes = (_attribute * len(attributes or {}))(*(self._foreign(name, a, v) for a, v in (attributes or {}).items()))
         part.attribute_count = len(attributes or {})
-        for member, value in (("cubemap", cubemap), ("planar", planar), ("sky", sky), ("probe", probe)):
-            if value is not None:
-                setattr(part, member, ctypes.pointer(to_struct(value)))
+        for member, given in (("cubemap", cubemap), ("planar", planar), ("sky", sky), ("probe", probe)):
+            if given is not None:
+                setattr(part, member, ctypes.pointer(to_struct(given)))
         with self._lock:
             _add_part(self._open_handle(), ctypes.byref(part))
 
