@@ -262,7 +262,7 @@ static float *image_of(const struct pair *pair, const char *name, size_t *count)
     return values;
 }
 
-/* Rays that no surface on screen ends: all of them, by a length of 0 on screen. */
+/* Rays that no surface on screen ends: all of them, by a length of 0 on screen. setting: words, or NULL. */
 static void run_off_screen(struct pair *pair, const char *scene, const char *preset, const char *variant,
                            const char *setting, uint32_t which) {
     char path[256];
@@ -271,7 +271,8 @@ static void run_off_screen(struct pair *pair, const char *scene, const char *pre
     if (variant) pair_check(glint_pipeline_use(pair->pipeline, variant, &err), &err);
     pair_check(glint_pipeline_use(pair->pipeline, "cubemap_select=nearest", &err), &err); /* not by distances */
     pair_check(glint_pipeline_set(pair->pipeline, "screen_trace.length_m=0", &err), &err);
-    if (setting) pair_check(glint_pipeline_set(pair->pipeline, setting, &err), &err);
+    for (char word[64]; setting && sscanf(setting, " %63s", word) == 1; setting = strchr(setting + 1, ' '))
+        pair_check(glint_pipeline_set(pair->pipeline, word, &err), &err);
     unload(pair);
     loaded = without(pair, sampled(pair->fixture, scene, path), which);
     pair_check(glint_replay_load(pair->planned, loaded, &err) &&
@@ -339,7 +340,9 @@ static void rays_are_traced_where_there_are_distances(void **state) {
     struct pair *pair = pair_of(state);
     static const char *const variants[] = {"cubemap_trace=march", "cubemap_trace=exact"};
     for (size_t v = 0; v < 2; v++) {
-        const char *const setting = v ? NULL : "cubemap_trace.count=strides"; /* switches cost no steps */
+        /* Switches cost no steps, and every cube map is in every chain. */
+        const char *const setting =
+            v ? NULL : "cubemap_trace.count=strides cubemap_trace.chain=8 cubemap_active.chain=8";
         run_off_screen(pair, "room", "mafia3", variants[v], setting, BLIND);
         expect_reason(pair, "cubemap_trace", true, "");
         struct ends blind = ends_of(pair, false);

@@ -203,7 +203,7 @@ void change_view(inout Walk walk, vec3 origin, vec3 direction, float t_before, f
     uint place = maps == maps_all ? seer(origin, direction, t_after, tolerance, fetches)
                                   : next_seer(origin, direction, t_after, tolerance, walk.best, walk.used, fetches);
     walk.seen = place != NO_PLACE;
-    walk.view = view_of(origin, direction, walk.seen ? place : nearest_active(origin + t_after * direction));
+    walk.view = view_of(origin, direction, walk.seen ? place : nearest_among(frame.distances.x, origin + t_after * direction));
     walk.t = t_after;
     walk.front = false;
     if (!walk.seen) return;
@@ -217,7 +217,7 @@ void change_view(inout Walk walk, vec3 origin, vec3 direction, float t_before, f
 // A cube map whose centre is nearer has finer texels here.
 void take_finer_view(inout Walk walk, vec3 origin, vec3 direction, inout uint fetches) {
     if (maps == maps_chain) return;
-    uint nearest = nearest_active(origin + walk.t * direction);
+    uint nearest = nearest_among(frame.distances.x, origin + walk.t * direction);
     if (nearest == walk.view.place) return;
     View view = view_of(origin, direction, nearest);
     if (gap_at(view, direction, walk.t, fetches) <= 0.0) walk.view = view;
