@@ -40,6 +40,8 @@ static bool in_range(enum glint_range range, double v) {
         return v >= 0;
     case GLINT_RANGE_UNIT:
         return v > 0 && v <= 1;
+    case GLINT_RANGE_ELEVATION:
+        return v >= -90 && v <= 90;
     case GLINT_RANGE_ANY:
         break;
     }
@@ -191,7 +193,8 @@ static bool decode_row(struct context *c, void *to) {
     void *member = (char *)to + row->offset;
     const struct glint_exr_attribute *from = glint_exr_attribute(c->part, row->name);
     if (!from) {
-        if (row->kind == GLINT_KIND_DOUBLE) memcpy(member, &row->fallback, sizeof row->fallback);
+        if (row->kind == GLINT_KIND_DOUBLE && !isnan(row->fallback))
+            memcpy(member, &row->fallback, sizeof row->fallback);
         const bool required = row->required && (row->group == GLINT_NO_GROUP || *(bool *)((char *)to + row->group));
         return required ? BROKEN(c, ATTRIBUTE, "missing") : true;
     }

@@ -1,4 +1,5 @@
 /* Converts the structs of capture.h to EXR attributes, by the rows of the registry. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -95,7 +96,7 @@ static bool push_value(struct glint_arena *arena, struct glint_attribute_list *l
         return push_numbers(arena, list, row->name, GLINT_EXR_V2D, numbers, 2);
     case GLINT_KIND_DOUBLE:
         memcpy(numbers, member, sizeof *numbers);
-        if (numbers[0] == 0) numbers[0] = row->fallback;
+        if (numbers[0] == 0 && !isnan(row->fallback)) numbers[0] = row->fallback;
         return push_numbers(arena, list, row->name, GLINT_EXR_DOUBLE, numbers, 1);
     case GLINT_KIND_V3FLOAT:
         memcpy(narrow, member, sizeof narrow);

@@ -84,6 +84,8 @@ static const char *form_of(const struct row *row) {
 bool glint_edit_key(size_t i, struct glint_edit_key *key) {
     static const enum glint_edit_scope scopes[] = {[GLINT_SCOPE_FRAME] = GLINT_EDIT_FRAME,
                                                    [GLINT_SCOPE_CUBEMAP] = GLINT_EDIT_CUBEMAP,
+                                                   [GLINT_SCOPE_SKY] = GLINT_EDIT_SKY,
+                                                   [GLINT_SCOPE_PROBE] = GLINT_EDIT_PROBE,
                                                    [GLINT_SCOPE_PLANAR] = GLINT_EDIT_PLANAR};
     struct row row;
     if (!row_at(i, &row)) return false;
@@ -299,13 +301,12 @@ static bool has_encoding(const struct glint_edit_part *part, const char *which) 
 }
 
 static bool applies(const struct glint_edit_part *part, const struct row *row, const char *value) {
-    static const char *const roles[] = {
-        [GLINT_SCOPE_FRAME] = "gbuffer", [GLINT_SCOPE_CUBEMAP] = "cubemap", [GLINT_SCOPE_PLANAR] = "planar"};
     const struct glint_role *role = glint_edit_role(part);
     if (!role) return false;
     if (row->encoding) return has_encoding(part, row->encoding->which);
     if (row->attribute)
-        return !strcmp(role->name, roles[row->attribute->scope]) && strncmp(part->info.name, "previous.", 9) != 0;
+        return !strcmp(role->name, glint_scope_role(row->attribute->scope)) &&
+               strncmp(part->info.name, "previous.", 9) != 0;
     for (size_t c = 0; c < part->info.channel_count; c++)
         if (!*value || same_channel(value, part->info.channels[c].name)) return true;
     return false;

@@ -13,7 +13,7 @@ static const char *or_dash(const char *text) {
 }
 
 static void write_roles(FILE *out) {
-    static const char *const shapes[] = {"frame", "cube", "any"};
+    static const char *const shapes[] = {"frame", "cube", "levels", "any"};
     size_t count = 0;
     const struct glint_role *all = glint_roles(&count);
     fprintf(out, "| role | shape | required | `previous.ROLE` allowed | meaning |\n| --- | --- | --- | --- | --- |\n");
@@ -57,7 +57,7 @@ static void write_encodings(FILE *out) {
 }
 
 static void write_attributes(FILE *out) {
-    static const char *const ranges[] = {"any", "> 0", "≥ 0", "(0, 1]"};
+    static const char *const ranges[] = {"any", "> 0", "≥ 0", "(0, 1]", "[−90, 90]"};
     size_t count = 0;
     const struct glint_attribute_row *rows = glint_attribute_rows(&count);
     for (int scope = 0; scope < GLINT_SCOPE_COUNT; scope++) {
@@ -69,7 +69,8 @@ static void write_attributes(FILE *out) {
             const struct glint_attribute_row *row = &rows[i];
             if ((int)row->scope != scope) continue;
             char absent[32] = "–";
-            if (row->kind == GLINT_KIND_DOUBLE && !row->required) snprintf(absent, sizeof absent, "%g", row->fallback);
+            if (row->kind == GLINT_KIND_DOUBLE && !row->required && !isnan(row->fallback))
+                snprintf(absent, sizeof absent, "%g", row->fallback);
             fprintf(out, "| `%s` | %s | %s | %s | %s | %s | %s |\n", row->name, glint_kind_type(row->kind),
                     !row->required                 ? "no"
                     : row->group == GLINT_NO_GROUP ? "yes"

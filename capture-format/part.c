@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "attributes.h"
+#include "probe.h"
 #include "sibling.h"
 
 #define BROKEN(rule, channel, ...) glint_violation(check, GLINT_RULE_##rule, out->name, channel, __VA_ARGS__)
@@ -187,10 +188,35 @@ static bool check_channels(struct glint_check *check, const struct glint_part_in
     return check_required(check, out);
 }
 
+/* The attributes of the role, but for those of the frame, which all parts need. */
+static bool parse_scopes(struct glint_check *check, const struct glint_exr_part_info *from,
+                         struct glint_part_info *out) {
+    const struct {
+        enum glint_scope scope;
+        bool *has;
+        void *to;
+    } all[] = {{GLINT_SCOPE_CUBEMAP, &out->has_cubemap, &out->cubemap},
+               {GLINT_SCOPE_PLANAR, &out->has_planar, &out->planar},
+               {GLINT_SCOPE_SKY, &out->has_sky, &out->sky},
+               {GLINT_SCOPE_PROBE, &out->has_probe, &out->probe}};
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        if (strcmp(out->role->name, glint_scope_role(all[i].scope))) continue;
+        *all[i].has = true;
+        if (!glint_attributes_decode(check, from, all[i].scope, all[i].to)) return false;
+    }
+    const struct glint_probe_box *box = &out->probe.box;
+    for (int i = 0; out->probe.has_box && i < 3; i++)
+        if (!(box->min[i] < box->max[i]))
+            return BROKEN(PROBE, NULL, "expected boxMin < boxMax, found %g and %g on axis %d", box->min[i], box->max[i],
+                          i);
+    return true;
+}
+
 bool glint_part_parse(struct glint_check *check, struct glint_arena *arena, const struct glint_exr_part_info *from,
                       bool scanline, struct glint_part_info *out) {
     snprintf(out->name, sizeof out->name, "%s", from->name);
     out->role = glint_role_find(out->name, &out->index, &out->previous);
+    out->level = out->role && out->role->shape == GLINT_SHAPE_LEVELS ? glint_role_level(out->name) : 0;
     out->width = from->width;
     out->height = from->height;
     struct glint_channel_info *channels =
@@ -205,15 +231,7 @@ bool glint_part_parse(struct glint_check *check, struct glint_arena *arena, cons
     if (out->role->reserved && !BROKEN(RESERVED, NULL, "the role is reserved for a later version")) return false;
     if (!scanline && !BROKEN(STORAGE, NULL, "expected flat scanlines without subsampling")) return false;
     if (!parse_encodings(check, from, out) || !parse_sibling(check, from, out)) return false;
-    if (!strcmp(out->role->name, "cubemap")) {
-        out->has_cubemap = true;
-        if (!glint_attributes_decode(check, from, GLINT_SCOPE_CUBEMAP, &out->cubemap)) return false;
-    }
-    if (!strcmp(out->role->name, "planar")) {
-        out->has_planar = true;
-        if (!glint_attributes_decode(check, from, GLINT_SCOPE_PLANAR, &out->planar)) return false;
-    }
-    return check_channels(check, out);
+    return parse_scopes(check, from, out) && check_channels(check, out);
 }
 
 /* ---- rules between parts ---- */
@@ -246,7 +264,7 @@ static bool check_depth(struct glint_check *check, const struct glint_part_info 
 static bool check_shape(struct glint_check *check, const struct glint_part_info *out,
                         const struct glint_part_info *gbuffer) {
     if (!out->width || !out->height) return true; /* its size is that of a sibling, which is not open yet */
-    if (out->role->shape == GLINT_SHAPE_CUBE && (uint64_t)out->height != 6 * (uint64_t)out->width)
+    if (glint_shape_is_cube(out->role->shape) && (uint64_t)out->height != 6 * (uint64_t)out->width)
         return BROKEN(SHAPE, NULL, "expected N x 6N pixels, found %u x %u", out->width, out->height);
     if (out->role->shape == GLINT_SHAPE_FRAME && gbuffer &&
         (out->width != gbuffer->width || out->height != gbuffer->height))
@@ -292,5 +310,5 @@ bool glint_parts_check(struct glint_check *check, const struct glint_exr_part_in
             !BROKEN(PREVIOUS, NULL, "expected previousWorldToView and previousViewToClip on gbuffer, found none"))
             return false;
     }
-    return true;
+    return glint_probes_check(check, parts, count);
 }

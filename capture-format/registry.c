@@ -48,6 +48,21 @@ const struct glint_role *glint_roles(size_t *count) {
     return roles;
 }
 
+int32_t glint_role_level(const char *part) {
+    static const char suffix[] = ".level";
+    const char *at = strstr(part, suffix);
+    const size_t length = at ? strlen(at) - (sizeof suffix - 1) : 0;
+    if (length < 1 || length > 2) return 0;
+    at += sizeof suffix - 1;
+    if (at[0] < '1' || at[0] > '9' || (length == 2 && (at[1] < '0' || at[1] > '9')))
+        return 0; /* a number has one name */
+    return length == 1 ? at[0] - '0' : 10 * (at[0] - '0') + at[1] - '0';
+}
+
+bool glint_shape_is_cube(enum glint_shape shape) {
+    return shape == GLINT_SHAPE_CUBE || shape == GLINT_SHAPE_LEVELS;
+}
+
 /* Whether `name` belongs to the role, with its number or free suffix. */
 static bool role_matches(const struct glint_role *role, const char *name, int32_t *index) {
     const size_t length = strlen(role->name);
@@ -56,7 +71,8 @@ static bool role_matches(const struct glint_role *role, const char *name, int32_
     const char *rest = name + length;
     if (role->name[length - 1] == '.') return *rest != 0;
     if (!role->numbered) return *rest == 0;
-    if (strlen(rest) != 4 || rest[0] != '.') return false;
+    const bool level = role->shape == GLINT_SHAPE_LEVELS && glint_role_level(name) > 0;
+    if ((strlen(rest) != 4 && !(level && strstr(name, ".level") == rest + 4)) || rest[0] != '.') return false;
     *index = 0;
     for (int i = 1; i < 4; i++) {
         if (rest[i] < '0' || rest[i] > '9') return false;
@@ -144,16 +160,21 @@ int glint_encoding_value(const char *which, const char *name) {
 
 /* ---- attributes ---- */
 
-#define GROUP_NONE GLINT_NO_GROUP
-#define GROUP_has_previous offsetof(struct glint_frame, has_previous)
-#define GROUP_has_player offsetof(struct glint_frame, has_player)
-#define GROUP_has_fog offsetof(struct glint_frame, has_fog)
-#define GROUP_has_material offsetof(struct glint_frame, has_material)
+#define GROUP_NONE(scope) GLINT_NO_GROUP
+#define GROUP_has_previous(scope) offsetof(STRUCT_##scope, has_previous)
+#define GROUP_has_player(scope) offsetof(STRUCT_##scope, has_player)
+#define GROUP_has_fog(scope) offsetof(STRUCT_##scope, has_fog)
+#define GROUP_has_ground(scope) offsetof(STRUCT_##scope, has_ground)
+#define GROUP_has_roughness(scope) offsetof(STRUCT_##scope, has_roughness)
+#define GROUP_has_box(scope) offsetof(STRUCT_##scope, has_box)
+#define GROUP_has_material(scope) offsetof(STRUCT_##scope, has_material)
 #define NEED_REQUIRED true
 #define NEED_OPTIONAL false
 
 #define STRUCT_FRAME struct glint_frame
 #define STRUCT_CUBEMAP struct glint_cubemap
+#define STRUCT_SKY struct glint_sky
+#define STRUCT_PROBE struct glint_probe
 #define STRUCT_PLANAR struct glint_planar
 
 static const struct glint_attribute_row attributes[] = {
@@ -163,7 +184,7 @@ static const struct glint_attribute_row attributes[] = {
      name,                                                                                                             \
      GLINT_KIND_##kind,                                                                                                \
      offsetof(STRUCT_##scope, member),                                                                                 \
-     GROUP_##group,                                                                                                    \
+     GROUP_##group(scope),                                                                                             \
      NEED_##need,                                                                                                      \
      GLINT_RANGE_##range,                                                                                              \
      fallback,                                                                                                         \
@@ -179,11 +200,20 @@ const struct glint_attribute_row *glint_attribute_rows(size_t *count) {
 
 const char *glint_scope_place(enum glint_scope scope) {
     static const char *const places[] = {
-#define SCOPE(id, type, place) [GLINT_SCOPE_##id] = place,
+#define SCOPE(id, role, type, place) [GLINT_SCOPE_##id] = place,
 #define ATTRIBUTE(...)
 #include "rows/attributes.h"
     };
     return places[scope];
+}
+
+const char *glint_scope_role(enum glint_scope scope) {
+    static const char *const roles_of[] = {
+#define SCOPE(id, role, type, place) [GLINT_SCOPE_##id] = role,
+#define ATTRIBUTE(...)
+#include "rows/attributes.h"
+    };
+    return roles_of[scope];
 }
 
 const char *glint_kind_type(enum glint_attribute_kind kind) {

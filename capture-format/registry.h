@@ -6,8 +6,8 @@
 
 /* ---- roles ---- */
 
-/* The role of a part's name, its number (or -1) and whether it is previous.ROLE; NULL if unknown. */
-const struct glint_role *glint_role_find(const char *part, int32_t *index, bool *previous);
+/* The L of a part's name that ends in .levelL; 0 for others. */
+int32_t glint_role_level(const char *part);
 const struct glint_role_channel *glint_role_channel_find(const struct glint_role *role, const char *channel);
 
 /* ---- encodings ---- */
@@ -46,8 +46,15 @@ enum glint_attribute_kind {
     GLINT_KIND_PLANES,
     GLINT_KIND_PLANE
 };
-enum glint_range { GLINT_RANGE_ANY, GLINT_RANGE_POSITIVE, GLINT_RANGE_NOT_NEGATIVE, GLINT_RANGE_UNIT };
-enum glint_scope { GLINT_SCOPE_FRAME, GLINT_SCOPE_CUBEMAP, GLINT_SCOPE_PLANAR, GLINT_SCOPE_COUNT };
+enum glint_range { GLINT_RANGE_ANY, GLINT_RANGE_POSITIVE, GLINT_RANGE_NOT_NEGATIVE, GLINT_RANGE_UNIT, GLINT_RANGE_ELEVATION };
+enum glint_scope {
+#define SCOPE(id, role, type, place) GLINT_SCOPE_##id,
+#define ATTRIBUTE(...)
+#include "rows/attributes.h"
+    GLINT_SCOPE_COUNT
+};
+/* The role whose parts carry a scope's attributes. */
+const char *glint_scope_role(enum glint_scope scope);
 #define GLINT_NO_GROUP ((size_t)-1)
 struct glint_attribute_row {
     enum glint_scope scope;
@@ -57,7 +64,7 @@ struct glint_attribute_row {
     size_t group;  /* of the bool that says whether the engine has it */
     bool required;
     enum glint_range range;
-    double fallback;
+    double fallback; /* NaN: none */
     const char *unit, *meaning;
 };
 const struct glint_attribute_row *glint_attribute_rows(size_t *count);

@@ -105,8 +105,14 @@ static bool push_attributes(struct glint_writer_part *held, const struct glint_p
     if (part->cubemap && !glint_attributes_encode(&held->arena, &held->attributes, GLINT_SCOPE_CUBEMAP, part->cubemap))
         return glint_fail(err, GLINT_ERROR_USAGE, "part %s: expected a volume and at most %d planes, found others",
                           part->name, GLINT_MAX_PLANES);
-    if (part->planar && !glint_attributes_encode(&held->arena, &held->attributes, GLINT_SCOPE_PLANAR, part->planar))
-        return glint_fail(err, GLINT_ERROR_MEMORY, "part %s: out of memory", part->name);
+    const struct {
+        enum glint_scope scope;
+        const void *from;
+    } others[] = {{GLINT_SCOPE_PLANAR, part->planar}, {GLINT_SCOPE_SKY, part->sky}, {GLINT_SCOPE_PROBE, part->probe}};
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        if (others[i].from &&
+            !glint_attributes_encode(&held->arena, &held->attributes, others[i].scope, others[i].from))
+            return glint_fail(err, GLINT_ERROR_MEMORY, "part %s: out of memory", part->name);
     return push_foreign(held, part, err);
 }
 
@@ -174,7 +180,7 @@ static bool hold_part(const char *path, struct glint_writer_part *held, const st
     struct glint_check check = {.file = path, .err = err};
     if (!glint_part_parse(&check, &held->arena, &held->as_read, true, &held->info)) return false;
     if (part->sibling) held->info.width = held->info.height = 0; /* those of the sibling */
-    else if (role->shape == GLINT_SHAPE_CUBE && (uint64_t)part->height != 6 * (uint64_t)part->width)
+    else if (glint_shape_is_cube(role->shape) && (uint64_t)part->height != 6 * (uint64_t)part->width)
         return glint_violation(&check, GLINT_RULE_SHAPE, part->name, NULL, "expected N x 6N pixels, found %u x %u",
                                part->width, part->height);
     return true;

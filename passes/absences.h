@@ -1,9 +1,11 @@
 /* What a capture need not have, and what a replay loses without it. Rows only, read by C.
    ABSENCE(role, channels, cost): a part of the role, or of one that has it, the channels that begin so. A replay warns once of each that its
-   passes would read, glint strip says what is left out, and glint info which role would open what. */
-ABSENCE("cubemap", "", "rays that leave the screen end in the sky where the picture shows it, and find nothing elsewhere")
-ABSENCE("cubemap", "distance", "rays that leave the screen are looked up by direction, as if everything were far away, and there is no cocoon")
-ABSENCE("sky", "", "rays to the sky take what the cube maps hold there, which may be black")
+   passes would read, glint strip says what is left out, and glint info which role would open what.
+   ABSENCE_UNLESS(other, …), ABSENCE_BESIDE(other, …): the same in captures without, or with, a part of another role. */
+ABSENCE_UNLESS("probe", "cubemap", "", "rays that leave the screen end in the sky where the picture shows it, and find nothing elsewhere")
+ABSENCE_BESIDE("probe", "cubemap", "", "rays that leave the screen are looked up in the probe, also where something hides what it shows")
+ABSENCE("cubemap", "distance", "in cube maps without distances rays are looked up by direction, as if everything were far away; if none has any, there is no cocoon")
+ABSENCE_UNLESS("probe", "sky", "", "rays to the sky take what the cube maps hold there, which may be black")
 ABSENCE("scene", "", "screen hits show the diffuse picture, without the reflections and translucency of what they hit")
 ABSENCE("previous.scene", "", "hits in the previous frame show its diffuse picture")
 ABSENCE("previous.lit", "", "screen hits show this frame's picture instead of the previous one's, unless there is the previous scene")

@@ -16,6 +16,7 @@ CAPTURE(previous_scene,   RGBA16F, "radiance", FULL, "previous.scene", "R G B -"
 CAPTURE(previous_depth,   R32F,    "m",  FULL,     "previous.gbuffer", "depth.Z", false, INFINITY, "depth_full of the previous frame")
 CAPTURE(cubemap_color,    RGBA16F, "radiance", CUBEMAPS, "cubemap", "R G B A", false, 0, "rgb: diffuse-only radiance; a: 0 where sky; layer = index into active_index")
 CAPTURE(cubemap_distance, R32F,    "m",  CUBEMAPS, "cubemap", "distance.Z", false, INFINITY, "distance from the centre; +inf where sky")
+CAPTURE(probe_levels,     RGBA16F, "radiance", PROBE_MIPS, "probe.000", "R G B -", false, 0, "an environment map that the engine pre-filtered, a level for each of frame.probe_roughness")
 CAPTURE(planar_color,     RGBA16F, "radiance", PLANAR, "planar.000", "R G B -", false, 0, "the scene seen through the mirror frame.mirror_plane")
 CAPTURE(planar_depth,     R32F,    "m",  PLANAR,   "planar.000", "depth.Z", false, INFINITY, "view-linear depth of it; +inf where sky")
 CAPTURE(water_color,      RGBA16F, "radiance", FULL, "water", "R G B opacity", false, 0, "rgb: light scattered by the water; a: fraction of the light behind it that one metre absorbs; 0 where there is no water")

@@ -23,9 +23,12 @@ FACT(sky_seen, FACES_AND_PIXELS, s->sky > 0 || faces == 0 || open > 0 || translu
      : faces    ? SAY("%llu pixels and %u of %u cube faces show the sky", N(s->sky), open > translucent ? open : translucent, faces)
      : s->sky   ? SAY("%llu pixels are sky", N(s->sky)) : SAY("the cube maps may show the sky"))
 FACT(cubemaps, CUBEMAPS, s->cubemaps > 0, SAY("%u cube map%s", s->cubemaps, s->cubemaps == 1 ? "" : "s"))
-FACT(distances, CUBEMAPS, s->cubemaps > 0 && s->distances == s->cubemaps,
+FACT(distances, CUBEMAPS, s->distances > 0, SAY("%u of %u cube maps have distances", s->distances, s->cubemaps))
+/* Whether rays that are traced in some cube maps may come to others that have no distances. */
+FACT(some_distances, CUBEMAPS, s->distances > 0 && s->distances < s->cubemaps,
      SAY("%u of %u cube maps have distances", s->distances, s->cubemaps))
 FACT(volumes, PARTS, s->volumes > 0, SAY("%u cube map%s with an inner volume", s->volumes, s->volumes == 1 ? "" : "s"))
+FACT(probe, PARTS, s->has_probe, SAY("%s probe", s->has_probe ? "a" : "no"))
 FACT(transparent, PARTS, s->has_transparent, SAY("%s transparent surface", s->has_transparent ? "a" : "no"))
 FACT(water, PARTS, s->has_water, SAY("%s water surface", s->has_water ? "a" : "no"))
 FACT(planar, PARTS, s->has_planar, SAY("%s planar reflection map", s->has_planar ? "a" : "no"))

@@ -23,7 +23,9 @@ const struct glint_row *glint_capture_images(size_t *count) {
 
 const struct glint_absence *glint_absences(size_t *count) {
     static const struct glint_absence absences[] = {
-#define ABSENCE(role, channels, cost) {role, channels, cost},
+#define ABSENCE(role, channels, cost) {role, channels, cost, NULL, false},
+#define ABSENCE_UNLESS(other, role, channels, cost) {role, channels, cost, other, false},
+#define ABSENCE_BESIDE(other, role, channels, cost) {role, channels, cost, other, true},
 #include "absences.h"
     };
     *count = sizeof absences / sizeof absences[0];

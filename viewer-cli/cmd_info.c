@@ -71,7 +71,23 @@ static json_t *camera_json(const struct glint_frame *frame) {
                      axis_name(frame->up));
 }
 
-static json_t *part_json(const struct glint_part_info *part, const struct channel_table *all) {
+/* A level with the roughness that it is for, and where the probe is. */
+static json_t *probe_json(const struct glint_capture *capture, const struct glint_part_info *part) {
+    const struct glint_part_info *levels[GLINT_MAX_LEVELS];
+    double roughness[GLINT_MAX_LEVELS];
+    const struct glint_probe *probe = &part->probe;
+    glint_capture_probe(capture, part->index, levels, roughness);
+    json_t *json = json_pack("{s:i, s:f}", "level", (int)part->level, "roughness", roughness[part->level]);
+    if (probe->has_ground) json_object_set_new(json, "ground_deg", json_real(probe->ground));
+    if (probe->has_box)
+        json_object_update_new(json, json_pack("{s:o, s:o, s:o}", "center", json_numbers(probe->box.center, 3),
+                                               "box_min", json_numbers(probe->box.min, 3), "box_max",
+                                               json_numbers(probe->box.max, 3)));
+    return json;
+}
+
+static json_t *part_json(const struct glint_capture *capture, const struct glint_part_info *part,
+                         const struct channel_table *all) {
     json_t *json =
         json_pack("{s:s, s:s?, s:I, s:I, s:b, s:o}", "name", part->name, "role", part->role ? part->role->name : NULL,
                   "width", (json_int_t)part->width, "height", (json_int_t)part->height, "previous", part->previous,
@@ -83,6 +99,8 @@ static json_t *part_json(const struct glint_part_info *part, const struct channe
             json_pack("{s:o, s:b, s:f, s:s, s:I}", "center", json_numbers(part->cubemap.center, 3), "outdoor",
                       part->cubemap.outdoor, "fade", part->cubemap.fade > 0 ? part->cubemap.fade : 1.0, "inner",
                       cubemap_volume_name(part->cubemap.inner), "age_frames", (json_int_t)part->cubemap.age_frames));
+    if (part->has_probe) json_object_set_new(json, "probe", probe_json(capture, part));
+    if (part->sky.has_ground) json_object_set_new(json, "ground_deg", json_real(part->sky.ground));
     return json;
 }
 
@@ -102,7 +120,7 @@ static enum status print_capture(const struct arguments *a, struct glint_capture
         const struct depth_facts depth = depth_facts(capture);
         json_t *parts = json_array(), *carries = survey ? carries_json(capture, NULL) : NULL;
         for (size_t i = 0; i < glint_capture_part_count(capture); i++)
-            json_array_append_new(parts, part_json(glint_capture_part(capture, i), all));
+            json_array_append_new(parts, part_json(capture, glint_capture_part(capture, i), all));
         return print_json(
             json_pack("{s:s, s:b, s:I, s:o, s:o, s:o, s:b, s:b, s:o, s:f, s:o, s:o*, s:o*}", "file", a->path, "capture",
                       1, "frame", (json_int_t)frame->number, "camera", camera_json(frame), "depth",
@@ -122,6 +140,7 @@ static enum status print_capture(const struct arguments *a, struct glint_capture
     info_print_channels(all);
     info_print_depth(capture);
     info_print_cubemaps(capture);
+    info_print_probes(capture);
     struct glint_error err = {0};
     return !survey || carries_print(capture, &err) ? STATUS_DONE : command_fail(&cmd_info, &err);
 }

@@ -45,6 +45,8 @@ static const struct example examples[] = {
 
 static const char *const scope_titles[] = {[GLINT_EDIT_FRAME] = "the frame",
                                            [GLINT_EDIT_CUBEMAP] = "cubemap.NNN",
+                                           [GLINT_EDIT_SKY] = "sky",
+                                           [GLINT_EDIT_PROBE] = "probe.NNN",
                                            [GLINT_EDIT_PLANAR] = "planar.NNN",
                                            [GLINT_EDIT_ENCODING] = "parts with such channels",
                                            [GLINT_EDIT_STORAGE] = "parts with the channel"};

@@ -1,11 +1,11 @@
 /* Attributes that carry a struct of capture.h. Frame attributes stand on the part `gbuffer`.
-   SCOPE(id, struct, the parts that carry them)
+   SCOPE(id, role, struct, the parts that carry them)
    ATTRIBUTE(scope, name, kind, member, group, need, range, fallback, unit, meaning)
      group: the bool member that says whether the engine has it, or NONE
-     need: REQUIRED (with its group, when it has one) or OPTIONAL; a missing optional one reads as `fallback`
-     range: ANY, POSITIVE, NOT_NEGATIVE, UNIT (0 < v <= 1); every number is finite */
+     need: REQUIRED (with its group, when it has one) or OPTIONAL; a missing optional one reads as `fallback`, NAN: as nothing, which its group says
+     range: ANY, POSITIVE, NOT_NEGATIVE, UNIT (0 < v <= 1), ELEVATION (-90 to 90); every number is finite */
 /* clang-format off */
-SCOPE(FRAME, glint_frame, "on `gbuffer`")
+SCOPE(FRAME, "gbuffer", glint_frame, "on `gbuffer`")
     ATTRIBUTE(FRAME, "glint.worldToView",         CAMERA_VIEW, camera.world_to_view,   NONE,         REQUIRED, ANY,          0, "",      "view = worldToView · world, row-major, column vectors: a rotation (mirroring allowed) and a translation")
     ATTRIBUTE(FRAME, "glint.viewToClip",          CAMERA_CLIP, camera.view_to_clip,    NONE,         REQUIRED, ANY,          0, "",      "clip = viewToClip · view, jitter included: rows (a 0 c 0) (0 b d 0) (0 0 A B) (0 0 ±1 0)")
     ATTRIBUTE(FRAME, "glint.previousWorldToView", CAMERA_VIEW, previous.world_to_view, has_previous, REQUIRED, ANY,          0, "",      "the same one frame earlier")
@@ -34,7 +34,7 @@ SCOPE(FRAME, glint_frame, "on `gbuffer`")
     ATTRIBUTE(FRAME, "glint.glossScale",          DOUBLE,      material.gloss_scale,   has_material, OPTIONAL, POSITIVE,     10, "",     "roughness `log2_power`: the change of log2 of the power from 0 to 1")
     ATTRIBUTE(FRAME, "glint.glossOffset",         DOUBLE,      material.gloss_offset,  has_material, OPTIONAL, ANY,          1, "",      "roughness `log2_power`: log2 of the power at 0")
     ATTRIBUTE(FRAME, "glint.stencilClasses",      CLASSES,     classes,                NONE,         OPTIONAL, ANY,          0, "",      "strings `value/mask=name` in decimal: stencil.id belongs to the class when (id & mask) = value; mask 0 means all bits. Passes look for the class `foreground`: what the camera holds, such as a weapon")
-SCOPE(CUBEMAP, glint_cubemap, "on each `cubemap.NNN`")
+SCOPE(CUBEMAP, "cubemap", glint_cubemap, "on each `cubemap.NNN`")
     ATTRIBUTE(CUBEMAP, "glint.center",       V3,     center,        NONE, REQUIRED, ANY,          0, "units",  "world position of the centre")
     ATTRIBUTE(CUBEMAP, "glint.outdoor",      BOOL,   outdoor,       NONE, OPTIONAL, ANY,          0, "",       "1: the cube map is outdoors")
     ATTRIBUTE(CUBEMAP, "glint.fade",         DOUBLE, fade,          NONE, OPTIONAL, UNIT,         1, "",       "weight while the cube map is faded in or out")
@@ -45,7 +45,15 @@ SCOPE(CUBEMAP, glint_cubemap, "on each `cubemap.NNN`")
     ATTRIBUTE(CUBEMAP, "glint.sphereCenter", V3,     sphere_center, NONE, OPTIONAL, ANY,          0, "units",  "centre of the sphere")
     ATTRIBUTE(CUBEMAP, "glint.sphereRadius", DOUBLE, sphere_radius, NONE, OPTIONAL, NOT_NEGATIVE, 0, "units",  "radius of the sphere")
     ATTRIBUTE(CUBEMAP, "glint.hull",         PLANES, planes,        NONE, OPTIONAL, ANY,          0, "units",  "attributes `glint.hull.00` … `glint.hull.15`, four planes (n, d) each, one a row, inside where n·p + d ≤ 0; all-zero rows at the end of the last one are not planes")
-SCOPE(PLANAR, glint_planar, "on each `planar.NNN`")
+SCOPE(SKY, "sky", glint_sky, "on `sky`")
+    ATTRIBUTE(SKY, "glint.ground", DOUBLE, ground, has_ground, OPTIONAL, ELEVATION, NAN, "degrees", "elevation below which the picture shows painted ground, and not what is there; 0 is the horizon, 90 straight up; when absent, it shows sky everywhere")
+SCOPE(PROBE, "probe", glint_probe, "on each `probe.NNN` and its levels")
+    ATTRIBUTE(PROBE, "glint.levelRoughness", DOUBLE, roughness,      has_roughness, OPTIONAL, NOT_NEGATIVE, NAN, "",      "perceptual roughness of the surfaces for which the engine looks up this level, larger than that of the finer one; when absent, the level's number divided by that of the coarsest")
+    ATTRIBUTE(PROBE, "glint.ground",         DOUBLE, ground, has_ground,    OPTIONAL, ELEVATION,  NAN, "degrees", "as on `sky`; that of the finest level counts")
+    ATTRIBUTE(PROBE, "glint.center",         V3,     box.center,     has_box,       REQUIRED, ANY,          0, "units",   "world position of the centre, for a probe with a box; that of the finest level counts")
+    ATTRIBUTE(PROBE, "glint.boxMin",         V3,     box.min,        has_box,       REQUIRED, ANY,          0, "units",   "corner of the box on whose faces everything in the probe is taken to lie, relative to the centre; without a box it is infinitely far away")
+    ATTRIBUTE(PROBE, "glint.boxMax",         V3,     box.max,        has_box,       REQUIRED, ANY,          0, "units",   "opposite corner, larger on every axis")
+SCOPE(PLANAR, "planar", glint_planar, "on each `planar.NNN`")
     ATTRIBUTE(PLANAR, "glint.plane",       PLANE,       plane,                NONE, REQUIRED, ANY, 0, "units", "row 0: the mirror plane (n, d) in world space, n·p + d = 0; the other rows are zero")
     ATTRIBUTE(PLANAR, "glint.worldToView", CAMERA_VIEW, camera.world_to_view, NONE, REQUIRED, ANY, 0, "",      "the mirrored camera")
     ATTRIBUTE(PLANAR, "glint.viewToClip",  CAMERA_CLIP, camera.view_to_clip,  NONE, REQUIRED, ANY, 0, "",      "the mirrored camera")

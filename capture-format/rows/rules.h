@@ -10,6 +10,7 @@ RULE(RESERVED,  "reserved-roles",   "A reserved role is not used before a versio
 RULE(CHANNELS,  "channels",         "A part holds its role's required channels (no Z of a normal that is octahedral, view_xy or spheremap) and no channel that the role does not list.")
 RULE(TYPES,     "channel-types",    "`stencil.id`, packed motion and its packed depth are uint; every other listed channel is half or float.")
 RULE(SHAPE,     "shape",            "Parts of shape `frame` have the size of `gbuffer`; cube maps are N × 6N.")
+RULE(PROBE,     "probe",            "The levels of a probe are numbered from 1 without a gap, at most 15 beside the finest; each has half the face size of the finer one, at least 1; their roughnesses increase; a box has min < max.")
 RULE(ENCODING,  "encoding",         "A declared encoding is one of the values of its table; where nothing is declared, the first one holds.")
 RULE(ATTRIBUTE, "attributes",       "Attributes have the type and range of their table, the required ones are there, every number is finite.")
 RULE(MATRIX,    "matrices",         "World-to-view matrices are a rotation (within 1e-3) and a translation with the last row 0 0 0 1; view-to-clip matrices are invertible and of the stated form.")

@@ -53,6 +53,12 @@ static const struct row rows[] = {
     {"cubemap", "glint.boxMax", "box_max", NUMBERS},
     {"cubemap", "glint.sphereCenter", "sphere_center", NUMBERS},
     {"cubemap", "glint.sphereRadius", "sphere_radius", NUMBER},
+    {"sky", "glint.ground", "ground", NUMBER},
+    {"probe", "glint.levelRoughness", "roughness", NUMBER},
+    {"probe", "glint.ground", "ground", NUMBER},
+    {"probe", "glint.center", "center", NUMBERS},
+    {"probe", "glint.boxMin", "box_min", NUMBERS},
+    {"probe", "glint.boxMax", "box_max", NUMBERS},
     {"planar", "glint.plane", "plane", PLANE},
     {"planar", "glint.worldToView", "world_to_view", NUMBERS},
     {"planar", "glint.viewToClip", "view_to_clip", NUMBERS},
@@ -234,10 +240,13 @@ bool extract_attributes(const struct glint_exr_part_info *part, json_t *out, str
     json_t *encodings = role ? scope_of(part, "encodings") : NULL;
     if (json_object_size(encodings)) json_object_set(out, "encodings", encodings);
     json_decref(encodings);
-    if (!strcmp(own, "cubemap") || !strcmp(own, "planar")) {
+    static const char *const objects[] = {"cubemap", "planar", "sky", "probe"};
+    for (size_t i = 0; i < sizeof objects / sizeof *objects; i++) {
+        if (strcmp(own, objects[i])) continue;
         json_t *object = scope_of(part, own);
         if (!strcmp(own, "cubemap")) add_planes(part, object);
-        json_object_set_new(out, own, object);
+        if (json_object_size(object)) json_object_set(out, own, object);
+        json_decref(object);
     }
     return add_unknown(part, out, err);
 }

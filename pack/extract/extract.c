@@ -115,7 +115,7 @@ static bool write_texture(struct extract *x, size_t p, const size_t *group, size
                                 "width", (int)part->width, "height", (int)part->height, "rows", "top_first");
     bool previous;
     const struct glint_role *role = role_of(part->name, &previous);
-    if (role && role->shape == GLINT_SHAPE_CUBE)
+    if (role && glint_shape_is_cube(role->shape))
         json_object_set_new(texture, "cube", json_pack("{s:s}", "layout", "strip_vertical"));
     json_object_set_new(x->textures, name, texture);
     return ok;

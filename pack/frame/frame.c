@@ -217,3 +217,28 @@ bool cubemap_read(const struct node *part, struct glint_cubemap *cubemap, struct
                                                             : GLINT_VOLUME_NONE;
     return true;
 }
+
+void sky_read(const struct node *part, struct glint_sky *sky) {
+    const struct node node = node_child(part, "sky");
+    sky->has_ground = node_has(&node, "ground");
+    sky->ground = node_number(&node, "ground", 0);
+}
+
+bool probe_read(const struct node *part, struct glint_probe *probe, struct glint_error *err) {
+    static const char *const box[] = {"center", "box_min", "box_max"};
+    const struct node node = node_child(part, "probe");
+    double *const members[] = {probe->box.center, probe->box.min, probe->box.max};
+    probe->has_roughness = node_has(&node, "roughness");
+    probe->roughness = node_number(&node, "roughness", 0);
+    probe->has_ground = node_has(&node, "ground");
+    probe->ground = node_number(&node, "ground", 0);
+    for (int i = 0; i < 3; i++) {
+        probe->has_box |= node_has(&node, box[i]);
+        node_numbers(&node, box[i], members[i]);
+    }
+    for (int i = 0; probe->has_box && i < 3; i++)
+        if (!node_has(&node, box[i]))
+            return node_fail(&node, err, GLINT_ERROR_FORMAT, "a box needs center, box_min and box_max, found no %s",
+                             box[i]);
+    return true;
+}

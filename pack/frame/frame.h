@@ -9,6 +9,8 @@ bool frame_read(const struct node *frame, struct glint_frame *out, uint32_t widt
                 struct glint_error *err);
 bool planar_read(const struct node *frame, const struct node *part, struct glint_planar *planar,
                  struct glint_error *err);
+void sky_read(const struct node *part, struct glint_sky *sky);
+bool probe_read(const struct node *part, struct glint_probe *probe, struct glint_error *err);
 bool cubemap_read(const struct node *part, struct glint_cubemap *cubemap, struct glint_error *err);
 
 #endif

@@ -72,24 +72,31 @@ static struct part part_of(struct pack *pack, const char *name) {
                         .node = node_child(&pack->parts_node, name),
                         .name = name};
     part.role = role_of(name, &part.is_previous);
-    part.is_cube = part.role && part.role->shape == GLINT_SHAPE_CUBE;
+    part.is_cube = part.role && glint_shape_is_cube(part.role->shape);
     return part;
 }
 
 static bool check_part(const struct part *part, uint32_t width, uint32_t height, struct glint_error *err) {
     const struct node *node = &part->node;
-    const bool cubemap = part->role && !strcmp(part->role->name, "cubemap"),
-               planar = part->role && !strcmp(part->role->name, "planar");
+    static const struct {
+        const char *role, *what; /* what: required */
+    } objects[] = {{"cubemap", "a cubemap with its center"},
+                   {"planar", "a planar with its plane and camera"},
+                   {"sky", NULL},
+                   {"probe", NULL}};
     if (!part->name[0] || strlen(part->name) > 255)
         return node_fail(node, err, GLINT_ERROR_FORMAT, "expected a part's name of 1 to 255 bytes");
     if (part->role && part->role->reserved)
         return node_fail(node, err, GLINT_ERROR_FORMAT, "the role is reserved: %s", part->role->meaning);
-    if (cubemap != node_has(node, "cubemap") || planar != node_has(node, "planar"))
-        return node_fail(node, err, GLINT_ERROR_FORMAT, "expected %s, found %s",
-                         cubemap  ? "a cubemap with its center"
-                         : planar ? "a planar with its plane and camera"
-                                  : "neither cubemap nor planar, which belong to cubemap.NNN and planar.NNN",
-                         cubemap || planar ? "none or another" : "one");
+    for (size_t i = 0; i < sizeof objects / sizeof *objects; i++) {
+        const char *name = objects[i].role;
+        const bool own = part->role && !strcmp(part->role->name, name), has = node_has(node, name);
+        if (own && !has && objects[i].what)
+            return node_fail(node, err, GLINT_ERROR_FORMAT, "expected %s, found none", objects[i].what);
+        if (has && !own)
+            return node_fail(node, err, GLINT_ERROR_FORMAT, "expected no %s, which belongs to parts of that role alone",
+                             name);
+    }
     if (part->role && part->role->shape == GLINT_SHAPE_FRAME && width &&
         (part->width != width || part->height != height))
         return node_fail(node, err, GLINT_ERROR_FORMAT, "expected %u x %u texels, as in gbuffer, found %u x %u", width,
@@ -118,6 +125,8 @@ static bool add_part(struct pack *pack, struct part *part, struct glint_writer *
                      const char *out, struct glint_error *err) {
     struct glint_cubemap cubemap = {.outdoor = false};
     struct glint_planar planar = {.plane = {0}};
+    struct glint_sky sky = {.has_ground = false};
+    struct glint_probe probe = {.has_box = false};
     struct glint_part file = {.name = part->name};
     struct glint_attribute *simple = NULL;
     const struct glint_camera *camera = !pack->has_frame                  ? NULL
@@ -127,6 +136,8 @@ static bool add_part(struct pack *pack, struct part *part, struct glint_writer *
                                                                           : NULL;
     if (node_has(&part->node, "cubemap") && !cubemap_read(&part->node, &cubemap, err)) return false;
     if (node_has(&part->node, "planar") && !planar_read(&pack->frame_node, &part->node, &planar, err)) return false;
+    if (node_has(&part->node, "sky")) sky_read(&part->node, &sky);
+    if (node_has(&part->node, "probe") && !probe_read(&part->node, &probe, err)) return false;
     if (!encodings_read(part, camera, err) || !channels_choose(part, err) ||
         !read_sibling(part, out, &file.sibling, err) || !channels_convert(part, err))
         return false;
@@ -137,6 +148,8 @@ static bool add_part(struct pack *pack, struct part *part, struct glint_writer *
     file.attributes = simple;
     if (node_has(&part->node, "cubemap")) file.cubemap = &cubemap;
     if (node_has(&part->node, "planar")) file.planar = &planar;
+    if (node_has(&part->node, "sky")) file.sky = &sky;
+    if (node_has(&part->node, "probe")) file.probe = &probe;
     ok = ok && (part->role ? hand_over(writer, part, &file, err) : extras_add_part(extras, part, err));
     free(simple);
     return ok;

@@ -11,11 +11,12 @@ void load_active_centers() {
     barrier();
 }
 
-// The active cube map whose centre is nearest to a point; 255 if there is none.
-uint nearest_active(vec3 point) {
+// The active cube map whose centre is nearest to a point, of those whose bit is set; 255 if there is none.
+uint nearest_among(uint bits, vec3 point) {
     uint best = 255u;
     float best_distance2 = INFINITE;
     for (uint i = 0u; i < min(frame.counts.x, ACTIVE_MOST); ++i) {
+        if ((bits >> i & 1u) == 0u) continue;
         vec3 offset = point - active_centers[i].xyz;
         float distance2 = dot(offset, offset);
         if (distance2 < best_distance2) {
@@ -25,3 +26,4 @@ uint nearest_active(vec3 point) {
     }
     return best;
 }
+uint nearest_active(vec3 point) { return nearest_among(~0u, point); }

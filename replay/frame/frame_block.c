@@ -105,6 +105,32 @@ void frame_block_mirror(struct frame_block *block, const struct glint_frame *fra
                                  (float)(planar->plane[2] / length), (float)(offset / length * metres)};
 }
 
+static vec4 metres_of(const double units[3], const double from[3], double metres) {
+    return (vec4){(float)((units[0] - from[0]) * metres), (float)((units[1] - from[1]) * metres),
+                  (float)((units[2] - from[2]) * metres), 0};
+}
+
+void frame_block_far(struct frame_block *block, const struct glint_capture *capture) {
+    static const double RADIANS = 3.14159265358979324 / 180, origin[3];
+    const struct glint_frame *frame = glint_capture_frame(capture);
+    const double metres = frame->metres_per_unit > 0 ? frame->metres_per_unit : 1;
+    const struct glint_part_info *sky = glint_capture_find(capture, GLINT_PART_SKY), *levels[GLINT_MAX_LEVELS];
+    double roughness[GLINT_MAX_LEVELS], eye[3];
+    const size_t count = glint_capture_probe(capture, 0, levels, roughness);
+    const struct glint_probe *probe = count ? &levels[0]->probe : NULL;
+    const bool has_ground = probe ? probe->has_ground : sky && sky->sky.has_ground;
+    const double ground = probe ? probe->ground : sky ? sky->sky.ground : 0;
+    block->far_light = (vec4){(float)count, probe && probe->has_box, has_ground ? (float)sin(ground * RADIANS) : -2, 0};
+    if (!probe) return;
+    for (size_t l = 0; l < count; l++) block->probe_roughness.column[l / 4][l % 4] = (float)roughness[l];
+    if (!probe->has_box && !block->counts.w) block->counts.w = levels[0]->width;
+    if (!probe->has_box) return;
+    glint_camera_position(&frame->camera, eye);
+    block->probe_center = metres_of(probe->box.center, eye, metres);
+    block->probe_low = metres_of(probe->box.min, origin, metres);
+    block->probe_high = metres_of(probe->box.max, origin, metres);
+}
+
 /* The stencil class of first-person foreground such as a weapon: what it hides was never rendered. */
 static uvec4 foreground_of(const struct glint_frame *frame) {
     for (uint32_t i = 0; i < frame->class_count; i++) {

@@ -65,6 +65,10 @@ bool plan_find_sizes(struct frame_plan *plan, struct glint_error *err) {
                                   .half = {(gbuffer->width + 1) / 2, (gbuffer->height + 1) / 2},
                                   .sky_face = sky ? sky->width : 0,
                                   .is_cpu = plan->is_cpu};
+    const struct glint_part_info *levels[GLINT_MAX_LEVELS];
+    double roughness[GLINT_MAX_LEVELS];
+    sizes->probe_mips = (uint32_t)glint_capture_probe(capture, 0, levels, roughness);
+    if (sizes->probe_mips) sizes->probe_face = levels[0]->width;
     if (planar) sizes->planar[0] = planar->width, sizes->planar[1] = planar->height;
     if (pipeline_traces_all_pixels(plan->pipeline)) sizes->half[0] = sizes->full[0], sizes->half[1] = sizes->full[1];
     const size_t count = plan->source->cubemap_count;
@@ -131,6 +135,9 @@ bool plan_describe(const struct frame_plan *plan, const struct graph_image *imag
     case GLINT_SIZE_SKY_MIPS:
         expected[0] = expected[1] = sizes->sky_face;
         break;
+    case GLINT_SIZE_PROBE_MIPS:
+        expected[0] = expected[1] = sizes->probe_face;
+        break;
     case GLINT_SIZE_ACTIVE:
         expected[0] = sizes->active, expected[1] = 1;
         break;
@@ -161,6 +168,7 @@ bool plan_describe(const struct frame_plan *plan, const struct graph_image *imag
     if (!expected[0] || !expected[1]) desc->layers = layers; /* no active cube map: a placeholder */
     else desc->width = expected[0], desc->height = expected[1];
     if (size_has_levels(row->size)) desc->levels = level_count(desc->width, desc->height);
+    if (row->size == GLINT_SIZE_PROBE_MIPS && sizes->probe_mips) desc->levels = sizes->probe_mips;
     if (row->size == GLINT_SIZE_HALF_MIPS3 && desc->levels > 3) desc->levels = 3;
     if (desc->levels > LEVELS_MAX)
         return glint_fail(err, GLINT_ERROR_LIMIT, "image %s: %u levels, expected at most %d", image->name, desc->levels,

@@ -23,6 +23,10 @@ static void fill_frame_block(struct frame_plan *plan) {
     plan->block.work = (uvec4){plan->options->all, pipeline_shows_all(plan->pipeline), 0, 0};
     pipeline_classes(plan->pipeline, &classes[0], &classes[1]);
     memcpy(&plan->block.work.z, classes, sizeof classes);
+    frame_block_far(&plan->block, plan->source->capture);
+    for (uint32_t i = 0; plan->active && i < plan->sizes.active; i++)
+        if (glint_part_has_channel(plan->source->cubemaps[plan->active[i]], "distance.Z"))
+            plan->block.distances.x |= 1U << i;
     if (mirror) frame_block_mirror(&plan->block, frame, &mirror->planar);
 }
 

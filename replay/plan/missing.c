@@ -14,14 +14,23 @@ static bool has_channels(const struct glint_part_info *part, const char *channel
     return false;
 }
 
-bool glint_capture_lacks(const struct glint_capture *capture, const struct glint_absence *absence) {
-    size_t parts = 0, having = 0;
+/* The capture's parts of a role, and how many of them have channels that begin so. */
+static size_t count_parts(const struct glint_capture *capture, const char *role, const char *channels, size_t *having) {
+    size_t parts = 0;
+    *having = 0;
     for (size_t i = 0; i < glint_capture_part_count(capture); i++) {
         const struct glint_part_info *part = glint_capture_part(capture, i);
-        if (!is_of_role(part->name, absence->role)) continue;
+        if (!is_of_role(part->name, role)) continue;
         parts++;
-        having += has_channels(part, absence->channels);
+        *having += has_channels(part, channels);
     }
+    return parts;
+}
+
+bool glint_capture_lacks(const struct glint_capture *capture, const struct glint_absence *absence) {
+    size_t having;
+    if (absence->other && absence->beside != (count_parts(capture, absence->other, "", &having) > 0)) return false;
+    const size_t parts = count_parts(capture, absence->role, absence->channels, &having);
     return absence->channels[0] ? having < parts : parts == 0;
 }
 

@@ -105,6 +105,11 @@ void fixture_init(struct fixture *f) {
         f->cubemap.planes[i][i / 2] = i % 2 ? 1 : -1;
         f->cubemap.planes[i][3] = -(2.0 + i) / 3;
     }
+    f->sky = (struct glint_sky){.has_ground = true, .ground = 0}; /* the horizon */
+    f->probe[0] = (struct glint_probe){.has_roughness = true, .roughness = 0, .has_ground = true, .ground = -7.5};
+    f->probe[0].has_box = true;
+    f->probe[0].box = (struct glint_probe_box){{1e6 + 0.1, 2, -3}, {-1, -2, -3}, {0.5, 2.5, 3.5}};
+    f->probe[1] = (struct glint_probe){.has_roughness = true, .roughness = 0.84};
     f->planar.plane[1] = 1;
     f->planar.plane[3] = -1.0 / 3;
     f->planar.camera = fixture_camera((const double[3]){1, -2, 3}, 0.1, 500);
@@ -140,12 +145,14 @@ struct glint_part fixture_part(const struct fixture *f, enum fixture_part which,
                                         "scene",        "previous.gbuffer",
                                         "previous.lit", "cubemap.000",
                                         "cubemap.017",  "sky",
+                                        "probe.002",    "probe.002.level1",
                                         "planar.002",   "transparent",
                                         "water",        "truth.reflection.ggx",
                                         "truth.mirror", "engine.screen_trace.anything"};
-    const bool cube = which == FIXTURE_CUBEMAP_0 || which == FIXTURE_CUBEMAP_1 || which == FIXTURE_SKY;
-    struct glint_part part = {
-        .name = names[which], .width = cube ? FIX_CUBE : FIX_W, .height = cube ? 6 * FIX_CUBE : FIX_H};
+    const bool cube = which == FIXTURE_CUBEMAP_0 || which == FIXTURE_CUBEMAP_1 || which == FIXTURE_SKY ||
+                      which == FIXTURE_PROBE || which == FIXTURE_PROBE_1;
+    const uint32_t face = which == FIXTURE_PROBE_1 ? FIX_CUBE / 2 : FIX_CUBE;
+    struct glint_part part = {.name = names[which], .width = cube ? face : FIX_W, .height = cube ? 6 * face : FIX_H};
     static const char *const rgba[] = {"R", "G", "B", "A"};
     memset(c, 0, sizeof *c);
     if (which == FIXTURE_GBUFFER || which == FIXTURE_PREVIOUS_GBUFFER) {
@@ -172,6 +179,8 @@ struct glint_part fixture_part(const struct fixture *f, enum fixture_part which,
         add_fixture_channel(&part, c, "distance.Z", color + 4, stride);
         part.cubemap = &f->cubemap;
     }
+    if (which == FIXTURE_SKY) part.sky = &f->sky;
+    if (which == FIXTURE_PROBE || which == FIXTURE_PROBE_1) part.probe = &f->probe[which - FIXTURE_PROBE];
     if (which == FIXTURE_TRANSPARENT || which == FIXTURE_WATER) {
         add_fixture_channel(&part, c, which == FIXTURE_WATER ? "opacity" : "A", color + 3, stride);
         for (size_t i = 0; i < 4; i++) add_fixture_channel(&part, c, gbuffer_names[i], f->gbuffer + i, 17);

@@ -23,6 +23,8 @@ struct fixture {
     float cube[FIX_CUBE * FIX_CUBE * 6 * 5];
     struct glint_cubemap cubemap;
     struct glint_planar planar;
+    struct glint_sky sky;
+    struct glint_probe probe[2]; /* by level */
 };
 void fixture_init(struct fixture *f);
 /* The one of a test program. Its setup, with cmocka's signature, initialises it. */
@@ -38,6 +40,8 @@ enum fixture_part {
     FIXTURE_CUBEMAP_0,
     FIXTURE_CUBEMAP_1,
     FIXTURE_SKY,
+    FIXTURE_PROBE,
+    FIXTURE_PROBE_1,
     FIXTURE_PLANAR,
     FIXTURE_TRANSPARENT,
     FIXTURE_WATER,

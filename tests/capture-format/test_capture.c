@@ -74,8 +74,39 @@ static void frame_comes_back_bit_for_bit(UNUSED void **state) {
     const struct glint_part_info *planar = glint_capture_find(capture, "planar.002");
     assert_true(planar->has_planar);
     assert_memory_equal(&planar->planar, &fixture.planar, sizeof fixture.planar);
+    const struct glint_part_info *sky = glint_capture_find(capture, "sky"), *levels[GLINT_MAX_LEVELS];
+    assert_true(sky->has_sky && !sky->has_probe);
+    assert_memory_equal(&sky->sky, &fixture.sky, sizeof fixture.sky);
+    double roughness[GLINT_MAX_LEVELS];
+    assert_int_equal(glint_capture_probe(capture, 0, levels, roughness), 0);
+    assert_int_equal(glint_capture_probe(capture, 2, levels, roughness), 2);
+    for (int l = 0; l < 2; l++) {
+        assert_true(levels[l]->has_probe && levels[l]->index == 2 && levels[l]->level == l);
+        assert_true(levels[l]->width == (uint32_t)FIX_CUBE >> l && roughness[l] == fixture.probe[l].roughness);
+        assert_memory_equal(&levels[l]->probe, &fixture.probe[l], sizeof fixture.probe[l]);
+    }
     glint_capture_close(&capture);
     unlink(path);
+}
+
+static void names_of_levels(UNUSED void **state) {
+    static const struct {
+        const char *name, *role;
+        int32_t index;
+    } names[] = {{"probe.000", "probe", 0},          {"probe.012.level1", "probe", 12},
+                 {"probe.012.level15", "probe", 12}, {"probe.000.level0", NULL, -1},
+                 {"probe.000.level01", NULL, -1},    {"probe.000.level", NULL, -1},
+                 {"probe.000.level1.x", NULL, -1},   {"probe.00.level1", NULL, -1},
+                 {"probe.000.levels", NULL, -1},     {"probe.000.level100", NULL, -1},
+                 {"cubemap.000.level1", NULL, -1},   {"sky.level1", NULL, -1},
+                 {"previous.probe.000", NULL, -1},   {"probe", NULL, -1}};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        int32_t index;
+        bool previous;
+        const struct glint_role *role = glint_role_find(names[i].name, &index, &previous);
+        if (!role != !names[i].role || (role && strcmp(role->name, names[i].role)) || index != names[i].index)
+            fail_msg("%s: %s, %d", names[i].name, role ? role->name : "no role", index);
+    }
 }
 
 /* ---- single values ---- */
@@ -257,10 +288,15 @@ static void absent_channels_read_as_their_values(UNUSED void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_role_comes_back),     cmocka_unit_test(frame_comes_back_bit_for_bit),
-        cmocka_unit_test(lengths_are_metres),        cmocka_unit_test(absent_channels_read_as_their_values),
-        cmocka_unit_test(every_half_keeps_its_bits), cmocka_unit_test(floats_round_to_the_nearest_half),
-        cmocka_unit_test(every_code_comes_back),     cmocka_unit_test(folders_are_made_with_those_around_them),
+        cmocka_unit_test(every_role_comes_back),
+        cmocka_unit_test(frame_comes_back_bit_for_bit),
+        cmocka_unit_test(names_of_levels),
+        cmocka_unit_test(lengths_are_metres),
+        cmocka_unit_test(absent_channels_read_as_their_values),
+        cmocka_unit_test(every_half_keeps_its_bits),
+        cmocka_unit_test(floats_round_to_the_nearest_half),
+        cmocka_unit_test(every_code_comes_back),
+        cmocka_unit_test(folders_are_made_with_those_around_them),
     };
     return cmocka_run_group_tests(tests, fixture_setup, NULL);
 }

@@ -173,6 +173,36 @@ static void previous_half_a_normal(struct rewrite *r) {
 static void previous_half_a_colour(struct rewrite *r) {
     keep_previous(r, (const char *const[]){"depth.Z", "albedo.G", NULL});
 }
+static void steep_ground(struct rewrite *r) {
+    set_numbers(r, "sky", "glint.ground", 0, 90.5);
+}
+static void far_level(struct rewrite *r) {
+    rename_part(r, "probe.002.level1", "probe.002.level2");
+}
+static void another_probe(struct rewrite *r) {
+    rename_part(r, "probe.002.level1", "probe.003.level1");
+}
+static void same_level(struct rewrite *r) {
+    struct rewrite_part *p = rewrite_find(r, "probe.002.level1");
+    p->part.width /= 2;
+    p->part.height /= 2;
+}
+static void smoother_level(struct rewrite *r) {
+    set_numbers(r, "probe.002.level1", "glint.levelRoughness", 0, 0);
+}
+static void one_corner(struct rewrite *r) {
+    rewrite_remove_attribute(r, "probe.002", "glint.boxMax");
+}
+static void flat_box(struct rewrite *r) {
+    set_numbers(r, "probe.002", "glint.boxMax", 1, -2);
+}
+static void probe_alpha(struct rewrite *r) {
+    rewrite_find(r, "probe.002.level1")->channels[0].name = "A";
+}
+static void dark_level(struct rewrite *r) {
+    floats(r, "probe.002.level1", "R")[9] = -1;
+}
+
 /* Pixel 9 of the fixture is not sky. */
 static void nan_pixel(struct rewrite *r) {
     floats(r, "lit", "G")[9] = NAN, floats(r, "lit", "G")[45] = NAN;
@@ -254,6 +284,15 @@ static const struct {
     {"attributes", {"glint.previousViewToClip", "missing"}, half_previous, false},
     {"inner-volume", {"4 to 64 planes", "found 0"}, no_planes, false},
     {"inner-volume", {"boxMin", "cubemap.000"}, empty_box, false},
+    {"attributes", {"part sky: glint.ground", "90.5"}, steep_ground, false},
+    {"attributes", {"probe.002: glint.boxMax", "missing"}, one_corner, false},
+    {"probe", {"probe.002.level2", "none of number 1"}, far_level, false},
+    {"probe", {"probe.003.level1", "none of number 0"}, another_probe, false},
+    {"probe", {"probe.002.level1", "faces of 4, half of those of probe.002, found 2"}, same_level, false},
+    {"probe", {"probe.002.level1", "roughness above 0, that of probe.002, found 0"}, smoother_level, false},
+    {"probe", {"part probe.002", "boxMin < boxMax, found -2 and -2 on axis 1"}, flat_box, false},
+    {"channels", {"probe.002.level1", "found another"}, probe_alpha, false},
+    {"pixels-range", {"probe.002.level1: R", "not negative"}, dark_level, true},
     {"sibling", {"not-there.exr", "No such file"}, nowhere, false},
     {"sibling", {"plain file name", "../not-there.exr"}, climbing, false},
     {"pixels-finite", {"part lit: G", "found 2 others, first nan at (9, 0)"}, nan_pixel, true},

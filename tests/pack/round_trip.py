@@ -103,6 +103,58 @@ class Tests:
         self.manifests.append(os.path.join(folder, "foreign.json"))
         return os.path.join(folder, "foreign.json")
 
+    def test_a_probe_and_painted_ground(self):
+        """Levels one after the other in a file; back and forth, edited, cropped, stripped."""
+        self.foreign()
+        folder, levels = self.path("street-out"), 4
+        manifest = json.loads(contents(os.path.join(folder, "manifest.json")))
+        with open(os.path.join(folder, "probe.raw"), "wb") as file:
+            for level in range(levels):
+                texels = 6 * (8 >> level) ** 2
+                file.write(struct.pack(f"<{3 * texels}f", *(level + i / texels for i in range(texels) for _ in "rgb")))
+        offset = 0
+        for level in range(levels):
+            name, width = f"probe.000.level{level}" if level else "probe.000", 8 >> level
+            manifest["textures"][name] = {"file": "probe.raw", "format": "VK_FORMAT_R32G32B32_SFLOAT", "width": width, "height": width, "offset": offset}
+            manifest["parts"][name] = {"RGB": {"texture": name, "channel": "rgb"}, "probe": {"roughness": level / 4}}
+            offset += 6 * width * width * 12
+        manifest["parts"]["probe.000"]["probe"] |= {"ground": 0, "center": [1, 2, 1e6], "box_min": [-1, -2, -3], "box_max": [1, 2, 3]}
+        manifest["parts"]["sky"]["sky"] = {"ground": -12.5}
+        file, path = os.path.join(folder, "probe.json"), self.path("probe.exr")
+
+        def pack(status=0, **changes):
+            with open(file, "w", encoding="utf-8") as out:
+                json.dump(manifest | changes, out, indent=1)
+            return glint("pack", file, "-o", path, status=status, *["--overwrite"][:os.path.exists(path)])
+        pack()
+        self.manifests.append(file)
+        glint("validate", path)
+        self.check_bytes(path)
+        parts = {part["name"]: part for part in json.loads(glint("info", path, "--json"))["parts"]}
+        assert [parts[f"probe.000.level{i}" if i else "probe.000"]["probe"]["roughness"] for i in range(levels)] == [0, 0.25, 0.5, 0.75], parts
+        assert parts["probe.000"]["probe"]["box_max"] == [1, 2, 3] and parts["probe.000"]["probe"]["ground_deg"] == 0 and parts["sky"]["ground_deg"] == -12.5
+        said = glint("info", path)
+        assert "probe.000.level3" in said and "in a box" in said and "below 0°" in said and "painted ground below -12.5°" in said, said
+        listing = subprocess.run([programs.find("exrheader"), path], capture_output=True, text=True, check=True).stdout
+        assert "glint.levelRoughness (type double): 0.75" in listing and "glint.ground (type double): 0" in listing, listing
+        # A level is left out, one is smoother than the one before, a box has one corner.
+        without = {name: part for name, part in manifest["parts"].items() if name != "probe.000.level2"}
+        assert "probe.000.level3: expected levels from 0 without a gap" in pack(1, parts=without)
+        smooth = {"probe.000.level2": manifest["parts"]["probe.000.level2"] | {"probe": {"roughness": 0.2}}}
+        assert "expected a roughness above 0.25, that of probe.000.level1, found 0.2" in pack(1, parts=manifest["parts"] | smooth)
+        corner = {"probe.000": manifest["parts"]["probe.000"] | {"probe": {"box_min": [0, 0, 0]}}}
+        assert "parts.probe.000.probe: a box needs center, box_min and box_max, found no center" in pack(1, parts=manifest["parts"] | corner)
+        edited = self.path("probe-edited.exr")
+        glint("set", path, "sky:ground=-3", "probe.000.level3:levelRoughness=0.9", "-o", edited)
+        parts = {part["name"]: part for part in json.loads(glint("info", edited, "--json"))["parts"]}
+        assert parts["sky"]["ground_deg"] == -3 and parts["probe.000.level3"]["probe"]["roughness"] == 0.9
+        glint("set", path, "probe.000.level3:levelRoughness=0.4", "-o", self.path("refused.exr"), status=1)
+        for command, kept in ((["crop", path, "4,4,16,8"], 4), (["strip", path, "--keep", "gbuffer,lit,probe"], 4), (["strip", path, "--keep", "gbuffer,lit"], 0)):
+            out = self.path(f"probe-{command[0]}-{kept}.exr")
+            glint(*command, "-o", out)
+            glint("validate", out)
+            assert sum(part["name"].startswith("probe") for part in json.loads(glint("info", out, "--json"))["parts"]) == kept, command
+
     def test_what_glint_does_not_know(self):
         path = self.path("foreign.exr")
         manifest = self.foreign()

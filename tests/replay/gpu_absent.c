@@ -41,8 +41,11 @@ static const struct {
     {"gbuffer", "albedo"},
     {"gbuffer", "vertexNormal"},
     {"gbuffer", "stencil"},
+    {"cubemap.002", "distance"}, /* of one among several */
+    {"cubemap.002", NULL},
 };
 enum { OPTIONAL = sizeof optional / sizeof *optional };
+static const uint32_t BLIND = 1u << (OPTIONAL - 2), GONE = 1u << (OPTIONAL - 1);
 
 static bool is_of(const char *part, const char *name) {
     const size_t length = strlen(name);
@@ -259,7 +262,7 @@ static float *image_of(const struct pair *pair, const char *name, size_t *count)
     return values;
 }
 
-/* Rays that no surface on screen ends: all of them, by a length of 0 on screen. */
+/* Rays that no surface on screen ends: all of them, by a length of 0 on screen. setting: words, or NULL. */
 static void run_off_screen(struct pair *pair, const char *scene, const char *preset, const char *variant,
                            const char *setting, uint32_t which) {
     char path[256];
@@ -268,7 +271,8 @@ static void run_off_screen(struct pair *pair, const char *scene, const char *pre
     if (variant) pair_check(glint_pipeline_use(pair->pipeline, variant, &err), &err);
     pair_check(glint_pipeline_use(pair->pipeline, "cubemap_select=nearest", &err), &err); /* not by distances */
     pair_check(glint_pipeline_set(pair->pipeline, "screen_trace.length_m=0", &err), &err);
-    if (setting) pair_check(glint_pipeline_set(pair->pipeline, setting, &err), &err);
+    for (char word[64]; setting && sscanf(setting, " %63s", word) == 1; setting = strchr(setting + 1, ' '))
+        pair_check(glint_pipeline_set(pair->pipeline, word, &err), &err);
     unload(pair);
     loaded = without(pair, sampled(pair->fixture, scene, path), which);
     pair_check(glint_replay_load(pair->planned, loaded, &err) &&
@@ -293,6 +297,78 @@ static void rays_without_distances_are_looked_up(void **state) {
         assert_int_equal(differ, 0);
         free(found);
         free(expected);
+    }
+    unload(pair);
+}
+
+/* The ends of all rays of the last run, with cube maps by the numbers of their names; 255: none. `gone`: there is no cubemap.002. */
+struct ends {
+    size_t count;
+    float *travelled;
+    uint32_t *start, *end; /* cube maps */
+};
+static uint32_t *indices_of(const struct pair *pair, const char *name, const uint32_t *numbers) {
+    struct glint_error err = {0};
+    const struct glint_image *image = glint_replay_find_image(pair->planned, name);
+    assert_non_null(image);
+    const size_t count = (size_t)image->width * image->height;
+    uint32_t *values = malloc(count * sizeof *values);
+    assert_non_null(values);
+    pair_check(glint_replay_read_image(pair->planned, image, GLINT_U32, values, &err), &err);
+    for (size_t i = 0; numbers && i < count; i++)
+        if (values[i] < 255) values[i] = numbers[values[i]];
+    return values;
+}
+static struct ends ends_of(const struct pair *pair, bool gone) {
+    struct ends ends;
+    uint32_t *numbers = indices_of(pair, "active_index", NULL);
+    const uint32_t active = glint_replay_find_image(pair->planned, "active_index")->width;
+    for (uint32_t i = 0; gone && i < active; i++) numbers[i] += numbers[i] >= 2;
+    ends.travelled = image_of(pair, "travelled", &ends.count);
+    ends.start = indices_of(pair, "cubemap_best", numbers);
+    ends.end = indices_of(pair, "cubemap_index", numbers);
+    free(numbers);
+    return ends;
+}
+static void ends_free(struct ends *ends) {
+    free(ends->travelled), free(ends->start), free(ends->end);
+}
+
+/* Where one of the cube maps has no distances, rays that start in it are looked up in it by direction, and the others end as if it were not there.
+   Catches: distances of all cube maps given up for those of one; rays that take it for one that shows nothing but sky. */
+static void rays_are_traced_where_there_are_distances(void **state) {
+    struct pair *pair = pair_of(state);
+    static const char *const variants[] = {"cubemap_trace=march", "cubemap_trace=exact"};
+    for (size_t v = 0; v < 2; v++) {
+        /* Switches cost no steps, and every cube map is in every chain. */
+        const char *const setting =
+            v ? NULL : "cubemap_trace.count=strides cubemap_trace.chain=8 cubemap_active.chain=8";
+        run_off_screen(pair, "room", "mafia3", variants[v], setting, BLIND);
+        expect_reason(pair, "cubemap_trace", true, "");
+        struct ends blind = ends_of(pair, false);
+        run_off_screen(pair, "room", "mafia3", variants[v], setting, GONE);
+        struct ends gone = ends_of(pair, true);
+        size_t looked_up = 0, traced = 0, switched = 0, differ = 0;
+        assert_int_equal(blind.count, gone.count);
+        for (size_t i = 0; i < blind.count; i++) {
+            if (blind.start[i] == 255) continue;
+            if (blind.start[i] == 2) {
+                looked_up++;
+                assert_true(blind.travelled[i] == INFINITY && blind.end[i] == 2);
+                continue;
+            }
+            const bool same = blind.travelled[i] == gone.travelled[i] ||
+                              fabsf(blind.travelled[i] - gone.travelled[i]) <= 1e-4F * gone.travelled[i];
+            assert_true(blind.start[i] == gone.start[i] && blind.end[i] != 2);
+            traced++;
+            switched += gone.end[i] != gone.start[i] && gone.end[i] < 255;
+            differ += !same || blind.end[i] != gone.end[i];
+        }
+        print_message("# %s: %zu looked up, %zu traced, %zu of them by several; %zu end elsewhere\n", variants[v],
+                      looked_up, traced, switched, differ);
+        assert_true(looked_up > 10 && traced > 10 && switched > 0);
+        assert_int_equal(differ, 0);
+        ends_free(&blind), ends_free(&gone);
     }
     unload(pair);
 }
@@ -382,6 +458,7 @@ int main(int argc, char **argv) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_plan_says_why),
         cmocka_unit_test(rays_without_distances_are_looked_up),
+        cmocka_unit_test(rays_are_traced_where_there_are_distances),
         cmocka_unit_test(rays_without_cubemaps_end_in_the_sky),
         cmocka_unit_test(motion_that_is_absent_is_the_cameras),
         cmocka_unit_test(every_preset_replays_what_there_is),

@@ -79,7 +79,8 @@ static void what_the_truth_does_not_know_counts_nowhere(void **state) {
         for (int c = 0; c < 4; c++) truth[i / W][i % W][c] = i % W < W / 2 ? 0.5F : c < 3 ? 1000 : 0;
     for (int c = 0; c < 4; c++)
         channels[c] = (struct glint_channel){names[c], GLINT_F32, &truth[0][0][c], sizeof truth[0][0], 0, NULL};
-    const struct glint_part part = {"truth.reflection.ggx", W, H, channels, 4, {0}, NULL, NULL, NULL, NULL, 0};
+    const struct glint_part part = {
+        .name = "truth.reflection.ggx", .width = W, .height = H, .channels = channels, .channel_count = 4};
     snprintf(path, sizeof path, "%s/half.exr", fixture->folder);
     assert_true(fixture_write_capture(path, &(struct fixture_options){.extra = &part, .extra_count = 1}, &err));
     struct glint_capture *capture = glint_capture_open(path, NULL, &err);

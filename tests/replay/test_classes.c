@@ -95,7 +95,8 @@ static void pixels_of_which_the_truth_knows_nothing_are_not_compared(void **stat
     for (int c = 0; c < 5; c++)
         channels[c] = (struct glint_channel){names[c], GLINT_F32, &truth[0][0][c], sizeof truth[0][0], 0, NULL};
     for (size_t count = 4; count <= 5; count++) { /* with errors and without */
-        const struct glint_part part = {"truth.reflection.ggx", W, H, channels, count, {0}, NULL, NULL, NULL, NULL, 0};
+        const struct glint_part part = {
+            .name = "truth.reflection.ggx", .width = W, .height = H, .channels = channels, .channel_count = count};
         struct glint_pixels answer;
         struct glint_image_errors errors;
         struct glint_error err = {0};

@@ -39,7 +39,7 @@ for number in range(count):
                 for channel in part.channels:
                     part.read_raw(channel)
                     part.read(channel)
-                part.attributes, part.cubemap, part.planar, repr(part)
+                part.attributes, part.cubemap, part.planar, part.sky, part.probe, repr(part)
             glint.validate(path)
     except glint.Error:
         refused += 1

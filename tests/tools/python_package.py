@@ -163,7 +163,7 @@ class Tests:
             capture, copy = glint.open(self.path(f"{name}.exr")), self.path(f"copy_{name}.exr")
             with glint.Writer(copy, capture.frame, **options) as writer:
                 for part in capture.parts.values():
-                    writer.add(part.name, {c: part.read_raw(c) for c in part.channels}, part.encodings, cubemap=part.cubemap, planar=part.planar,
+                    writer.add(part.name, {c: part.read_raw(c) for c in part.channels}, part.encodings, cubemap=part.cubemap, planar=part.planar, sky=part.sky, probe=part.probe,
                                storage={c.name: c.storage for c in part.channels.values()}, attributes=part.attributes)
             said("idiff", "-q", "-a", "-fail", "0", "-failpercent", "0", capture.path, copy)
             again = glint.open(copy)
@@ -171,7 +171,7 @@ class Tests:
             for part in capture.parts.values():
                 other = again[part.name]
                 assert part.channels == other.channels and part.encodings == other.encodings and part.attributes == other.attributes
-                assert same(part.cubemap, other.cubemap) and same(part.planar, other.planar)
+                assert all(same(getattr(part, name), getattr(other, name)) for name in ("cubemap", "planar", "sky", "probe"))
                 for c in part.channels:
                     assert part.read_raw(c).tobytes() == other.read_raw(c).tobytes(), (part, c)
             was, now = headers(capture.path), headers(copy)
@@ -219,7 +219,11 @@ class Tests:
         frame.previous.view_to_clip = reversed_clip
         more = [("cubemap.000", dict(channels=pixels, cubemap=cube)), ("cubemap.001", dict(channels=pixels, cubemap=box)),
                 ("cubemap.002", dict(channels=pixels, cubemap=sphere, attributes=attributes)),
-                ("planar.000", dict(channels={"R G B": np.ones((3, 5, 3), "f2"), "depth.Z": np.ones((3, 5), "f4")}, planar=planar))]
+                ("planar.000", dict(channels={"R G B": np.ones((3, 5, 3), "f2"), "depth.Z": np.ones((3, 5), "f4")}, planar=planar)),
+                ("sky", dict(channels={"R G B": np.ones((24, 4, 3), "f2")}, sky=glint.Sky(-5.0))),
+                ("probe.003", dict(channels={"R G B": np.ones((24, 4, 3), "f2")}, probe=glint.Probe(0.0, 0.0, glint.ProbeBox([1e6, 2, 3], [-1, -2, -3], [1, 2, 3])))),
+                ("probe.003.level1", dict(channels={"R G B": np.ones((12, 2, 3), "f2")}, probe=glint.Probe(0.75))),
+                ("probe.004", dict(channels={"R G B": np.ones((6, 1, 3), "f2")}))]
         capture = self.write("attributes.exr", frame=frame, more=more)
         for name in frame.__dataclass_fields__:
             mine, theirs = getattr(frame, name), getattr(capture.frame, name)
@@ -233,6 +237,10 @@ class Tests:
         assert np.array_equal(capture["cubemap.000"].cubemap.planes, hull) and capture["cubemap.000"].cubemap.age_frames == 9
         assert np.array_equal(capture["cubemap.001"].cubemap.box_max, [1, 2, 3]) and capture["cubemap.002"].cubemap.sphere_radius == 2
         assert same(capture["planar.000"].planar.plane, np.array([0.0, 1, 0, -2])) and capture["cubemap.002"].attributes == attributes
+        fine, coarse = capture["probe.003"], capture["probe.003.level1"]
+        assert capture["sky"].sky.ground == -5 and (fine.probe.roughness, fine.probe.ground, coarse.probe.roughness, coarse.probe.ground) == (0, 0, 0.75, None)
+        assert np.array_equal(fine.probe.box.center, [1e6, 2, 3]) and np.array_equal(fine.probe.box.min, [-1, -2, -3]) and coarse.probe.box is None
+        assert (fine.index, fine.level, coarse.index, coarse.level) == (3, 0, 3, 1) and capture["probe.004"].probe.roughness is None
         said(GLINT, "validate", capture.path)
 
     def test_a_sibling_holds_cube_maps(self):

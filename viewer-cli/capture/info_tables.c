@@ -165,6 +165,37 @@ void info_print_cubemaps(const struct glint_capture *capture) {
     table_destroy(&table);
 }
 
+static void add_probe(struct table *table, const struct glint_capture *capture, int32_t index) {
+    const struct glint_part_info *levels[GLINT_MAX_LEVELS];
+    double roughness[GLINT_MAX_LEVELS];
+    const size_t count = glint_capture_probe(capture, index, levels, roughness);
+    for (size_t l = 0; l < count; l++) {
+        const struct glint_probe *probe = &levels[l]->probe;
+        table_cell(table, "%s", levels[l]->name);
+        table_cell(table, "%u", levels[l]->width);
+        table_cell(table, "%.3f", roughness[l]);
+        table_cell(table, "%s", l ? "" : probe->has_box ? "in a box" : "infinitely far");
+        if (!l && probe->has_ground) table_cell(table, "below %g°", probe->ground);
+        else table_cell(table, "%s", l ? "" : "none");
+    }
+}
+
+void info_print_probes(const struct glint_capture *capture) {
+    static const char *const titles[] = {"<probe", ">face", ">for roughness", "<where", "<painted ground", NULL};
+    struct table *table = table_create(titles);
+    for (size_t i = 0; i < glint_capture_part_count(capture); i++) {
+        const struct glint_part_info *part = glint_capture_part(capture, i);
+        if (part->has_probe && !part->level) add_probe(table, capture, part->index);
+    }
+    if (!table_is_empty(table)) {
+        putchar('\n');
+        table_print(table, stdout);
+    }
+    table_destroy(&table);
+    const struct glint_part_info *sky = glint_capture_find(capture, GLINT_PART_SKY);
+    if (sky && sky->sky.has_ground) printf("\nsky shows painted ground below %g°\n", sky->sky.ground);
+}
+
 void info_print_camera(const struct glint_frame *frame) {
     const struct camera_facts c = camera_facts(frame);
     printf("frame %u, camera at (%.3f, %.3f, %.3f) looking along (%.3f, %.3f, %.3f)\n", frame->number, c.position[0],

@@ -13,6 +13,8 @@ void info_print_channels(const struct channel_table *all);
 void info_print_depth(const struct glint_capture *capture);
 /* Prints nothing if the capture has no cube maps. */
 void info_print_cubemaps(const struct glint_capture *capture);
+/* Prints nothing if it has neither probes nor a sky with painted ground. */
+void info_print_probes(const struct glint_capture *capture);
 void info_print_survey(const struct glint_survey *survey);
 /* Including the figures that are counted on the device. */
 void info_print_whole_survey(const struct glint_survey *survey, const struct glint_time *time,

@@ -44,6 +44,7 @@ const char *size_name(enum glint_size_class size) {
         [GLINT_SIZE_HALF_MIPS3] = "half, 3 levels",
         [GLINT_SIZE_CUBEMAPS_MIPS] = "cube maps, levels",
         [GLINT_SIZE_SKY_MIPS] = "sky, levels",
+        [GLINT_SIZE_PROBE_MIPS] = "probe, levels",
         [GLINT_SIZE_PARABOLOIDS_MIPS] = "hemispheres, levels",
         [GLINT_SIZE_LIST] = "list",
     };

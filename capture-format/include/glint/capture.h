@@ -160,6 +160,29 @@ struct glint_cubemap {
     uint32_t plane_count;
 };
 
+/* A sky box. */
+struct glint_sky {
+    bool has_ground;
+    double ground; /* elevation in degrees, -90 to 90, below which it shows painted ground */
+};
+
+/* A level of a probe that the engine pre-filtered by roughness: what its surfaces reflect where nothing nearer was found. A part each:
+   the finest is probe.NNN, the next ones are probe.NNN.level1, probe.NNN.level2, …, each of half the face size. */
+#define GLINT_MAX_LEVELS 16
+struct glint_probe_box {
+    double center[3];      /* world position */
+    double min[3], max[3]; /* relative to the centre, in units: everything in the probe is taken to lie on these faces */
+};
+struct glint_probe {
+    bool has_roughness;
+    double roughness; /* perceptual roughness of the surfaces that look up this level; without: spread evenly over [0, 1] */
+    /* Of the finest level: */
+    bool has_ground;
+    double ground; /* as in struct glint_sky */
+    bool has_box; /* without: everything in the probe is infinitely far away */
+    struct glint_probe_box box;
+};
+
 /* A planar reflection: a render mirrored in `plane` (world, n·p + d = 0) by its own camera. */
 struct glint_planar {
     double plane[4];
@@ -207,6 +230,8 @@ struct glint_part {
     struct glint_encodings encodings;
     const struct glint_cubemap *cubemap; /* required for cubemap.NNN */
     const struct glint_planar *planar;   /* required for planar.NNN */
+    const struct glint_sky *sky;         /* sky only; may be NULL */
+    const struct glint_probe *probe;     /* probe.NNN and its levels only; may be NULL */
     const char *
         sibling; /* cubemap.NNN only: a file in the same folder whose part of this name is used; give no channels then */
     const struct glint_attribute *attributes;
@@ -270,14 +295,17 @@ struct glint_part_info {
     char name[256];
     const struct glint_role *role; /* NULL if this version does not know it; the part can be read all the same */
     int32_t index;                 /* the NNN of its name, or -1 */
+    int32_t level;                 /* the L of .levelL, or 0 */
     bool previous;                 /* previous.ROLE */
     uint32_t width, height;
     const struct glint_channel_info *channels; /* in the file's order */
     size_t channel_count;
     struct glint_encodings encodings;
-    bool has_cubemap, has_planar;
+    bool has_cubemap, has_planar, has_sky, has_probe;
     struct glint_cubemap cubemap;
     struct glint_planar planar;
+    struct glint_sky sky;
+    struct glint_probe probe;
     char sibling[256];     /* the file that holds the pixels, and whose size and channels are reported here; "": none */
     char sibling_hash[33]; /* XXH3-128 of that file, which was verified; "" without a sibling */
     const struct glint_attribute *attributes; /* attributes unknown to glint (string, double, int, float) */
@@ -296,6 +324,9 @@ size_t glint_capture_part_count(const struct glint_capture *capture);
 const struct glint_part_info *glint_capture_part(const struct glint_capture *capture, size_t i);
 /* The part of this name ("gbuffer", "cubemap.003"), or NULL. */
 const struct glint_part_info *glint_capture_find(const struct glint_capture *capture, const char *name);
+/* The levels of probe.NNN from the finest on, and the roughness that each is for. Returns their number, 0 if there is no such probe. */
+size_t glint_capture_probe(const struct glint_capture *capture, int32_t index,
+                           const struct glint_part_info *levels[GLINT_MAX_LEVELS], double roughness[GLINT_MAX_LEVELS]);
 /* Whether the part has the channel: one that is stored, or the reconstructed Z of a normal. */
 bool glint_part_has_channel(const struct glint_part_info *part, const char *channel);
 /* The same, or one that is read as a fixed value because the part does not have it. */
@@ -350,6 +381,7 @@ bool glint_capture_validate(const char *path, const struct glint_limits *limits,
 #define GLINT_PART_LIT "lit"
 #define GLINT_PART_SCENE "scene"
 #define GLINT_PART_SKY "sky"
+#define GLINT_PART_PROBE "probe.000" /* the only probe that passes use */
 #define GLINT_PART_WATER "water"
 #define GLINT_PART_TRANSPARENT "transparent"
 #define GLINT_PART_MIRROR "planar.000" /* the only planar map that passes use */
@@ -364,7 +396,14 @@ struct glint_role_channel {
     const char *meaning;
     double absent; /* what a part without the channel is read as; NaN: it cannot be read then */
 };
-enum glint_shape { GLINT_SHAPE_FRAME /* the G-buffer's size */, GLINT_SHAPE_CUBE /* N × 6N */, GLINT_SHAPE_ANY };
+enum glint_shape {
+    GLINT_SHAPE_FRAME,  /* the G-buffer's size */
+    GLINT_SHAPE_CUBE,   /* N × 6N */
+    GLINT_SHAPE_LEVELS, /* N × 6N, with coarser levels as parts of their own: NAME.level1 … */
+    GLINT_SHAPE_ANY
+};
+/* Whether the part is six faces below each other. */
+bool glint_shape_is_cube(enum glint_shape shape);
 struct glint_role {
     const char *name; /* "gbuffer", "cubemap"; after a name that ends in '.' ("engine.") any text may follow */
     enum glint_shape shape;
@@ -374,6 +413,8 @@ struct glint_role {
     const char *meaning;
 };
 const struct glint_role *glint_roles(size_t *count);
+/* The role of a part's name, its number (or -1) and whether it is previous.ROLE; NULL if unknown. */
+const struct glint_role *glint_role_find(const char *part, int32_t *index, bool *previous);
 
 /* The name of an encoding in files and on the command line ("reversed_infinite"); NULL past the last. */
 const char *glint_encoding_name(const char *which /* "depth", "normal", … */, int value);

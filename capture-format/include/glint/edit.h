@@ -65,6 +65,8 @@ bool glint_edit_crop(struct glint_edit *edit, const struct glint_edit_rectangle 
 enum glint_edit_scope {
     GLINT_EDIT_FRAME,    /* on gbuffer, for the whole frame */
     GLINT_EDIT_CUBEMAP,  /* on each cubemap.NNN */
+    GLINT_EDIT_SKY,      /* on sky */
+    GLINT_EDIT_PROBE,    /* on each probe.NNN and its levels */
     GLINT_EDIT_PLANAR,   /* on each planar.NNN */
     GLINT_EDIT_ENCODING, /* on each part that has channels of the encoding */
     GLINT_EDIT_STORAGE   /* on each part that has the channel */

@@ -18,6 +18,7 @@
 
 float seen_distance(vec3 from_center, uint place) {
     int size = int(frame.counts.z);
+    if (fact_some_distances && !has_distances(place)) return 1e-30; // it sees no ray
     if (!interpolate || size < 2) return texelFetch(cubemap_distance, face_texel(from_center, place, size), 0).x;
     return on_planes(cubemap_distance, from_center, place);
 }
@@ -202,7 +203,7 @@ void change_view(inout Walk walk, vec3 origin, vec3 direction, float t_before, f
     uint place = maps == maps_all ? seer(origin, direction, t_after, tolerance, fetches)
                                   : next_seer(origin, direction, t_after, tolerance, walk.best, walk.used, fetches);
     walk.seen = place != NO_PLACE;
-    walk.view = view_of(origin, direction, walk.seen ? place : nearest_active(origin + t_after * direction));
+    walk.view = view_of(origin, direction, walk.seen ? place : nearest_among(frame.distances.x, origin + t_after * direction));
     walk.t = t_after;
     walk.front = false;
     if (!walk.seen) return;
@@ -216,7 +217,7 @@ void change_view(inout Walk walk, vec3 origin, vec3 direction, float t_before, f
 // A cube map whose centre is nearer has finer texels here.
 void take_finer_view(inout Walk walk, vec3 origin, vec3 direction, inout uint fetches) {
     if (maps == maps_chain) return;
-    uint nearest = nearest_active(origin + walk.t * direction);
+    uint nearest = nearest_among(frame.distances.x, origin + walk.t * direction);
     if (nearest == walk.view.place) return;
     View view = view_of(origin, direction, nearest);
     if (gap_at(view, direction, walk.t, fetches) <= 0.0) walk.view = view;
@@ -366,8 +367,8 @@ void main() {
         vec3 origin = mat3(frame.world_from_view) * view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
         vec3 direction = mirror_direction(origin, normal.xyz);
         uint best = texelFetch(cubemap_best, pixel, 0).x;
-        if (frame.counts.x == 0u) result = Result(travelled_without_cubemaps(start_m), NO_PLACE, END_no_cubemap, 0u, 0u);
-        else if (!has_distances()) result = Result(INFINITE, best, END_fallback, 0u, 0u);
+        if (frame.counts.x == 0u) result = Result(travelled_without_cubemaps(start_m, direction), NO_PLACE, END_no_cubemap, 0u, 0u);
+        else if (!has_distances(best)) result = Result(INFINITE, best, END_fallback, 0u, 0u);
         else result = march(origin, direction, start_m, best);
     }
     probe_cubemap_end(result.travelled_m, result.place, result.end, result.steps, result.fetches);

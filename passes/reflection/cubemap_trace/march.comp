@@ -13,11 +13,11 @@
 
 Result trace(ivec2 pixel, float depth_m, vec4 normal, float start_m) {
     uint best = texelFetch(cubemap_best, pixel, 0).x;
-    if (best >= frame.counts.x) return Result(travelled_without_cubemaps(start_m), NO_PLACE, END_no_cubemap, 0u, 0u);
-    if (normal.w > max_roughness || !has_distances()) return Result(INFINITE, best, END_fallback, 0u, 0u);
     vec2 uv = picked_uv(pixel, texelFetch(pick, pixel, 0).x, frame.size);
     precise vec3 origin = mat3(frame.world_from_view) * view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
     vec3 direction = mirror_direction(origin, normal.xyz);
+    if (best >= frame.counts.x) return Result(travelled_without_cubemaps(start_m, direction), NO_PLACE, END_no_cubemap, 0u, 0u);
+    if (normal.w > max_roughness || !has_distances(best)) return Result(INFINITE, best, END_fallback, 0u, 0u);
     return march(origin, direction, start_m, best, quality_of(normal.w, uvec2(pixel)));
 }
 

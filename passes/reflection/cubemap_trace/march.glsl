@@ -145,6 +145,7 @@ struct Sample {
 
 Sample sample_at(vec3 from_center, vec3 direction, float t, uint place, int level) {
     precise vec3 at = from_center + direction * t;
+    if (fact_some_distances && !has_distances(place)) return Sample(t, INFINITE, length(at), 0.0, false); // it sees no ray
     precise float distance_m = length(at), found = seen_distance(at, place, level), seen_m = abs(found);
     return Sample(t, distance_m - seen_m, distance_m, seen_m, found < 0.0);
 }

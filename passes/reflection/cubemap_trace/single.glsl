@@ -39,10 +39,10 @@ bool has_ray(ivec2 pixel, out float depth_m, out vec3 normal) {
 Result traced(ivec2 pixel, float depth_m, vec3 normal) {
     float start_m = texelFetch(screen_travelled, pixel, 0).x;
     uint best = texelFetch(cubemap_best, pixel, 0).x;
-    if (best >= frame.counts.x) return Result(travelled_without_cubemaps(start_m), NO_PLACE, END_no_cubemap, 0u);
     vec2 uv = picked_uv(pixel, texelFetch(pick, pixel, 0).x, frame.size);
     vec3 origin = mat3(frame.world_from_view) * view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
     vec3 direction = mirror_direction(origin, normal);
+    if (best >= frame.counts.x) return Result(travelled_without_cubemaps(start_m, direction), NO_PLACE, END_no_cubemap, 0u);
     probe_cubemap_ray(origin, direction, start_m, best);
     return end_of(origin, direction, start_m, best);
 }

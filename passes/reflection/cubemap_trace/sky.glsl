@@ -27,8 +27,10 @@ void look_for_sky() {
     shows_sky = points_above > 0u && float(points_open) >= open_share * float(points_above);
 }
 
-// What a ray finds that no cube map can continue: the sky or nothing where the capture has no cube maps at all.
-float travelled_without_cubemaps(float start_m) {
-    bool open = no_cubemap == no_cubemap_sky || (no_cubemap == no_cubemap_seen && shows_sky);
-    return frame.counts.x == 0u && frame.counts.w > 0u && open ? INFINITE : start_m;
+// What a ray finds that no cube map can continue: the sky, the probe or nothing where the capture has no cube maps at all. Painted ground is
+// not what lies there.
+float travelled_without_cubemaps(float start_m, vec3 direction) {
+    bool probe_there = frame.far_light.x > 0.0, ground = dot(direction, frame.up.xyz) < frame.far_light.z;
+    bool open = no_cubemap == no_cubemap_sky || (no_cubemap == no_cubemap_seen && (shows_sky || probe_there) && !ground);
+    return frame.counts.x == 0u && (frame.counts.w > 0u || probe_there) && open ? INFINITE : start_m;
 }

@@ -8,19 +8,27 @@
 #include "shared/paraboloid.glsl"
 #include "shared/probe/record.glsl"
 
+bool has_probe() { return engine_probe && fact_probe && frame.far_light.x > 0.0; }
+bool probe_is_sky() { return has_probe() && frame.far_light.y == 0.0; } // a box holds a place's surroundings
+
 const float MIN_SHARE = 1.0 / 64.0; // a level with a smaller fraction of sky, or of surfaces, is mostly rounding error
 
-// A traced ray. `end`: camera-relative world; a unit direction if the ray does not end.
+// A traced ray. `end`: camera-relative world; a unit direction if the ray does not end. mirror, roughness: of the surface's lobe, of which the ray
+// is a sample.
 struct Ray {
-    vec3 position, direction, end;
-    float travelled_m, cone;
+    vec3 position, direction, end, mirror;
+    float travelled_m, cone, roughness;
     bool endless;
 };
 
-Ray ended_ray(vec3 position, vec3 normal, float travelled_m, float cone) {
+// surface: its normal and roughness; normal: the one that the ray is reflected by.
+Ray ended_ray(vec3 position, vec4 surface, vec3 normal, float travelled_m, float cone) {
     Ray ray;
     ray.position = position;
     ray.direction = mirror_direction(position, normal);
+    ray.mirror = ray.direction;
+    if (has_probe()) ray.mirror = mirror_direction(position, surface.xyz);
+    ray.roughness = surface.w;
     ray.travelled_m = travelled_m;
     ray.cone = cone;
     ray.endless = !(travelled_m < LARGEST);
@@ -46,8 +54,33 @@ vec4 record_cubemap(uint image, vec4 at, float level, vec4 color, bool alone) {
     return color;
 }
 
+// The level that the engine looks up for a roughness, between the two whose roughnesses are next to it.
+float probe_level(float roughness) {
+    int last = int(frame.far_light.x) - 1, above = 0;
+    while (above < last && frame.probe_roughness[above >> 2][above & 3] < roughness) ++above;
+    if (above == 0) return 0.0;
+    float low = frame.probe_roughness[(above - 1) >> 2][(above - 1) & 3], high = frame.probe_roughness[above >> 2][above & 3];
+    return float(above) - clamp((high - roughness) / (high - low), 0.0, 1.0);
+}
+
+// From the centre to where the mirror ray leaves the box, if there is one (S. Lagarde, A. Zanuttini, Local Image-based Lighting With
+// Parallax-corrected Cubemap, SIGGRAPH 2012).
+vec3 probe_direction(Ray ray) {
+    if (frame.far_light.y == 0.0) return ray.mirror;
+    vec3 from = ray.position - frame.probe_center.xyz;
+    vec3 border = mix(frame.probe_low.xyz, frame.probe_high.xyz, greaterThan(ray.mirror, vec3(0.0)));
+    vec3 leaves = mix(vec3(INFINITE), (border - from) / ray.mirror, notEqual(ray.mirror, vec3(0.0)));
+    return from + max(min(leaves.x, min(leaves.y, leaves.z)), 0.0) * ray.mirror;
+}
+
+vec3 probe_color(Ray ray) {
+    float level = probe_level(ray.roughness);
+    return record_sky(IMAGE_probe_levels, level, cube_levels(probe_levels, probe_direction(ray), level).rgb);
+}
+
 vec3 sky_color(Ray ray) {
     if (!fact_sky_seen) return vec3(0.0);
+    if (probe_is_sky()) return probe_color(ray);
     if (ray.cone > 0.0 && cone_cubemap && has_sky_mips) {
         float level = cone_level_cube(ray.cone, INFINITE, 1.0, float(frame.counts.w), texel_scale);
         return record_sky(IMAGE_sky_mips, level, cube_levels(sky_mips, ray.direction, level).rgb);
@@ -82,7 +115,7 @@ vec3 picture(vec2 uv, ivec2 pixel, Ray ray, float depth_m) {
         float pixels_at_1m = abs(frame.uv_from_view.x) * float(frame.size.x);
         float level = cone_level_screen(ray.cone, ray.endless ? 1.0 : ray.travelled_m, depth_m, pixels_at_1m, texel_scale,
                                         float(findMSB(max(frame.size.x, frame.size.y))));
-        if (level > 0.0 && ray.endless && joint && has_sky_mips && frame.counts.w > 0u) return sky_color(ray);
+        if (level > 0.0 && ray.endless && joint && (probe_is_sky() || (has_sky_mips && frame.counts.w > 0u))) return sky_color(ray);
         vec4 color = level > 0.0 ? textureLod(sampler2D(lit_mips, linear_clamp), uv, level) : vec4(0.0);
         // A level without sky at this place has no colour for a ray that does not end.
         if (color.a > (ray.endless ? 1.0 - MIN_SHARE : MIN_SHARE)) return record_picture(IMAGE_lit_mips, uv, level, color.rgb / color.a);
@@ -166,7 +199,7 @@ vec4 color_at_end(Ray ray, bool finished, uint place) {
     vec4 color;
     if (finished) color = screen_color(ray);
     else if (place < frame.counts.x) color = cubemap_lookup(ray, place);
-    else if (ray.endless) color = vec4(sky_color(ray), 1.0);
+    else if (ray.endless) color = vec4(has_probe() && frame.counts.x == 0u ? probe_color(ray) : sky_color(ray), 1.0);
     else return vec4(0.0);
     if (fog && frame.fog_color.w > 0.0) color.rgb = through_fog(color.rgb, ray);
     return color;

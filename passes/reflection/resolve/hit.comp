@@ -13,7 +13,8 @@ vec4 reflected_color(ivec2 pixel, float depth_m, vec3 normal) {
     vec2 uv = picked_uv(pixel, texelFetch(pick, pixel, 0).x, frame.size);
     vec3 position = mat3(frame.world_from_view) * view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
     float cone = has_cone_half ? texelFetch(cone_half, pixel, 0).x : 0.0;
-    Ray ray = ended_ray(position, normal, texelFetch(travelled, pixel, 0).x, cone);
+    vec4 surface = has_normal_half ? texelFetch(normal_half, pixel, 0) : texelFetch(normal_jittered, pixel, 0);
+    Ray ray = ended_ray(position, surface, normal, texelFetch(travelled, pixel, 0).x, cone);
     return color_at_end(ray, texelFetch(screen_finished, pixel, 0).x != 0u, texelFetch(cubemap_index, pixel, 0).x);
 }
 

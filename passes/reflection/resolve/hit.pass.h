@@ -2,6 +2,7 @@
 PASS("Colour at the hit", "Mafia III talk, Color resolve shaders")
 #include "slot.h"
 OPTIONAL_READ(texture2D, cone_half, R16F, HALF, 0)
+OPTIONAL_READ(texture2D, normal_half, RGBA16F, HALF, 0)
 #include "ends.h"
 #include "sources.h"
 REFERENCE

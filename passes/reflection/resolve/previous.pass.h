@@ -3,6 +3,7 @@
 PASS("Colour of the previous frame", "Mafia DE article, Global Illumination; Stochastic Sampling")
 #include "slot.h"
 OPTIONAL_READ(texture2D, cone_half, R16F, HALF, 0)
+OPTIONAL_READ(texture2D, normal_half, RGBA16F, HALF, 0)
 #include "ends.h"
 #include "sources.h"
 #include "before_rows.h"

@@ -127,7 +127,7 @@ void main() {
         vec3 position = mat3(frame.world_from_view) * view;
         End end = end_of(texel);
         if (neighbours) end = own_end(pixel, texel, end, position, mirror_direction(position, surface.xyz));
-        vec4 sharp = color_at_end(ended_ray(position, surface.xyz, end.travelled_m, cone), end.finished, end.place);
+        vec4 sharp = color_at_end(ended_ray(position, vec4(surface.xyz, roughness), surface.xyz, end.travelled_m, cone), end.finished, end.place);
         if (sharp.a > 0.0) color = mix(sharp, color, blend > 0.0 ? fade(roughness, sharp_roughness - blend, sharp_roughness) : 0.0);
     }
     imageStore(reflection_sharp, pixel, finite(color) || !sharpened ? color : vec4(0.0));

@@ -16,8 +16,8 @@ Result trace(ivec2 texel, float depth_m, vec4 normal, float start_m) {
     precise vec3 origin = mat3(frame.world_from_view) * view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
     vec3 direction = mirror_direction(origin, normal.xyz);
     uint best = nearest_active(origin + start_m * direction);
-    if (best >= frame.counts.x) return Result(travelled_without_cubemaps(start_m), NO_PLACE, END_no_cubemap, 0u, 0u);
-    if (!has_distances()) return Result(INFINITE, best, END_fallback, 0u, 0u);
+    if (best >= frame.counts.x) return Result(travelled_without_cubemaps(start_m, direction), NO_PLACE, END_no_cubemap, 0u, 0u);
+    if (!has_distances(best)) return Result(INFINITE, best, END_fallback, 0u, 0u);
     return march(origin, direction, start_m, best, quality_of(normal.w, uvec2(texel)));
 }
 

@@ -4,10 +4,13 @@
 #include "shared/work_list.glsl"
 
 vec4 resolved(ivec2 texel, float depth_m, vec3 normal) {
-    vec2 uv = picked_uv(texel, texelFetch(transparent_pick, texel, 0).x, frame.size);
+    uint pick = texelFetch(transparent_pick, texel, 0).x;
+    vec2 uv = picked_uv(texel, pick, frame.size);
+    vec4 surface = texelFetch(transparent_normal, min(ivec2(picked_position(texel, pick, frame.size)), ivec2(frame.size.xy) - 1), 0);
+    surface.w = surface.w > 0.0 ? min(surface.w, 1.0) : 0.0;
     vec3 position = mat3(frame.world_from_view) * view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
     float travelled_m = texelFetch(transparent_travelled, texel, 0).x, cone = texelFetch(transparent_cone, texel, 0).x;
-    return color_of(ended_ray(position, normal, travelled_m, cone), texelFetch(transparent_screen_finished, texel, 0).x != 0u,
+    return color_of(ended_ray(position, surface, normal, travelled_m, cone), texelFetch(transparent_screen_finished, texel, 0).x != 0u,
                     texelFetch(transparent_cubemap_index, texel, 0).x, texel);
 }
 

@@ -3,6 +3,7 @@
 SLOT("Colour at the ends of transparent surfaces' rays")
 READ(texture2D, transparent_depth_half)
 READ(texture2D, transparent_normal_jittered)
+READ(texture2D, transparent_normal)
 READ(utexture2D, transparent_pick)
 READ(texture2D, transparent_travelled)
 READ(utexture2D, transparent_screen_finished)

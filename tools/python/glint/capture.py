@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from glint.convert import from_struct
-from glint.frame import CubeMap, Encodings, Frame, Planar
+from glint.frame import CubeMap, Encodings, Frame, Planar, Probe, Sky
 from glint.library import Error, callback, constant, enum, function, path_bytes, string, struct, text
 from glint.registry import Role, in_order, layer, roles
 
@@ -32,8 +32,8 @@ _report = callback("glint_report")
 _notes = function("glint_frame_notes", "frame notes")
 _limits = struct("glint_limits", "file_bytes memory_bytes width parts")
 struct("glint_channel_info", "name stored storage")
-struct("glint_part_info", "name role index previous width height channels channel_count encodings has_cubemap has_planar cubemap planar sibling "
-       "sibling_hash attributes attribute_count")
+struct("glint_part_info", "name role index level previous width height channels channel_count encodings has_cubemap has_planar has_sky has_probe "
+       "cubemap planar sky probe sibling sibling_hash attributes attribute_count")
 struct("glint_attribute", "name type string number")
 
 _TYPES = enum("glint_type")
@@ -78,12 +78,15 @@ class Part:
     name           "gbuffer", "cubemap.003", "previous.lit"
     role           Role, or None if this version does not know it; it can be read all the same
     index          the NNN of the name, or −1
+    level          the L of a name that ends in .levelL, or 0
     previous       whether the name begins with "previous."
     width, height  pixels; of a part with a sibling, those of the sibling's part
     channels       dict of Channel by name, R G B A and X Y Z in this order
     encodings      Encodings that the engine declared
     cubemap        CubeMap of a part cubemap.NNN, else None
     planar         Planar of a part planar.NNN, else None
+    sky            Sky of the part sky, else None
+    probe          Probe of a part probe.NNN or one of its levels, else None
     sibling        name of the file in the same folder that holds the pixels; "": none
     sibling_hash   its XXH3-128, which was verified; "": no sibling
     attributes     dict of str, int or float: attributes that glint does not know
@@ -96,6 +99,7 @@ class Part:
         self.name = string(info.name)
         self.role: Role | None = roles()[string(info.role.contents.name)] if info.role else None
         self.index: int = info.index
+        self.level: int = info.level
         self.previous: bool = info.previous
         self.width: int = info.width
         self.height: int = info.height
@@ -105,6 +109,8 @@ class Part:
         self.encodings: Encodings = from_struct(info.encodings)
         self.cubemap: CubeMap | None = from_struct(info.cubemap) if info.has_cubemap else None
         self.planar: Planar | None = from_struct(info.planar) if info.has_planar else None
+        self.sky: Sky | None = from_struct(info.sky) if info.has_sky else None
+        self.probe: Probe | None = from_struct(info.probe) if info.has_probe else None
         self.sibling = string(info.sibling)
         self.sibling_hash = string(info.sibling_hash)
         self.attributes: dict[str, Attribute] = {}

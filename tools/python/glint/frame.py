@@ -143,6 +143,37 @@ class CubeMap:
     """(n, 4), n ≤ 64: planes (n, d) of a hull, inside where n·p + d ≤ 0"""
 
 
+@mirrors("glint_sky")
+@dataclass(eq=False)
+class Sky:
+    """The attributes of the part sky."""
+    ground: float | None = None
+    """elevation in degrees, −90 to 90, below which it shows painted ground; None: sky everywhere"""
+
+
+@mirrors("glint_probe_box")
+@dataclass(eq=False)
+class ProbeBox:
+    """The box on which everything in a probe is taken to lie, units."""
+    center: Floats
+    """(3,): world position"""
+    min: Floats
+    """(3,): relative to the centre"""
+    max: Floats
+
+
+@mirrors("glint_probe")
+@dataclass(eq=False)
+class Probe:
+    """The attributes of a part probe.NNN or of one of its levels, probe.NNN.level1 …; ground and box are those of the finest."""
+    roughness: float | None = None
+    """perceptual roughness of the surfaces that look up this level; None: levels are spread evenly over [0, 1]"""
+    ground: float | None = None
+    """as in Sky"""
+    box: ProbeBox | None = None
+    """None: everything is infinitely far away"""
+
+
 @mirrors("glint_planar")
 @dataclass(eq=False)
 class Planar:

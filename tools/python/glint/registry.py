@@ -31,7 +31,7 @@ class Role:
     """What a part may be. Its name with a '.' at the end may be followed by any text, a numbered one by '.' and three digits."""
     name: str
     shape: str
-    """"frame" (the size of gbuffer), "cube" (N × 6N) or "any\""""
+    """"frame" (the size of gbuffer), "cube" (N × 6N), "levels" (the same, with coarser levels in parts NAME.level1 …) or "any\""""
     required: bool
     numbered: bool
     may_be_previous: bool

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from glint.capture import Attribute, Path
 from glint.convert import scalar, to_struct
-from glint.frame import CubeMap, Encodings, Frame, Planar
+from glint.frame import CubeMap, Encodings, Frame, Planar, Probe, Sky
 from glint.library import enum, function, path_bytes, struct, text
 from glint.registry import layer
 
@@ -23,7 +23,7 @@ _finish = function("glint_writer_finish", "writer")
 _wait = function("glint_writer_wait", "writer")
 _destroy = function("glint_writer_destroy", "writer")
 _options = struct("glint_writer_options", "compression threads background")
-_part = struct("glint_part", "name width height channels channel_count encodings cubemap planar sibling attributes attribute_count")
+_part = struct("glint_part", "name width height channels channel_count encodings cubemap planar sky probe sibling attributes attribute_count")
 _channel = struct("glint_channel", "name type data x_stride_bytes y_stride_bytes storage")
 _attribute = struct("glint_attribute", "name type string number")
 
@@ -105,6 +105,7 @@ class Writer:
 
     def add(self, name: str, channels: Mapping[str, ArrayLike] | None = None, encodings: Encodings | None = None, *,
             storage: Mapping[str, str] | None = None, cubemap: CubeMap | None = None, planar: Planar | None = None,
+            sky: Sky | None = None, probe: Probe | None = None,
             sibling: str | None = None, attributes: Mapping[str, Attribute] | None = None) -> None:
         """Adds a part: checks it against its role, and copies the pixels. After an error the writer is as before.
 
@@ -117,6 +118,8 @@ class Writer:
         storage     the engine's own format by channel ("D24", "R11G11B10"), which states its precision; default: that of the dtype
         cubemap     required for cubemap.NNN
         planar      required for planar.NNN
+        sky         of the part sky; None: without its attributes
+        probe       of probe.NNN and its levels; None: without their attributes
         sibling     cubemap.NNN only, without channels: a file in the same folder whose part of this name holds the pixels
         attributes  str, int (32 bits, signed) or float by name, for whoever knows them; names must not begin with "glint."
         """
@@ -140,10 +143,9 @@ class Writer:
         part.channels = (_channel * len(planes))(*(self._described(c, p, (storage or {}).get(c)) for c, p in planes.items()))
         part.attributes = (_attribute * len(attributes or {}))(*(self._foreign(name, a, v) for a, v in (attributes or {}).items()))
         part.attribute_count = len(attributes or {})
-        if cubemap is not None:
-            part.cubemap = ctypes.pointer(to_struct(cubemap))
-        if planar is not None:
-            part.planar = ctypes.pointer(to_struct(planar))
+        for member, given in (("cubemap", cubemap), ("planar", planar), ("sky", sky), ("probe", probe)):
+            if given is not None:
+                setattr(part, member, ctypes.pointer(to_struct(given)))
         with self._lock:
             _add_part(self._open_handle(), ctypes.byref(part))
 
