@@ -18,6 +18,6 @@ SPEC(bool,  joint,       true,  0, 1, "1", "glint", "joint filtering: a screen h
 SPEC(bool,  check_depth, false, 0, 1, "1", "glint; the Mafia III talk only fetches", "a screen hit counts only where the depth buffer agrees with the end of the ray")
 SPEC(bool,  cone_cubemap, true, 0, 1, "1", "Mafia III talk, Pre-filtering cube-maps", "sample cubemap_color_mips and sky_mips as wide as the cone, where the pipeline has them; off: along the ray only")
 SPEC(bool,  cone_screen,  true, 0, 1, "1", "Mafia III talk, Current approach", "sample lit_mips as wide as the cone, where the pipeline has them; off: along the ray only")
-CHOICE2(fog_target, sky, color, sky, "Mafia III talk, Color resolve shaders", "fog fades to the sky in the ray's direction, or to the fog's own colour; the latter in a capture without a sky")
+CHOICE2(fog_target, sky, color, sky, "Mafia III talk, Color resolve shaders", "fog fades to the sky in the ray's direction, or to the fog's own colour; the latter in a capture without a sky, and of fog that adds")
 PUSH(float, depth_tolerance, 0.05, 0.0, 10.0, "1", "glint", "max relative depth difference that joint and check_depth accept")
 PUSH(float, texel_scale, 3.5, 0.25, 64.0, "texels", "Mafia III talk, Pre-filtering cube-maps", "radius of the cone that a level represents; must equal that of cubemap_mips, lit_mips and sky_mips")
