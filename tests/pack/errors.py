@@ -149,7 +149,8 @@ class Tests:
         keys = (("frame.jiter", [0, 0]), ("frame.clip_z", "zero"), ("frame.fog", {"colour": 1, "color": [0, 0, 0], "density": 1}),
                 ("textures.lit.width", -1), ("parts.lit.encodings", {"color": "sRGB"}), ("parts.lit.R", {"texture": "x", "chanel": "r"}))
         found, places, said = self.together(*keys)
-        places[2] = places[2].replace("fog: ", "fog.colour: ")
+        for place, key in ((2, "colour"), (4, "color"), (5, "chanel")):
+            places[place] = places[place].removesuffix(": ") + f".{key}: "
         assert len(found) == len(keys), said
         for place in places:
             assert any(line.split(": ")[1] == place.split(": ")[1] for line in found), (place, said)

@@ -349,8 +349,6 @@ const struct damage damages[] = {
     {"normal.unorm", BASE_PLAIN, normals_unorm},
     {"normal.negated", BASE_PLAIN, normals_negated},
     {"normal.x", BASE_PLAIN, normals_x},
-    {"normal.x", BASE_PLAIN, normals_x_under_a_normal_map},
-    {"normal.upside_down", BASE_PLAIN, normals_upside_down},
     {"normal.y", BASE_PLAIN, normals_y},
     {"normal.z", BASE_PLAIN, normals_z},
     {"normal.yz", BASE_PLAIN, normals_yz},
@@ -425,7 +423,6 @@ const struct damage damages[] = {
     {NULL, BASE_PLAIN, depth_infinite},
     {NULL, BASE_PLAIN, cubes_tiny},
     {NULL, BASE_PLAIN, lit_of_another},
-    {NULL, BASE_PLAIN, metals_that_emit},
     {NULL, BASE_PLAIN, before_right},
     {NULL, BASE_REVERSED, before_right},
     {NULL, BASE_PLAIN, before_right_lit},
@@ -433,5 +430,7 @@ const struct damage damages[] = {
     {NULL, BASE_PLAIN, sky_bright},
     {NULL, BASE_PLAIN, sky_cloudy},
     {NULL, BASE_PLAIN, sky_plain_and_bright},
+    {NULL, BASE_PLAIN, metals_that_emit},
+    {"normal.upside_down", BASE_PLAIN, normals_upside_down},
 };
 const size_t damage_count = sizeof damages / sizeof *damages;

@@ -136,20 +136,17 @@ DAMAGE(sky_upside_down, sky_faces(r, in_order, 2))
 /* With another up axis. */
 DAMAGE(sky_exchanged, sky_faces(r, (const int[6]){2, 3, 4, 5, 0, 1}, 0))
 
-/* A normal map on two thirds of the pixels, and the wrong sign of x: twice as many normals match with the right one, and no more. */
-bool normals_x_under_a_normal_map(struct rewrite *r, double strength) {
+void damage_by_normal_map(struct rewrite *r, double sign) {
     float *n[3] = {damage_floats(r, "gbuffer", "normal.X"), damage_floats(r, "gbuffer", "normal.Y"),
                    damage_floats(r, "gbuffer", "normal.Z")};
     const uint32_t width = rewrite_find(r, "gbuffer")->part.width;
     for (uint32_t i = 0; i < damage_texels_of(r, "gbuffer"); i++) {
-        const double x = i % width, y = i / width, bump = 0.25 + 0.1 * strength;
-        double m[3] = {-(double)n[0][i], (double)n[1][i], (double)n[2][i]}, length = 0;
-        if (i % 3)
-            m[0] += bump * sin(1.7 * x + y), m[1] += bump * cos(x - 1.3 * y), m[2] += bump * sin(y + 4 * strength);
+        const double x = i % width, y = i / width;
+        double m[3] = {sign * (double)n[0][i], (double)n[1][i], (double)n[2][i]}, length = 0;
+        if (i % 3) m[0] += 0.3 * sin(1.7 * x + y), m[1] += 0.3 * cos(x - 1.3 * y), m[2] += 0.3 * sin(y);
         for (int k = 0; k < 3; k++) length += m[k] * m[k];
         for (int k = 0; k < 3; k++) n[k][i] = (float)(m[k] / sqrt(length));
     }
-    return true;
 }
 
 bool normals_upside_down(struct rewrite *r, double strength) {
