@@ -79,8 +79,7 @@ static size_t write_header(uint8_t out[148], const struct blocks *blocks, const 
    between them is interpolated alike: with 128 added to the ends it decodes to values that are 128 larger. The lowest code means -1, as the one
    above it does. */
 static void make_unsigned(uint8_t *data, size_t bytes) {
-    for (size_t at = 0; at < bytes; at += at % 8 == 0 ? 1 : 7)
-        data[at] = (data[at] == 0x80 ? 0x81 : data[at]) ^ 0x80;
+    for (size_t at = 0; at < bytes; at += at % 8 == 0 ? 1 : 7) data[at] = (data[at] == 0x80 ? 0x81 : data[at]) ^ 0x80;
 }
 
 static void make_signed(uint8_t *values, size_t count) {

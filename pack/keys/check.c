@@ -31,7 +31,8 @@ static const char *kind_of(const json_t *value) {
 #if defined(__GNUC__)
 __attribute__((format(printf, 3, 4)))
 #endif
-static bool fault(const struct node *node, struct glint_error *err, const char *format, ...) {
+static bool
+fault(const struct node *node, struct glint_error *err, const char *format, ...) {
     char message[900];
     va_list args;
     va_start(args, format);
