@@ -179,8 +179,9 @@ static void mask_values(const struct job *job, const struct output *from, const 
     float r[GLINT_BLOCK];
     load_values(job, roughness, pixel, count, from->mask, r);
     glint_decode_roughness(&job->decoder, r, count);
+    const float roughest = (float)job->decoder.frame->material.roughest_reflection; /* as a roughness is decoded */
     for (size_t i = 0; i < count; i++)
-        if ((double)r[i] >= job->decoder.frame->material.roughest_reflection) v[i] = 0;
+        if (r[i] >= roughest) v[i] = 0;
 }
 
 static void decode_values(const struct job *job, const struct output *from, const uint8_t *in, uint64_t pixel, float *v,

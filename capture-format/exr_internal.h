@@ -22,6 +22,7 @@ struct glint_exr_stream {
 struct glint_exr_part_file {
     struct glint_exr_part_info info;
     bool readable;        /* flat scanlines without subsampling */
+    bool tiled;           /* flat tiles without subsampling, which glint_exr_read_tiles reads */
     int32_t first_y;      /* of the data window */
     uint32_t chunk_lines; /* scanlines in each chunk but the last */
     uint32_t chunk_count;
@@ -58,6 +59,15 @@ typedef bool (*glint_exr_rows_fn)(void *user, uint32_t y, uint32_t lines, const 
 #define GLINT_EXR_MAX_WANTED 64
 bool glint_exr_rows(struct glint_exr *exr, size_t part, const char *const *channels, size_t count, uint32_t threads,
                     glint_exr_rows_fn rows, void *user, struct glint_error *err);
+/* Channels as glint_exr_read takes them; types half, float and uint. */
+struct glint_exr_wanted {
+    const char *const *names;
+    size_t count;
+    enum glint_type type;
+    uint8_t *out;
+};
+bool glint_exr_read_tiles(struct glint_exr *exr, size_t part, const struct glint_exr_wanted *wanted,
+                          struct glint_error *err);
 /* -1 if the part has no such channel. */
 int glint_exr_channel(const struct glint_exr_part_info *part, const char *name);
 static inline size_t glint_stored_bytes(enum glint_stored stored) {

@@ -101,7 +101,7 @@ static bool read_channels(struct glint_exr *exr, size_t p, struct glint_error *e
         snprintf(channels[i].storage, sizeof channels[i].storage, "%s", glint_stored_name(channels[i].stored));
         part->channel_bytes[i] = part->line_bytes;
         part->line_bytes += glint_stored_bytes(channels[i].stored) * part->info.width;
-        if (from->x_sampling != 1 || from->y_sampling != 1) part->readable = false;
+        if (from->x_sampling != 1 || from->y_sampling != 1) part->readable = part->tiled = false;
     }
     part->info.channels = channels;
     part->info.channel_count = count;
@@ -128,6 +128,7 @@ static bool read_layout(struct glint_exr *exr, size_t p, struct glint_error *err
     part->info.height = (uint32_t)height;
     part->first_y = box.min.y;
     part->readable = storage == EXR_STORAGE_SCANLINE && part->compression < EXR_COMPRESSION_DWAA;
+    part->tiled = storage == EXR_STORAGE_TILED && part->compression < EXR_COMPRESSION_DWAA;
     if (storage == EXR_STORAGE_SCANLINE) {
         if (exr_get_scanlines_per_chunk(exr->context, (int)p, &lines) ||
             exr_get_chunk_count(exr->context, (int)p, &chunks) || lines < 1)

@@ -251,5 +251,8 @@ bool glint_exr_read(struct glint_exr *exr, size_t p, const char *const *channels
             return glint_fail(err, GLINT_ERROR_USAGE, "%s: part %s: %s: expected %s, found %s", exr->path, part->name,
                               channels[i], integer ? "uint" : "half or float", part->channels[at].storage);
     }
+    const struct glint_exr_wanted wanted = {channels, count, type, out};
+    if (exr->parts[p].tiled && type_bytes(type) >= 2 && type != GLINT_U16)
+        return glint_exr_read_tiles(exr, p, &wanted, err);
     return glint_exr_rows(exr, p, channels, count, threads, put_rows, &to, err);
 }

@@ -18,6 +18,13 @@ struct arguments {
     bool lines;
 };
 
+/* What glint_pack tells beside its first error, which is printed before them. */
+enum { FAULTS = 32 };
+struct strings {
+    char *all[FAULTS];
+    size_t count;
+};
+
 static const struct argp_option options[] = {
     {"output", 'o', "FILE", 0, "Capture to write, or - for stdout", 0},
     OVERWRITE_OPTION,
@@ -74,6 +81,11 @@ static void on_note(void *user, enum glint_pack_note kind, const char *key, cons
     else command_note(&cmd_pack, "%s", line);
 }
 
+static void on_fault(void *user, const char *text) {
+    struct strings *faults = user;
+    if (faults->count < FAULTS && (faults->all[faults->count] = strdup(text))) faults->count++;
+}
+
 static bool pack_blender(const struct arguments *a, const char *out, const struct glint_pack_options *options,
                          struct glint_error *err) {
     static const char suffix[] = ".exr", own[] = ".camera.json";
@@ -92,6 +104,7 @@ static bool pack_blender(const struct arguments *a, const char *out, const struc
 static enum status cmd_pack_run(int argc, char **argv) {
     struct arguments a = {0};
     struct progress progress = {0};
+    struct strings faults = {.count = 0};
     struct pipe pipe = {.path = ""};
     struct glint_error err = {0};
     command_parse(&cmd_pack, argc, argv, &a);
@@ -99,13 +112,23 @@ static enum status cmd_pack_run(int argc, char **argv) {
     const char *out = a.out ? pipe_output(&pipe, a.out, &err) : NULL;
     if (a.out && !out) return command_fail(&cmd_pack, &err);
     progress_begin(&progress);
-    const struct glint_pack_options pack = {
-        .threads = a.jobs, .note = on_note, .note_user = &a, .progress = progress_report, .progress_user = &progress};
+    const struct glint_pack_options pack = {.threads = a.jobs,
+                                            .note = on_note,
+                                            .note_user = &a,
+                                            .fault = on_fault,
+                                            .fault_user = &faults,
+                                            .progress = progress_report,
+                                            .progress_user = &progress};
     bool ok = a.blender ? pack_blender(&a, out, &pack, &err) : glint_pack(a.manifest, out, &pack, &err);
     progress_end(&progress);
     ok = ok && (!a.out || pipe_output_flush(&pipe, &err));
     pipe_finish(&pipe);
-    return ok ? STATUS_DONE : command_fail(&cmd_pack, &err);
+    const enum status status = ok ? STATUS_DONE : command_fail(&cmd_pack, &err);
+    for (size_t i = 0; i < faults.count; i++) {
+        command_note(&cmd_pack, "%s", faults.all[i]);
+        free(faults.all[i]);
+    }
+    return status;
 }
 
 const struct command cmd_pack = {
@@ -116,7 +139,8 @@ const struct command cmd_pack = {
         "Makes a capture of the textures that an engine dumped, raw memory or image files, and of a JSON file, the "
         "manifest, which says how to read them: formats by their Vulkan or Direct3D names, row pitch, swizzle, "
         "cube-map faces, camera matrices in any order. Everything that the manifest leaves unsaid has a default, which "
-        "is printed. Errors name the manifest's line and key. docs/pack.md describes the manifest.",
+        "is printed. Errors name the manifest's line and key, up to twenty at once. docs/pack.md describes the "
+        "manifest.",
     .options = options,
     .targets = targets,
     .parse = cmd_pack_parse,

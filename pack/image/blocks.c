@@ -12,20 +12,22 @@
 #define DX10 FOURCC('D', 'X', '1', '0')
 
 static const struct blocks rows[] = {
-    {"BC1_RGB_UNORM", 131, 0, FOURCC('D', 'X', 'T', '1'), 0, 8, false},
-    {"BC1_RGB_SRGB", 132, 0, FOURCC('D', 'X', 'T', '1'), 0, 8, true},
-    {"BC1_RGBA_UNORM", 133, 71, FOURCC('D', 'X', 'T', '1'), 0, 8, false},
-    {"BC1_RGBA_SRGB", 134, 72, FOURCC('D', 'X', 'T', '1'), 0, 8, true},
-    {"BC2_UNORM", 135, 74, FOURCC('D', 'X', 'T', '3'), 0, 16, false},
-    {"BC2_SRGB", 136, 75, FOURCC('D', 'X', 'T', '3'), 0, 16, true},
-    {"BC3_UNORM", 137, 77, FOURCC('D', 'X', 'T', '5'), 0, 16, false},
-    {"BC3_SRGB", 138, 78, FOURCC('D', 'X', 'T', '5'), 0, 16, true},
-    {"BC4_UNORM", 139, 80, FOURCC('A', 'T', 'I', '1'), 0, 8, false},
-    {"BC5_UNORM", 141, 83, FOURCC('A', 'T', 'I', '2'), 0, 16, false},
-    {"BC6H_UFLOAT", 143, 95, DX10, 95, 16, false},
-    {"BC6H_SFLOAT", 144, 96, DX10, 96, 16, false},
-    {"BC7_UNORM", 145, 98, DX10, 98, 16, false},
-    {"BC7_SRGB", 146, 99, DX10, 99, 16, true},
+    {"BC1_RGB_UNORM", 131, 0, FOURCC('D', 'X', 'T', '1'), 0, 8, false, false},
+    {"BC1_RGB_SRGB", 132, 0, FOURCC('D', 'X', 'T', '1'), 0, 8, true, false},
+    {"BC1_RGBA_UNORM", 133, 71, FOURCC('D', 'X', 'T', '1'), 0, 8, false, false},
+    {"BC1_RGBA_SRGB", 134, 72, FOURCC('D', 'X', 'T', '1'), 0, 8, true, false},
+    {"BC2_UNORM", 135, 74, FOURCC('D', 'X', 'T', '3'), 0, 16, false, false},
+    {"BC2_SRGB", 136, 75, FOURCC('D', 'X', 'T', '3'), 0, 16, true, false},
+    {"BC3_UNORM", 137, 77, FOURCC('D', 'X', 'T', '5'), 0, 16, false, false},
+    {"BC3_SRGB", 138, 78, FOURCC('D', 'X', 'T', '5'), 0, 16, true, false},
+    {"BC4_UNORM", 139, 80, FOURCC('A', 'T', 'I', '1'), 0, 8, false, false},
+    {"BC4_SNORM", 140, 81, FOURCC('A', 'T', 'I', '1'), 0, 8, false, true},
+    {"BC5_UNORM", 141, 83, FOURCC('A', 'T', 'I', '2'), 0, 16, false, false},
+    {"BC5_SNORM", 142, 84, FOURCC('A', 'T', 'I', '2'), 0, 16, false, true},
+    {"BC6H_UFLOAT", 143, 95, DX10, 95, 16, false, false},
+    {"BC6H_SFLOAT", 144, 96, DX10, 96, 16, false, false},
+    {"BC7_UNORM", 145, 98, DX10, 98, 16, false, false},
+    {"BC7_SRGB", 146, 99, DX10, 99, 16, true, false},
 };
 enum { ROWS = sizeof rows / sizeof *rows };
 
@@ -44,6 +46,8 @@ const struct blocks *blocks_by_dxgi(uint32_t number) {
 const struct blocks *blocks_by_fourcc(uint32_t fourcc) {
     if (fourcc == FOURCC('B', 'C', '4', 'U')) fourcc = FOURCC('A', 'T', 'I', '1');
     if (fourcc == FOURCC('B', 'C', '5', 'U')) fourcc = FOURCC('A', 'T', 'I', '2');
+    if (fourcc == FOURCC('B', 'C', '4', 'S')) return blocks_by_dxgi(81);
+    if (fourcc == FOURCC('B', 'C', '5', 'S')) return blocks_by_dxgi(84);
     for (size_t i = 0; i < ROWS; i++)
         if (rows[i].fourcc == fourcc && fourcc != DX10 && rows[i].dxgi_number) return &rows[i];
     return NULL;
@@ -71,6 +75,17 @@ static size_t write_header(uint8_t out[148], const struct blocks *blocks, const 
     return blocks->dx10 ? 148 : 128;
 }
 
+/* OpenImageIO decodes unsigned BC4 and BC5. In a signed block only the two ends that each channel begins with mean something else, and what lies
+   between them is interpolated alike: with 128 added to the ends it decodes to values that are 128 larger. The lowest code means -1, as the one
+   above it does. */
+static void make_unsigned(uint8_t *data, size_t bytes) {
+    for (size_t at = 0; at < bytes; at += at % 8 == 0 ? 1 : 7) data[at] = (data[at] == 0x80 ? 0x81 : data[at]) ^ 0x80;
+}
+
+static void make_signed(uint8_t *values, size_t count) {
+    for (size_t i = 0; i < count; i++) values[i] ^= 0x80;
+}
+
 static bool decode_one(const struct image *image, const struct node *texture, const struct blocks *blocks,
                        const struct layout *layout, size_t at, size_t bytes, struct oiio_image *out,
                        struct glint_error *err) {
@@ -78,9 +93,11 @@ static bool decode_one(const struct image *image, const struct node *texture, co
     if (!file) return node_no_memory(texture, err);
     const size_t header = write_header(file, blocks, layout);
     memcpy(file + header, image->bytes.data + at, bytes);
+    if (blocks->is_signed) make_unsigned(file + header, bytes);
     bool ok =
         oiio_decode(blocks->name, "dds", file, header + bytes, IMAGE_MAX_BYTES, out, err) || node_wrap(texture, err);
     free(file);
+    if (ok && blocks->is_signed) make_signed(out->pixels, out->size);
     if (ok && (out->width != layout->width || out->height != layout->height)) {
         free(out->pixels);
         ok = node_fail(texture, err, GLINT_ERROR_FORMAT, "%s: expected %u x %u texels, found %u x %u", blocks->name,
@@ -134,6 +151,7 @@ bool image_decode_blocks(struct image *image, const struct node *texture, const 
     struct layout flat = *layout;
     flat.offset = flat.row_pitch = flat.layer_pitch = 0;
     flat.format = format_of_array(last.is_float                        ? COMPONENT_FLOAT
+                                  : blocks->is_signed                  ? COMPONENT_SNORM
                                   : blocks->srgb && last.channels >= 3 ? COMPONENT_SRGB
                                                                        : COMPONENT_UNORM,
                                   last.bits, last.channels);

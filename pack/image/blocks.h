@@ -11,6 +11,7 @@ struct blocks {
     uint32_t fourcc, dx10; /* what OpenImageIO's reader of DDS files takes */
     uint32_t bytes;        /* of a block of 4 x 4 texels */
     bool srgb;
+    bool is_signed;
 };
 const struct blocks *blocks_by_vulkan(uint32_t number);
 const struct blocks *blocks_by_dxgi(uint32_t number);

@@ -164,8 +164,10 @@ struct texture *texture_find(struct textures *textures, const struct node *user,
         struct texture *texture = &textures->all[i + cube];
         glint_nearest_offer(&near, texture->node.key);
         if (strlen(texture->node.key) != length || memcmp(texture->node.key, name, length)) continue;
-        if (!texture->is_read && !read_texture(texture, err)) return NULL;
-        return texture;
+        if (!texture->is_read && !read_texture(texture, err)) texture->fault = *err;
+        if (texture->fault.code == GLINT_OK) return texture;
+        *err = texture->fault;
+        return NULL;
     }
     node_fail(user, err, GLINT_ERROR_FORMAT, "texture \"%.100s\" is not listed%s", wanted, glint_nearest_text(&near));
     return NULL;

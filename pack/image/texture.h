@@ -9,6 +9,7 @@
 struct texture {
     struct node node; /* a child of the manifest's textures */
     bool is_read, is_cube;
+    struct glint_error fault; /* why it cannot be read: every channel that names it says the same */
     struct image images[6];
     size_t image_count;
     struct cube cube;

@@ -1,6 +1,7 @@
 /* Checks the keys and values of a manifest by keys_rows.h. */
 #include "check.h"
 
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -27,6 +28,25 @@ static const char *kind_of(const json_t *value) {
     return "null";
 }
 
+#if defined(__GNUC__)
+__attribute__((format(printf, 3, 4)))
+#endif
+static bool
+fault(const struct node *node, struct glint_error *err, const char *format, ...) {
+    char message[900];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(message, sizeof message, format, args);
+    va_end(args);
+    node_fail(node, err, GLINT_ERROR_FORMAT, "%s", message);
+    node_keep(node, err);
+    return false;
+}
+
+static bool goes_on(const struct node *node) {
+    return node->manifest->faults->count < FAULTS_MAX;
+}
+
 static bool expected(const struct node *node, const char *what, struct glint_error *err) {
     char found[96];
     if (json_is_string(node->value)) snprintf(found, sizeof found, "\"%.60s\"", json_string_value(node->value));
@@ -34,7 +54,7 @@ static bool expected(const struct node *node, const char *what, struct glint_err
         snprintf(found, sizeof found, "%lld", (long long)json_integer_value(node->value));
     else if (json_is_real(node->value)) snprintf(found, sizeof found, "%g", json_real_value(node->value));
     else snprintf(found, sizeof found, "%s", kind_of(node->value));
-    return node_fail(node, err, GLINT_ERROR_FORMAT, "expected %s, found %s", what, found);
+    return fault(node, err, "expected %s, found %s", what, found);
 }
 
 static bool check_list(const struct node *node, size_t count, bool (*check)(const json_t *value), const char *what,
@@ -43,7 +63,7 @@ static bool check_list(const struct node *node, size_t count, bool (*check)(cons
     snprintf(text, sizeof text, "%zu %s", count, what);
     if (!json_is_array(node->value)) return expected(node, text, err);
     if (json_array_size(node->value) != count)
-        return node_fail(node, err, GLINT_ERROR_FORMAT, "expected %s, found %zu", text, json_array_size(node->value));
+        return fault(node, err, "expected %s, found %zu", text, json_array_size(node->value));
     for (size_t i = 0; i < count; i++) {
         const struct node item = node_item(node, i);
         if (!check(item.value)) return expected(&item, what[0] == 'n' ? "a number" : "a text", err);
@@ -72,8 +92,7 @@ static bool check_matrix(const struct node *node, struct glint_error *err) {
 static bool check_planes(const struct node *node, size_t most, struct glint_error *err) {
     if (!json_is_array(node->value)) return expected(node, "a list of planes", err);
     if (json_array_size(node->value) > most)
-        return node_fail(node, err, GLINT_ERROR_FORMAT, "expected at most %zu planes, found %zu", most,
-                         json_array_size(node->value));
+        return fault(node, err, "expected at most %zu planes, found %zu", most, json_array_size(node->value));
     for (size_t i = 0; i < json_array_size(node->value); i++) {
         const struct node plane = node_item(node, i);
         if (!check_list(&plane, 4, is_number, "numbers", err)) return false;
@@ -94,8 +113,7 @@ static bool check_choice(const struct node *node, const char *words, struct glin
         length += (size_t)snprintf(list + length, sizeof list - length, "%s%s", length ? ", " : "", word);
     }
     if (!found) return expected(node, list, err);
-    return node_fail(node, err, GLINT_ERROR_FORMAT, "expected %s, found \"%.60s\"%s", list, found,
-                     glint_nearest_text(&near));
+    return fault(node, err, "expected %s, found \"%.60s\"%s", list, found, glint_nearest_text(&near));
 }
 
 static bool check_choices(const struct node *node, const struct key *key, struct glint_error *err) {
@@ -120,23 +138,24 @@ static bool check_count(const struct node *node, struct glint_error *err) {
 static bool check_objects(const struct node *node, const struct key *key, struct glint_error *err) {
     const struct object *object = pack_object(key->detail);
     const bool channels = !strcmp(key->detail, "channel"), attributes = !strcmp(key->detail, "attribute");
+    bool ok = true;
     if (key->kind == KEY_ONE) return node_check(node, object, err);
     if (key->kind == KEY_LIST) {
         if (!json_is_array(node->value)) return expected(node, "a list", err);
-        for (size_t i = 0; i < json_array_size(node->value); i++) {
+        for (size_t i = 0; i < json_array_size(node->value) && goes_on(node); i++) {
             const struct node item = node_item(node, i);
-            if (!node_check(&item, object, err)) return false;
+            ok = node_check(&item, object, err) && ok;
         }
-        return true;
+        return ok;
     }
     if (!json_is_object(node->value)) return expected(node, "an object", err);
-    for (void *at = json_object_iter(node->value); at; at = json_object_iter_next(node->value, at)) {
+    for (void *at = json_object_iter(node->value); at && goes_on(node); at = json_object_iter_next(node->value, at)) {
         const struct node child = node_child(node, json_object_iter_key(at));
-        if (channels) continue; /* channels are checked as they are read */
+        if (channels && !json_is_object(child.value)) continue; /* they are checked as they are read */
         if (attributes && (json_is_string(child.value) || json_is_number(child.value))) continue;
-        if (!node_check(&child, object, err)) return false;
+        ok = node_check(&child, object, err) && ok;
     }
-    return true;
+    return ok;
 }
 
 static bool check_value(const struct node *node, const struct key *key, struct glint_error *err) {
@@ -174,21 +193,22 @@ static bool check_value(const struct node *node, const struct key *key, struct g
 static bool unknown_key(const struct node *node, const struct object *object, struct glint_error *err) {
     struct glint_nearest near = glint_nearest_to(node->key);
     for (const struct key *key = object->keys; key->name; key++) glint_nearest_offer(&near, key->name);
-    return node_fail(node, err, GLINT_ERROR_FORMAT, "%s has no such key%s", object->name, glint_nearest_text(&near));
+    return fault(node, err, "%s has no such key%s", object->name, glint_nearest_text(&near));
 }
 
 bool node_check(const struct node *node, const struct object *object, struct glint_error *err) {
+    bool ok = true;
     if (!json_is_object(node->value)) return expected(node, "an object", err);
-    for (void *at = json_object_iter(node->value); at; at = json_object_iter_next(node->value, at)) {
+    for (void *at = json_object_iter(node->value); at && goes_on(node); at = json_object_iter_next(node->value, at)) {
         const struct node child = node_child(node, json_object_iter_key(at));
         const struct key *key = pack_key(object, child.key);
         if (!strcmp(child.key, "comment")) continue;
-        if (!key && !strcmp(object->name, "part")) continue; /* a channel */
-        if (!key) return unknown_key(&child, object, err);
-        if (!check_value(&child, key, err)) return false;
+        const bool channel = !key && !strcmp(object->name, "part");
+        if (channel) ok = (!json_is_object(child.value) || node_check(&child, pack_object("channel"), err)) && ok;
+        else ok = (key ? check_value(&child, key, err) : unknown_key(&child, object, err)) && ok;
     }
-    for (const struct key *key = object->keys; key->name; key++)
+    for (const struct key *key = object->keys; key->name && goes_on(node); key++)
         if (key->required && !node_has(node, key->name))
-            return node_fail(node, err, GLINT_ERROR_FORMAT, "%s is missing: %s", key->name, key->meaning);
-    return true;
+            ok = fault(node, err, "%s is missing: %s", key->name, key->meaning);
+    return ok;
 }

@@ -9,10 +9,10 @@
 enum { LONGEST_MANIFEST = 64 << 20 };
 
 bool manifest_open(struct manifest *manifest, const char *path, const struct glint_pack_options *options,
-                   struct glint_error *err) {
+                   struct faults *faults, struct glint_error *err) {
     struct bytes bytes = {0};
     json_error_t where;
-    *manifest = (struct manifest){.path = path, .options = options};
+    *manifest = (struct manifest){.path = path, .options = options, .faults = faults};
     if (!file_read(path, LONGEST_MANIFEST, &bytes, err)) return false;
     manifest->text = (char *)bytes.data;
     manifest->size = bytes.size;

@@ -6,7 +6,7 @@
 
 /* Reads and parses the file, and checks every key and kind of value by keys_rows.h, but not the channels of parts. */
 bool manifest_open(struct manifest *manifest, const char *path, const struct glint_pack_options *options,
-                   struct glint_error *err);
+                   struct faults *faults, struct glint_error *err);
 void manifest_close(struct manifest *manifest);
 
 #endif

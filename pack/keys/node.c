@@ -3,6 +3,7 @@
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* ---- Nodes ---- */
@@ -112,6 +113,40 @@ bool node_fail(const struct node *node, struct glint_error *err, enum glint_code
 bool node_wrap(const struct node *node, struct glint_error *err) {
     const struct glint_error below = *err;
     return node_fail(node, err, below.code, "%s", below.message);
+}
+
+static bool is_known(const struct faults *faults, const char *text) {
+    for (size_t i = 0; i < faults->count; i++) {
+        const char *kept = i ? faults->more[i - 1] : faults->first.message;
+        if (kept && !strcmp(kept, text)) return true;
+    }
+    return false;
+}
+
+bool node_keep(const struct node *node, const struct glint_error *err) {
+    struct faults *faults = node->manifest->faults;
+    if (err->code == GLINT_ERROR_MEMORY || err->code == GLINT_ERROR_INTERRUPTED) return false;
+    if (faults->count < FAULTS_MAX && !is_known(faults, err->message)) {
+        if (!faults->count) faults->first = *err;
+        else faults->more[faults->count - 1] = strdup(err->message);
+        faults->count++;
+    }
+    return faults->count < FAULTS_MAX;
+}
+
+bool faults_none(const struct faults *faults, const struct glint_pack_options *options, struct glint_error *err) {
+    if (!faults->count) return true;
+    for (size_t i = 1; options->fault && i < faults->count; i++)
+        if (faults->more[i - 1]) options->fault(options->fault_user, faults->more[i - 1]);
+    if (options->fault && faults->count == FAULTS_MAX)
+        options->fault(options->fault_user, "there may be more errors: reading stopped here");
+    *err = faults->first;
+    return false;
+}
+
+void faults_finish(struct faults *faults) {
+    for (size_t i = 0; i < FAULTS_MAX - 1; i++) free(faults->more[i]);
+    *faults = (struct faults){.count = 0};
 }
 
 bool node_no_memory(const struct node *node, struct glint_error *err) {

@@ -7,12 +7,21 @@
 
 #include "glint/pack.h"
 
+/* Errors that do not stop the reading, so that all can be told together. */
+enum { FAULTS_MAX = 20 };
+struct faults {
+    size_t count;
+    struct glint_error first;
+    char *more[FAULTS_MAX - 1];
+};
+
 struct manifest {
     const char *path; /* the caller's */
     char *text;
     size_t size;
     json_t *root;
     const struct glint_pack_options *options; /* the caller's */
+    struct faults *faults;                    /* the caller's */
 };
 
 /* A value and the way to it. Nodes live on the stack of those who read; a parent must outlive its children. */
@@ -39,6 +48,12 @@ __attribute__((format(printf, 4, 5)))
 bool node_fail(const struct node *node, struct glint_error *err, enum glint_code code, const char *format, ...);
 /* Puts file, line and path before the message of an error that something below reported. Returns false. */
 bool node_wrap(const struct node *node, struct glint_error *err);
+/* Keeps an error of the manifest, unless it is known. Returns whether to go on and find others: not after errors of another kind, and not when
+   there are FAULTS_MAX, since finding the line of one takes a walk through the text. */
+bool node_keep(const struct node *node, const struct glint_error *err);
+/* True if there are none. Otherwise `err` is the first, and options->fault gets the others. */
+bool faults_none(const struct faults *faults, const struct glint_pack_options *options, struct glint_error *err);
+void faults_finish(struct faults *faults);
 bool node_no_memory(const struct node *node, struct glint_error *err);
 /* Tells the caller what was understood. */
 #if defined(__GNUC__)

@@ -220,12 +220,15 @@ static bool add_key(struct part *part, const struct node *node, bool exact, stru
 
 static bool add_keys(struct part *part, const struct node *object, bool exact, struct glint_error *err) {
     const struct object *part_keys = pack_object("part");
+    bool ok = true;
     for (void *at = json_object_iter(object->value); at; at = json_object_iter_next(object->value, at)) {
         const struct node node = node_child(object, json_object_iter_key(at));
         if (!exact && (pack_key(part_keys, node.key) || !strcmp(node.key, "comment"))) continue;
-        if (!add_key(part, &node, exact, err)) return false;
+        if (add_key(part, &node, exact, err)) continue;
+        ok = false;
+        if (!node_keep(&node, err)) return false;
     }
-    return true;
+    return ok;
 }
 
 bool channels_read(struct part *part, struct glint_error *err) {
@@ -234,7 +237,8 @@ bool channels_read(struct part *part, struct glint_error *err) {
     if (!part->channels) return node_no_memory(&part->node, err);
     part->more = node_child(&part->node, "channels");
     const struct node *more = &part->more;
-    if (!add_keys(part, &part->node, false, err) || (more->value && !add_keys(part, more, true, err))) return false;
+    const bool ok = add_keys(part, &part->node, false, err);
+    if ((more->value && !add_keys(part, more, true, err)) || !ok) return false;
     if (sibling && part->count)
         return node_fail(&part->channels[0].node, err, GLINT_ERROR_FORMAT, "expected no channels beside a sibling");
     if (!sibling && !part->count)

@@ -22,6 +22,7 @@ struct pack {
     struct textures textures;
     bool has_frame;
     struct glint_frame frame;
+    struct faults faults;
 };
 
 static bool report(const struct pack *pack, const char *what, double done, struct glint_error *err) {
@@ -168,19 +169,20 @@ static bool add_parts(struct pack *pack, struct part *gbuffer, struct glint_writ
                       const char *out, struct glint_error *err) {
     const size_t count = json_object_size(pack->parts_node.value);
     size_t done = 0;
-    bool ok = true;
     json_t *all = pack->parts_node.value;
-    for (void *at = json_object_iter(all); ok && at; at = json_object_iter_next(all, at)) {
+    for (void *at = json_object_iter(all); at; at = json_object_iter_next(all, at)) {
         struct part part = part_of(pack, json_object_iter_key(at));
-        const bool first = !strcmp(part.name, "gbuffer");
-        ok = report(pack, part.name, 0.9 * (double)done++ / (double)count, err);
+        const bool first = !strcmp(part.name, "gbuffer"), broken = pack->faults.count > 0;
+        bool ok = report(pack, part.name, 0.9 * (double)done++ / (double)count, err);
         if (first) take_part(&part, gbuffer);
         else ok = ok && channels_read(&part, err);
+        /* after an error the others are only looked for */
         ok = ok && check_part(&part, gbuffer->width, gbuffer->height, err) &&
-             add_part(pack, &part, writer, extras, out, err);
+             (broken || add_part(pack, &part, writer, extras, out, err));
         channels_finish(&part);
+        if (!ok && !node_keep(&part.node, err)) return false;
     }
-    return ok;
+    return pack->faults.count == 0;
 }
 
 /* ---- The whole ---- */
@@ -270,7 +272,7 @@ static bool write_all(struct pack *pack, struct part *gbuffer, const char *out, 
     const struct glint_writer_options options = {.threads = pack->options.threads};
     struct glint_writer *writer = first && extras ? glint_writer_create(first, &options, err) : NULL;
     bool ok = writer || (first && extras) || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    if (ok && writer && pack->has_frame)
+    if (ok && writer && pack->has_frame && !pack->faults.count)
         ok = glint_writer_set_frame(writer, &pack->frame, err) || node_wrap(&pack->frame_node, err);
     ok = ok && writer && add_parts(pack, gbuffer, writer, extras, out, err);
     if (ok) textures_note(&pack->textures);
@@ -295,10 +297,10 @@ static bool pack_opened(struct pack *pack, const char *out, struct glint_error *
         return false;
     pack->has_frame = pack->frame_node.value != NULL;
     struct part gbuffer = part_of(pack, "gbuffer");
-    bool ok = true;
-    if (pack->has_frame)
-        ok = channels_read(&gbuffer, err) &&
-             frame_read(&pack->frame_node, &pack->frame, gbuffer.width, gbuffer.height, err);
+    bool ok = !pack->has_frame || channels_read(&gbuffer, err) || node_keep(&gbuffer.node, err);
+    if (ok && pack->has_frame && gbuffer.width)
+        ok = frame_read(&pack->frame_node, &pack->frame, gbuffer.width, gbuffer.height, err) ||
+             node_keep(&pack->frame_node, err);
     ok = ok && write_all(pack, &gbuffer, out, err);
     channels_finish(&gbuffer);
     return ok;
@@ -310,8 +312,10 @@ static bool pack_file(const char *manifest, const char *blender, const char *out
     struct glint_error own = {0};
     if (!err) err = &own; /* messages of what lies below are put together with lines */
     if (options) pack.options = *options;
-    const bool ok = manifest_open(&pack.manifest, manifest, &pack.options, err) &&
-                    (!blender || blender_add(&pack.manifest, blender, err)) && pack_opened(&pack, out, err);
+    bool ok = manifest_open(&pack.manifest, manifest, &pack.options, &pack.faults, err) &&
+              (!blender || blender_add(&pack.manifest, blender, err)) && pack_opened(&pack, out, err);
+    ok = faults_none(&pack.faults, &pack.options, err) && ok;
+    faults_finish(&pack.faults);
     textures_finish(&pack.textures);
     manifest_close(&pack.manifest);
     return ok;

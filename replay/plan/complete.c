@@ -13,6 +13,16 @@ void plan_begin(struct frame_plan *plan, const struct planner *planner, const st
                                 .is_cpu = !planner->engine || planner->engine->gpu->info.is_cpu};
 }
 
+/* Without cube maps, the picture alone tells whether rays that leave the screen may reach the sky. A plan changes no bit, so it is counted whether
+   or not passes are left out. */
+static bool find_openness(struct frame_plan *plan, struct planner *planner, struct glint_error *err) {
+    const struct glint_survey *figures = &planner->survey.figures;
+    if (plan->interim || !planner->engine || plan->sizes.active > 0 || !figures->has_sky) return true;
+    if (!planner_survey(planner, plan->pipeline, plan->options, false, err)) return false;
+    plan->block.openness.x = figures->above ? (float)((double)figures->open / (double)figures->above) : -1;
+    return true;
+}
+
 static void fill_frame_block(struct frame_plan *plan) {
     const struct glint_frame *frame = glint_capture_frame(plan->source->capture);
     const struct glint_part_info *mirror = glint_capture_find(plan->source->capture, GLINT_PART_MIRROR);
@@ -38,6 +48,7 @@ bool plan_complete(struct frame_plan *plan, struct planner *planner, const struc
         !plan_reach(plan, &planner->survey.figures, err))
         return false;
     fill_frame_block(plan);
+    if (!find_openness(plan, planner, err)) return false;
     if (options->cache && !frame_source_hash(plan->source, plan->content, NULL)) plan->content[0] = 0;
     return true;
 }

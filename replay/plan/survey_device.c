@@ -36,6 +36,8 @@ static void read_figures(struct glint_survey *survey, const uint32_t *f, bool wh
     survey->surfaces.count = f[at_surfaces];
     survey->reflecting.count = f[at_reflecting];
     survey->pixels = survey->sky + survey->surfaces.count;
+    survey->above = f[at_above];
+    survey->open = f[at_open];
     survey->water = f[at_water];
     survey->transparent = f[at_transparent];
     survey->moved = f[at_moved];

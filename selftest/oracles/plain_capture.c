@@ -177,6 +177,8 @@ static struct glint_frame frame_of(const struct plain *plain) {
     frame.has_previous = true;
     frame.has_fog = plain->fog != NULL;
     if (plain->fog) frame.fog = *plain->fog;
+    frame.has_material = plain->material != NULL;
+    if (plain->material) frame.material = *plain->material;
     frame.previous = frame.camera;
     for (int i = 0; i < 2; ++i) { /* to the right, and down */
         frame.jitter_px[i] = plain->jitter_px[i];

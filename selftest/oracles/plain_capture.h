@@ -42,9 +42,10 @@ struct plain {
     uint32_t frame;       /* number; 0: 1 */
     bool first;           /* the number is 0 */
     bool cut;
-    double jitter_px[2], previous_jitter_px[2]; /* of the projection; the wall's motion says both */
-    const double *world_to_view;                /* 16 values; NULL: as above */
-    const struct glint_fog *fog;                /* NULL: none */
+    double jitter_px[2], previous_jitter_px[2];  /* of the projection; the wall's motion says both */
+    const double *world_to_view;                 /* 16 values; NULL: as above */
+    const struct glint_fog *fog;                 /* NULL: none */
+    const struct glint_material_model *material; /* NULL: as the format has it */
     enum glint_axis up;
     enum glint_compression compression;
     const void *user; /* for `spoil` */

@@ -109,6 +109,10 @@ def line_of(text, path):
     return at + 1
 
 
+def errors_of(said, file):
+    return [line[len("glint pack: " + file):] for line in said.split("\n") if line.startswith(f"glint pack: {file}:")]
+
+
 class Tests:
     def __init__(self, folder):
         self.base = packing.Base(GLINT, folder, "street")
@@ -123,6 +127,7 @@ class Tests:
             run = subprocess.run([GLINT, "pack", file, "-o", file[:-5] + "-out.exr"], capture_output=True, text=True)
             said = run.stderr.strip().split("\n")[-1]
             assert run.returncode == 1 and words in said, (changes, said)
+            assert len(errors_of(run.stderr, file)) == 1, f"{changes} has consequences: {run.stderr}"
             assert not os.path.exists(file[:-5] + "-out.exr")
             if place is not None:
                 with open(file, encoding="utf-8") as text:
@@ -131,6 +136,42 @@ class Tests:
                 assert said.startswith(f"glint pack: {file}:{line}: {path}"), (line, path, said)
             count += 1
         print(f"# {count} mistakes")
+
+    def together(self, *changes):
+        manifest = copy.deepcopy(self.base.manifest)
+        for path, value in changes:
+            change(manifest, path, value)
+        file = self.base.write("wrong", manifest)
+        run = subprocess.run([GLINT, "pack", file, "-o", file[:-5] + "-out.exr"], capture_output=True, text=True)
+        assert run.returncode == 1 and not os.path.exists(file[:-5] + "-out.exr"), run.stderr
+        with open(file, encoding="utf-8") as text:
+            text = text.read()
+        return errors_of(run.stderr, file), [f":{line_of(text, path)}: {'.'.join(split(path))}: " for path, _ in changes], run.stderr
+
+    def test_errors_are_told_together(self):
+        """Of keys and kinds of values; then of what they mean. In the order of the file, each with its line."""
+        keys = (("frame.jiter", [0, 0]), ("frame.clip_z", "zero"), ("frame.fog", {"colour": 1, "color": [0, 0, 0], "density": 1}),
+                ("textures.lit.width", -1), ("parts.lit.encodings", {"color": "sRGB"}), ("parts.lit.R", {"texture": "x", "chanel": "r"}))
+        found, places, said = self.together(*keys)
+        for place, key in ((2, "colour"), (4, "color"), (5, "chanel")):
+            places[place] = places[place].removesuffix(": ") + f".{key}: "
+        assert len(found) == len(keys), said
+        for place in places:
+            assert any(line.split(": ")[1] == place.split(": ")[1] for line in found), (place, said)
+        lines = [int(line.split(":")[1]) for line in found]
+        assert lines == sorted(lines) and len(set(lines)) == len(keys), lines
+        meanings = (("frame.exposure", -1), ("parts.gbuffer.normal.X", "nothing.r"), ("parts.lit.R", "nothing.r"), ("parts.lit.G", {"texture": "lit", "channel": "q"}),
+                    ("parts.ao", {"R": 1}))
+        found, places, said = self.together(*meanings)
+        for place in places[1:]:
+            assert any(line.split(": ")[1] == place.split(": ")[1] for line in found), (place, said)
+        assert len(found) == len(meanings), said
+
+    def test_no_more_than_twenty(self):
+        found, _, said = self.together(*((f"frame.wrong{i}", 1) for i in range(30)))
+        assert len(found) == 20 and said.strip().endswith("there may be more errors: reading stopped here"), said
+        found, _, said = self.together(*((f"frame.wrong{i}", 1) for i in range(19)))
+        assert len(found) == 19 and "there may be more" not in said, said
 
     def test_json(self):
         for text, words in (('{"glint": 1,\n "parts": }', ":2: column"), ('{"glint": 1,\n"glint": 1}', "duplicate object key"), ("", ":1: column"),

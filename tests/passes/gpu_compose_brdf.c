@@ -117,9 +117,9 @@ static double at_pixel(const float *gbuffer, uint32_t i, int channel) {
     return (double)gbuffer[9 * i + (uint32_t)channel];
 }
 
-/* Schlick's Fresnel from the reflectance at normal incidence (0.08 specular by Burley, or a metal's colour) to 1, or to fifty times a
-   reflectance below 2 %. gbuffer: normal, albedo, metalness, specular, depth. */
-static void schlick(const float *gbuffer, uint32_t i, double weight[3]) {
+/* Schlick's Fresnel from the reflectance at normal incidence (0.08 specular by Burley, or a multiple of a metal's colour, at most 1) to 1, or
+   to fifty times a reflectance below 2 %. gbuffer: normal, albedo, metalness, specular, depth. */
+static void schlick(const float *gbuffer, uint32_t i, double multiple, double weight[3]) {
     const double half = tan(30 * 3.14159265358979323846 / 180);
     const double view[3] = {half * WIDE / HIGH * ((2.0 * (i % WIDE) + 1) / WIDE - 1),
                             half * (1 - (2.0 * (i / WIDE) + 1) / HIGH), -1};
@@ -128,7 +128,7 @@ static void schlick(const float *gbuffer, uint32_t i, double weight[3]) {
         const double n = at_pixel(gbuffer, i, k);
         cosine -= view[k] * n, length += view[k] * view[k], normal += n * n;
         f0[k] = 0.08 * at_pixel(gbuffer, i, 7) * (1 - at_pixel(gbuffer, i, 6)) +
-                at_pixel(gbuffer, i, 3 + k) * at_pixel(gbuffer, i, 6);
+                fmin(multiple * at_pixel(gbuffer, i, 3 + k), 1) * at_pixel(gbuffer, i, 6);
         most = fmax(most, f0[k]);
     }
     cosine = fmin(fmax(cosine / sqrt(length * normal), 0), 1);
@@ -136,13 +136,21 @@ static void schlick(const float *gbuffer, uint32_t i, double weight[3]) {
     for (int k = 0; k < 3; ++k) weight[k] = f0[k] + (f90 - f0[k]) * pow(1 - cosine, 5);
 }
 
+/* Colours of metals are at most 0.8: three times that is limited, a quarter of it is not. */
 static void mirrors_compose_by_schlick(void **state) {
     struct gpu *gpu = *state;
     static const char *const variants[] = {"compose=brdf", "compose=contribution"};
-    for (int v = 0; v < 2; ++v) {
+    static const double multiples[] = {1, 3, 0.25};
+    for (int i = 0; i < 6; ++i) {
         char path[256];
-        plain_capture(gpu_path(gpu, "mirrors", path),
-                      &(struct plain){.width = WIDE, .height = HIGH, .fov_y_degrees = 60, .spoil = collect});
+        const int v = i % 2;
+        const double multiple = multiples[i / 2];
+        const struct glint_material_model material = {.metal_reflectance = multiple};
+        plain_capture(gpu_path(gpu, "mirrors", path), &(struct plain){.width = WIDE,
+                                                                      .height = HIGH,
+                                                                      .fov_y_degrees = 60,
+                                                                      .spoil = collect,
+                                                                      .material = i < 2 ? NULL : &material});
         gpu_load(gpu, "mirrors");
         gpu_reset(gpu);
         gpu->float_precision = true;
@@ -161,7 +169,7 @@ static void mirrors_compose_by_schlick(void **state) {
         double worst = 0, strongest = 0;
         for (uint32_t i = 0; i < WIDE * HIGH; ++i) {
             double weight[3];
-            schlick(gbuffer, i, weight);
+            schlick(gbuffer, i, multiple, weight);
             for (uint32_t k = 0; k < 3; ++k) {
                 const double below = (double)lit[3 * i + k], above = (double)color[4 * i + k], part = 0.75 * weight[k];
                 const double expected = v ? below + part * (above - below) : below + part * above;
@@ -169,16 +177,60 @@ static void mirrors_compose_by_schlick(void **state) {
                 strongest = fmax(strongest, weight[k]);
             }
         }
-        print_message("# %s: worst difference %.2e, weights up to %.2f\n", variants[v], worst, strongest);
+        print_message("# %s, %g times the colour: worst difference %.2e, weights up to %.2f\n", variants[v], multiple,
+                      worst, strongest);
         /* sums of floats below 4; the fit of the environment BRDF is exact for mirrors */
-        assert_true(worst < 4e-6 && strongest > 0.9);
+        assert_true(worst < 4e-6 && strongest > (multiple < 1 ? 0.7 : 0.9));
         free(composed), free(color), free(lit), free(gbuffer);
     }
+}
+
+/* Mirrors in some places, and beside the limit in others: exactly at it, below it, above it. */
+static void roughen(const struct plain *plain, float *values) {
+    static const float roughness[] = {0, 0.6F, 0.59F, 1};
+    const uint32_t pixels = plain->width * plain->height;
+    collect(plain, values);
+    for (uint32_t i = 0; i < pixels; ++i) values[PLAIN_ROUGHNESS * pixels + i] = roughness[i / 2 % 4];
+}
+
+/* From that roughness on, metals and dielectrics reflect nothing; below it nothing changes. */
+static void rough_surfaces_may_reflect_nothing(void **state) {
+    struct gpu *gpu = *state;
+    static const struct glint_material_model limited = {.roughest_reflection = 0.6};
+    float *composed[2];
+    for (int i = 0; i < 2; ++i) {
+        char path[256], name[16];
+        snprintf(name, sizeof name, "rough%d", i);
+        plain_capture(
+            gpu_path(gpu, name, path),
+            &(struct plain){
+                .width = WIDE, .height = HIGH, .fov_y_degrees = 60, .spoil = roughen, .material = i ? &limited : NULL});
+        gpu_load(gpu, name);
+        gpu_reset(gpu);
+        gpu->float_precision = true;
+        gpu_shader(gpu, "resolve", "stand_in.comp");
+        gpu_set(gpu, "resolve.texel_scale=3"); /* the wall's depth: the same colour everywhere */
+        gpu_run(gpu);
+        composed[i] = gpu_floats(gpu, "composed", NULL, NULL);
+    }
+    float *lit = gpu_part(gpu, "lit", (const char *[]){"R", "G", "B"}, 3);
+    size_t changed = 0, same = 0;
+    for (uint32_t i = 0; i < WIDE * HIGH; ++i)
+        for (uint32_t k = 0; k < 3; ++k) {
+            const bool limited_here = i / 2 % 2, reflects = composed[0][4 * i + k] != lit[3 * i + k];
+            const float expected = limited_here ? lit[3 * i + k] : composed[0][4 * i + k];
+            assert_true(fabsf(composed[1][4 * i + k] - expected) < 6e-6F); /* of colours up to 6 */
+            *(limited_here ? &changed : &same) += reflects;
+        }
+    print_message("# %zu colours lose their reflection, %zu keep it\n", changed, same);
+    assert_true(changed > WIDE * HIGH && same > WIDE * HIGH);
+    free(composed[0]), free(composed[1]), free(lit);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(matte_stays_lit), cmocka_unit_test(matte_was_traced),
                                        cmocka_unit_test(materials_say_how_reflectance_rises),
-                                       cmocka_unit_test(mirrors_compose_by_schlick)};
+                                       cmocka_unit_test(mirrors_compose_by_schlick),
+                                       cmocka_unit_test(rough_surfaces_may_reflect_nothing)};
     return cmocka_run_group_tests_name("gpu_compose_brdf", tests, gpu_set_up, gpu_tear_down);
 }

@@ -245,12 +245,26 @@ static void even_ball(uint32_t number, const double d[3], float out[5]) {
     out[3] = 1, out[4] = 10;
 }
 
-/* Between a surface and its reflection, fog absorbs 1 - exp(-∫ density ds) of each channel; its density may decrease with height. */
+static void sky_alone(uint32_t number, const double d[3], float out[5]) {
+    (void)number, (void)d;
+    for (int k = 0; k < 4; ++k) out[k] = 0;
+    out[4] = INFINITY;
+}
+static void green(const double d[3], float out[3]) {
+    (void)d;
+    out[0] = 0, out[1] = 8, out[2] = 1;
+}
+
+/* Between a surface and its reflection, fog absorbs 1 - exp(-∫ density ds) of each channel; its density may decrease with height. Fog that
+   adds puts its own colour in front, whatever the colour of the sky, and nothing is absorbed. */
 static void fog_lies_before_what_is_reflected(void **state) {
     struct gpu *gpu = *state;
-    for (int even = 0; even < 2; ++even) {
-        const struct glint_fog fog = {{1, 0, 2}, 0.04, -1, even ? 0 : 4, false};
-        load_capture(gpu, &(struct plain){.fog = &fog, .cube_size = 8, .cube_count = 1, .cube = even_ball});
+    for (int kind = 0; kind < 4; ++kind) {
+        const bool even = kind % 2, adds = kind / 2;
+        const struct glint_fog fog = {{1, 0, 2}, 0.04, -1, even ? 0 : 4, adds};
+        load_capture(gpu,
+                     &(struct plain){
+                         .fog = &fog, .cube_size = 8, .cube_count = 1, .cube = even_ball, .sky = adds ? green : NULL});
         gpu_set(gpu, "screen_trace.length_m=0");
         gpu_run(gpu);
         float *color = gpu_floats(gpu, "reflection_half", NULL, NULL),
@@ -266,17 +280,34 @@ static void fog_lies_before_what_is_reflected(void **state) {
             const double depth = 0.04 * (even ? t : exp(-low / scale) * -expm1(-rise * t / scale) / (rise / scale)),
                          left = exp(-depth);
             for (int k = 0; k < 3; ++k) {
-                const double expected = left * (double)evenly[k] + (1 - left) * (double)fog.color[k];
+                const double behind = adds ? 1 : left;
+                const double expected = behind * (double)evenly[k] + (1 - left) * (double)fog.color[k];
                 worst = fmax(worst, fabs((double)color[4 * i + k] - expected));
             }
             least = fmin(least, left);
             ++count;
         }
-        print_message("# %s: %d rays, of which %.2f at least is left: off by %.2g\n", even ? "even" : "by height",
-                      count, least, worst);
+        print_message("# %s, %s: %d rays, of which %.2f at least is left: off by %.2g\n", even ? "even" : "by height",
+                      adds ? "adds" : "covers", count, least, worst);
         assert_true(count > PIXELS / 2 && least < 0.7);
         assert_true(worst < 1e-5); /* exponents up to 2 from about ten rounded operations, for colours up to 2 */
         free(color), free(travelled_m);
+    }
+}
+
+/* The sky's image is the sky as it is seen: fog adds nothing to it, and fades to it. */
+static void the_sky_is_seen_as_its_image_has_it(void **state) {
+    struct gpu *gpu = *state;
+    for (int adds = 0; adds < 2; ++adds) {
+        const struct glint_fog fog = {{1, 0, 2}, 0.04, -1, 4, adds};
+        load_capture(gpu,
+                     &(struct plain){.fog = &fog, .cube_size = 8, .cube_count = 1, .cube = sky_alone, .sky = green});
+        gpu_set(gpu, "screen_trace.length_m=0");
+        gpu_run(gpu);
+        float *color = gpu_floats(gpu, "reflection_half", NULL, NULL);
+        for (int i = 0; i < PIXELS; ++i)
+            for (int k = 0; k < 3; ++k) assert_true(fabsf(color[4 * i + k] - (float)(k == 1 ? 8 : k / 2)) < 1e-5F);
+        free(color);
     }
 }
 
@@ -290,6 +321,7 @@ int main(void) {
         cmocka_unit_test(a_cone_wider_than_the_picture_sees_all_of_it),
         cmocka_unit_test(rays_take_no_sky_that_they_do_not_see),
         cmocka_unit_test(fog_lies_before_what_is_reflected),
+        cmocka_unit_test(the_sky_is_seen_as_its_image_has_it),
     };
     return cmocka_run_group_tests_name("gpu_limits", tests, gpu_set_up, gpu_tear_down);
 }

@@ -29,6 +29,8 @@ class Tests:
         for name in ("world_to_view", "view_to_clip", "previous_world_to_view", "previous_view_to_clip"):
             self.manifest["frame"][name] = BEFORE if name.startswith("previous_") else VIEW
         self.manifest["textures"]["depth"] = {"file": str(self.folder / "depth.raw"), "width": 2, "height": 1, "rows": "bottom_first"}
+        self.manifest["textures"]["normal_code"] = {"file": str(self.folder / "codes.raw"), "format": "VK_FORMAT_R8G8B8A8_UNORM", "width": 2, "height": 1, "rows": "bottom_first"}
+        np.array([[204, 51, 0, 0], [51, 204, 0, 0]], "u1").tofile(self.folder / "codes.raw")
         np.array([0xffffff01, 0x80000001], "<u4").tofile(self.folder / "depth.raw")
         for name in mapping["textures"]:
             np.save(self.folder / (name + ".npy"), np.array([[[0.5, 0.25, 1], [0, 0.75, 0.5]]], "<f4"))
@@ -55,6 +57,18 @@ class Tests:
         assert np.allclose(np.load(self.folder / "changed.npy"), [[[0.25, 0.5, 0.75], [0.25, 0.5, 0.75]]])
         self.changed("the light is sRGB, and is read as linear")
         assert np.allclose(np.load(self.folder / "changed.npy")[0, 0], [0.735357, 0.537099, 1], atol=1e-5)
+
+    def test_normals(self):
+        """Codes of ±0.6: with e² = 0.72 the normal is 1.2 · √0.28 along each axis, and 0.44 along z; of the other z, codes of √(1 - 0.72) in length."""
+        self.changed("normals in view space are declared as world space")
+        assert np.allclose(np.load(self.folder / "changed.npy"), [[[0.63498, -0.63498, 0.44], [-0.63498, 0.63498, 0.44]]], atol=1e-5)
+        self.changed("z of the normals has the wrong sign")
+        assert np.allclose(2 * np.load(self.folder / "changed.npy") - 1, [[[0.374166, -0.374166], [-0.374166, 0.374166]]], atol=1e-5)
+        manifest = self.changed("the normals are half a texel to the right")
+        assert np.allclose(np.load(self.folder / "changed.npy"), 0.5)
+        assert manifest["parts"]["gbuffer"]["material.roughness"] == "normal_code.b" and manifest["textures"]["normals_alone"]["rows"] == "bottom_first"
+        x = self.changed("x of the normals has the wrong sign")["parts"]["gbuffer"]
+        assert x["normal.X"] == {"texture": "normal_code", "channel": "r", "scale": -1, "offset": 1} and "scale" not in x["normal.Y"]
 
     def test_sky(self):
         self.changed("the light has no sky")

@@ -367,6 +367,8 @@ class Tests:
         if not np.allclose(view[:3, :3] @ view[:3, :3].T, np.eye(3), atol=1e-5) or not np.array_equal(view[3], [0, 0, 0, 1]):
             raise AssertionError(f"u_view_matrix is no rotation and translation of column vectors: {view}")
         equal(projection[3].tolist(), [0, 0, 1, 0])
+        fog = mapping.fill(frame, "fog", frame.mapping["manifest"]["frame"]["fog"])
+        equal((fog["density"], len(fog["color"]), fog["adds"]), (0.0016665554139763117, 3, True))
 
     def test_vkcubes_mapping_divides_the_projection_out(self):
         """Of the matrix that list_passes.py printed for one of its frames: what is left is a rotation, at the distance of √34 that its source has."""

@@ -430,5 +430,7 @@ const struct damage damages[] = {
     {NULL, BASE_PLAIN, sky_bright},
     {NULL, BASE_PLAIN, sky_cloudy},
     {NULL, BASE_PLAIN, sky_plain_and_bright},
+    {NULL, BASE_PLAIN, metals_that_emit},
+    {"normal.upside_down", BASE_PLAIN, normals_upside_down},
 };
 const size_t damage_count = sizeof damages / sizeof *damages;

@@ -15,4 +15,7 @@ struct damage {
 extern const struct damage damages[];
 extern const size_t damage_count;
 
+/* Puts a normal map on two thirds of the pixels; sign -1: x of all normals has the wrong sign, too. */
+void damage_by_normal_map(struct rewrite *r, double sign);
+
 #endif

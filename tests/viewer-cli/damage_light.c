@@ -136,7 +136,50 @@ DAMAGE(sky_upside_down, sky_faces(r, in_order, 2))
 /* With another up axis. */
 DAMAGE(sky_exchanged, sky_faces(r, (const int[6]){2, 3, 4, 5, 0, 1}, 0))
 
+void damage_by_normal_map(struct rewrite *r, double sign) {
+    float *n[3] = {damage_floats(r, "gbuffer", "normal.X"), damage_floats(r, "gbuffer", "normal.Y"),
+                   damage_floats(r, "gbuffer", "normal.Z")};
+    const uint32_t width = rewrite_find(r, "gbuffer")->part.width;
+    for (uint32_t i = 0; i < damage_texels_of(r, "gbuffer"); i++) {
+        const double x = i % width, y = i / width;
+        double m[3] = {sign * (double)n[0][i], (double)n[1][i], (double)n[2][i]}, length = 0;
+        if (i % 3) m[0] += 0.3 * sin(1.7 * x + y), m[1] += 0.3 * cos(x - 1.3 * y), m[2] += 0.3 * sin(y);
+        for (int k = 0; k < 3; k++) length += m[k] * m[k];
+        for (int k = 0; k < 3; k++) n[k][i] = (float)(m[k] / sqrt(length));
+    }
+}
+
+bool normals_upside_down(struct rewrite *r, double strength) {
+    const struct rewrite_part *p = rewrite_find(r, "gbuffer");
+    const uint32_t w = p->part.width, h = p->part.height;
+    (void)strength;
+    for (int c = 0; c < 3; c++) {
+        float *v = damage_floats(r, "gbuffer", (const char *[]){"normal.X", "normal.Y", "normal.Z"}[c]);
+        for (uint32_t i = 0; i < w * (h / 2); i++) {
+            const uint32_t other = (h - 1 - i / w) * w + i % w;
+            const float t = v[i];
+            v[i] = v[other];
+            v[other] = t;
+        }
+    }
+    return true;
+}
+
 /* ---- Not mistakes ---- */
+
+/* Metals that emit light of the colour of their material. */
+bool metals_that_emit(struct rewrite *r, double strength) {
+    const float *metal = damage_floats(r, "gbuffer", "material.metalness");
+    size_t metals = 0;
+    for (int c = 0; c < 3; c++) {
+        float *v = damage_floats(r, "lit", rgb[c]);
+        const float *albedo = damage_floats(r, "gbuffer", (const char *[]){"albedo.R", "albedo.G", "albedo.B"}[c]);
+        for (size_t i = 0; i < damage_texels_of(r, "lit"); i++)
+            if (metal[i] > 0.95f) v[i] += (float)(0.2 + 2 * strength) * albedo[i];
+    }
+    for (size_t i = 0; i < damage_texels_of(r, "gbuffer"); i++) metals += metal[i] > 0.95f;
+    return metals > damage_texels_of(r, "gbuffer") / 100;
+}
 
 DAMAGE(sky_clouds, sky_faces(r, in_order, 0))
 

@@ -4,7 +4,7 @@ import shutil
 import zipfile
 import pathlib
 
-from steps import Steps, call, say
+from steps import Steps, call
 
 PACKAGE = pathlib.Path(__file__).resolve().parent.parent / "babylon"
 # The same scene in a left-handed and a right-handed world, each also with a reversed depth buffer: what the page is asked for.
@@ -43,13 +43,10 @@ def world(glint, folder, name, runs):
     steps.do("capture", ["frame.zip"], lambda: call(
         "node", "capture.js", folder / "frame.zip", *WORLDS.get(name, (name,)), into=folder / "browser.log", cwd=proof))
     steps.do("unzip", ["dump/manifest.json"], lambda: unpack(folder))
-    steps.do("pack", ["frame.exr"], lambda: call(glint, "pack", folder / "dump/manifest.json", "-o", folder / "frame.exr", into=folder / "pack.log"))
-    for what in ("validate", "lint", "info"):
-        steps.do(what, [f"{what}.txt"], lambda: say(folder / f"{what}.txt", glint, what, folder / "frame.exr"))
-    print("lint: " + (folder / "lint.txt").read_text().strip().split("\n")[-1].split(": ")[-1], flush=True)
+    steps.pack(glint, "dump/manifest.json")
+    steps.check(glint)
     for run in runs:
-        steps.do(f"replay: {run}", [f"{run}/run.json"], lambda: call(
-            glint, "replay", folder / "frame.exr", *RUNS[run], "-o", folder / run, "--diagnostics", into=folder / f"{run}.txt"))
+        steps.replay(glint, run, *RUNS[run])
 
 
 def prove(glint, folder):

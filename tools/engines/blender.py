@@ -4,7 +4,6 @@ import os
 import pathlib
 import re
 import shutil
-import subprocess
 import sys
 
 from steps import Steps, call, say
@@ -29,12 +28,7 @@ def replay(glint, folder, preset, capture):
     run = folder / f"{preset}-{capture}"
     # without the pass that makes a reflection it is black
     words = ["-p", "kf2", "--skip", "resolve"] if preset == "black" else ["-p", preset]
-    with open(folder / "replay.new", "w", encoding="utf-8") as out:
-        status = subprocess.run([glint, "replay", folder / f"{capture}.exr", *words, "-o", run, "--against", "truth", "--json"],
-                                stdout=out, stderr=subprocess.PIPE, text=True, check=False)
-    if status.returncode:
-        sys.exit(f"engines.py: {preset} of {capture}: {status.stderr}")
-    os.replace(folder / "replay.new", folder / f"{preset}-{capture}.json")
+    say(folder / f"{preset}-{capture}.json", glint, "replay", folder / f"{capture}.exr", *words, "-o", run, "--against", "truth", "--json", stderr=None)
 
 
 def by_hand(glint, folder):
@@ -73,15 +67,10 @@ def prove_scene(glint, name, folder):
     steps.do("dump", ["frame.exr", "frame.textures/manifest-lit.json", "multilayer.camera.json"], lambda: blender(
         folder, TOOLS / "glint_capture/run.py", "dump.log", "-o", folder / "frame.exr", *SAMPLES, *SCENES[name], "--multilayer",
         folder / "multilayer.exr", "--glint", glint, file=scene))
-    steps.do("pack the other truth", ["frame-lit.exr"], lambda: call(glint, "pack", folder / "frame.textures/manifest-lit.json", "-o",
-                                                                      folder / "frame-lit.exr", into=folder / "pack.log"))
+    steps.pack(glint, "frame.textures/manifest-lit.json", "frame-lit.exr")
     steps.do("verify", ["verified.txt"], lambda: (blender(folder, TOOLS / "verify.py", "verify.log", folder / "frame.textures", file=scene),
                                                   shutil.copy(folder / "verify.log", folder / "verified.txt")))
-    for what in ("validate", "lint", "info"):
-        steps.do(what, [f"{what}.txt"], lambda: say(folder / f"{what}.txt", glint, what, folder / "frame.exr"))
-    lint = (folder / "lint.txt").read_text().strip().split("\n")[-1].split(": ")[-1]
-    print("lint: " + lint, flush=True)
-    if lint != "0 findings":
+    if steps.check(glint) != "0 findings":
         sys.exit(f"engines.py: lint finds something in {name}; see {folder / 'lint.txt'}")
     for preset, capture in REPLAYS:
         steps.do(f"{preset}, truth of {LIGHT[capture]} light", [f"{preset}-{capture}.json"], lambda: replay(glint, folder, preset, capture))

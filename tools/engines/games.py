@@ -6,7 +6,7 @@ import subprocess
 import sys
 import time
 
-from steps import Steps, call, say
+from steps import Steps, call
 
 TOOLS = pathlib.Path(__file__).resolve().parent.parent / "renderdoc"
 PYTHON = "/usr/bin/python3"  # Debian's own, for which its RenderDoc module is built
@@ -90,13 +90,10 @@ def replay(glint, name, folder):
     for number in (0, 1):
         steps.do(f"passes of frame {number}", [f"passes_{number}.json"], lambda: with_display(lambda: list_passes(folder, number)))
     steps.do("map", ["dump/manifest.json"], lambda: with_display(lambda: dump(folder, mapping)))
-    steps.do("pack", ["frame.exr"], lambda: call(glint, "pack", folder / "dump/manifest.json", "-o", folder / "frame.exr", into=folder / "pack.log"))
-    for what in ("validate", "lint", "info"):
-        steps.do(what, [f"{what}.txt"], lambda: say(folder / f"{what}.txt", glint, what, folder / "frame.exr"))
-    print("lint: " + (folder / "lint.txt").read_text().strip().split("\n")[-1].split(": ")[-1], flush=True)
+    steps.pack(glint, "dump/manifest.json")
+    steps.check(glint)
     for preset in presets:
-        steps.do(f"replay with {preset}", [f"{preset}/run.json"], lambda: call(
-            glint, "replay", folder / "frame.exr", "-p", preset, "-o", folder / preset, "--diagnostics", into=folder / f"{preset}.txt"))
+        steps.replay(glint, preset, "-p", preset)
 
 
 def mistakes(glint, folder, *options):

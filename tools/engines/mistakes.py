@@ -28,12 +28,54 @@ def texture(name, **keys):
     return lambda m, _: m["textures"][name].update(keys)
 
 
-def sign(axis):
+def flipped(axis):
+    """The other sign of x or y of the normals, whose codes are (e + 1) / 2 along them."""
     def change(m, _):
         del m["parts"]["gbuffer"]["normal"]
-        for letter, component in zip("XYZ", "rgb"):
-            m["parts"]["gbuffer"][f"normal.{letter}"] = {"texture": "normal", "channel": component, "scale": -1 if letter == axis else 1}
+        for letter, component in zip("XY", "rg"):
+            turned = {"scale": -1, "offset": 1} if letter == axis else {}
+            m["parts"]["gbuffer"][f"normal.{letter}"] = {"texture": "normal_code", "channel": component, **turned}
     return change
+
+
+def normals_alone(**keys):
+    """Keys of the texture for the normals; the material that it holds, too, is read as before."""
+    def change(m, _):
+        m["textures"]["normals_alone"] = {**m["textures"]["normal_code"], **keys}
+        m["parts"]["gbuffer"]["normal"] = "normals_alone.rg"
+    return change
+
+
+def codes(m):
+    """The spheremap's two codes in [-1, 1], rows as they are stored; texels of 8:8:8:8."""
+    entry = m["textures"]["normal_code"]
+    return np.fromfile(entry["file"], "u1").reshape(entry["height"], entry["width"], 4)[..., :2] / 127.5 - 1
+
+
+def other_normals(work, **encodings):
+    """Other numbers for the normals, made of their codes."""
+    def change(m, folder):
+        normals = np.asarray(work(codes(m)), "<f4")
+        np.save(folder / "changed.npy", normals)
+        normals_alone(file=str(folder / "changed.npy"))(m, folder)
+        for key in ("format", "width", "height"):
+            del m["textures"]["normals_alone"][key]
+        m["parts"]["gbuffer"]["encodings"].update(encodings)
+        m["parts"]["gbuffer"]["normal"] = "normals_alone." + "rgb"[:normals.shape[-1]]
+    return change
+
+
+def in_view_space(e):
+    """Normals of codes; the view looks along +z."""
+    z = 2 * np.sum(e * e, -1, keepdims=True) - 1
+    n = np.concatenate([2 * e * np.sqrt(np.clip(1 - z, 0, 2) / 2), z], -1)
+    return n / np.linalg.norm(n, axis=-1, keepdims=True)
+
+
+def other_z(e):
+    """Codes of the normal with the other sign of z: their length is the root of 1 less its square."""
+    length = np.linalg.norm(e, axis=-1, keepdims=True)
+    return (e * np.sqrt(np.clip(1 - length**2, 0, 1)) / np.maximum(length, 1e-6) + 1) / 2
 
 
 def swap(a, b):
@@ -93,8 +135,6 @@ def view_flipped(m, _):
     m["frame"]["world_to_view"] = [-v if i // 4 == 2 else v for i, v in enumerate(m["frame"]["world_to_view"])]
 
 
-perceptual = both(channel("gbuffer", "material.roughness", {"texture": "power", "scale": 1 / 2048}), encoding("gbuffer", roughness="perceptual"))
-
 # Name, change, and the preset whose reflection shows it: kf2 traces mirror rays through scene, mafia3 lobes through lit and the sky.
 MISTAKES = (
     ("none", lambda m, _: None, "kf2"),
@@ -104,12 +144,13 @@ MISTAKES = (
     ("the matrices are for row vectors", frame(vectors="row"), "kf2"),
     ("the view looks the other way", view_flipped, "kf2"),
     ("the jitter is half a pixel, and is none", frame(jitter=[0.5, 0.5], jitter_in_matrix=False), "kf2"),
-    ("normals in view space are declared as world space", encoding("gbuffer", normal_space="world"), "kf2"),
-    ("x of the normals has the wrong sign", sign("X"), "kf2"),
-    ("y of the normals has the wrong sign", sign("Y"), "kf2"),
-    ("z of the normals has the wrong sign", sign("Z"), "kf2"),
+    ("normals in view space are declared as world space", other_normals(in_view_space, normal="signed", normal_space="world"), "kf2"),
+    ("the normals' codes are declared as octahedral", encoding("gbuffer", normal="octahedral"), "kf2"),
+    ("x of the normals has the wrong sign", flipped("X"), "kf2"),
+    ("y of the normals has the wrong sign", flipped("Y"), "kf2"),
+    ("z of the normals has the wrong sign", other_normals(other_z), "kf2"),
     ("the depth's bottom row is on top", texture("depth", rows="top_first"), "kf2"),
-    ("the normals' bottom row is on top", texture("normal", rows="bottom_first"), "kf2"),
+    ("the normals' bottom row is on top", normals_alone(rows="top_first"), "kf2"),
     ("the light's bottom row is on top", texture("light", rows="bottom_first"), "mafia3"),
     ("the depth is read as view-linear", encoding("gbuffer", depth="view_linear"), "kf2"),
     ("depth and stencil in the other order", texture("depth", format="VK_FORMAT_D24_UNORM_S8_UINT"), "kf2"),
@@ -119,7 +160,7 @@ MISTAKES = (
     ("the light is the previous frame's, which is not there", both(channel("lit", "RGB", "light_before.rgb"), without("previous.lit")), "mafia3"),
     ("the light has no sky", dark_sky, "mafia3"),
     ("the light is half a texel to the right", pixels("light", half_texel), "mafia3"),
-    ("the normals are half a texel to the right", pixels("normal", half_texel), "kf2"),
+    ("the normals are half a texel to the right", other_normals(lambda e: (half_texel(e) + 1) / 2), "kf2"),
     ("the previous camera is this frame's", same_previous, "kf2"),
     ("the previous camera is the next frame's", moved_previous(-1), "kf2"),
     ("the previous camera is that of two frames ago", moved_previous(2), "kf2"),
@@ -127,7 +168,7 @@ MISTAKES = (
     ("the light is sRGB, and is read as linear", pixels("light", to_srgb), "mafia3"),
     ("red and blue of the light are swapped", channel("lit", "RGB", "light.bgr"), "mafia3"),
     ("the light is the finished picture, with highlights", channel("lit", "RGB", "scene.rgb"), "mafia3"),
-    ("the roughness is declared as perceptual", perceptual, "mafia3"),
+    ("the roughness is declared as perceptual", encoding("gbuffer", roughness="perceptual"), "mafia3"),
     ("the sky is linear, and is declared as sRGB", encoding("sky", color="srgb"), "mafia3"),
     ("the sky's faces are mirrored", texture("sky", cube={"mirror": True}), "mafia3"),
     ("the sky's faces stand on their heads", texture("sky", rows="bottom_first"), "mafia3"),
@@ -161,6 +202,7 @@ def said(glint, manifest, folder):
 
 def original(dump):
     manifest = json.loads((dump / "manifest.json").read_text())
+    manifest["frame"]["material"].pop("roughest_reflection", None)  # the road's roughness: it would reflect nothing, and show no mistake
     for entry in manifest["textures"].values():
         entry["file"] = str(dump / entry["file"])
     return manifest

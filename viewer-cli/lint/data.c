@@ -140,7 +140,8 @@ static bool read_rounding(struct lint_data *data, const struct glint_part_info *
 bool lint_data_read(struct lint_data *data, struct glint_capture *capture, struct glint_error *err) {
     static const char *const depth[] = {"depth.Z"}, *const normal[] = {"normal.X", "normal.Y", "normal.Z"},
                              *const motion[] = {"motion.X", "motion.Y"}, *const color[] = {"R", "G", "B"},
-                             *const material[] = {"material.roughness", "material.metalness", "material.specular"};
+                             *const material[] = {"material.roughness", "material.metalness", "material.specular",
+                                                  "albedo.R",           "albedo.G",           "albedo.B"};
     const struct glint_part_info *gbuffer = glint_capture_find(capture, "gbuffer"),
                                  *lit = glint_capture_find(capture, "lit"),
                                  *scene = glint_capture_find(capture, "scene");
@@ -156,7 +157,7 @@ bool lint_data_read(struct lint_data *data, struct glint_capture *capture, struc
     if (scene) data->scene_encoding = scene->encodings.color;
     return (data->depth = read_floats(capture, gbuffer, depth, 1, err)) &&
            (data->normal = read_floats(capture, gbuffer, normal, 3, err)) &&
-           (data->material = read_floats(capture, gbuffer, material, 3, err)) &&
+           (data->material = read_floats(capture, gbuffer, material, LINT_MATERIAL, err)) &&
            (!data->has_motion || (data->motion = read_floats(capture, gbuffer, motion, 2, err))) &&
            (data->lit = read_floats(capture, lit, color, 3, err)) &&
            (!scene || (data->scene = read_floats(capture, scene, color, 3, err))) && read_sky(data, capture, err) &&

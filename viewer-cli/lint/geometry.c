@@ -233,16 +233,21 @@ static bool normal_of(const struct lint_reading *reading, const struct lint_view
     return true;
 }
 
+static const float *stored_normal(const struct lint_data *data, const struct lint_reading *reading, size_t pixel) {
+    const size_t y = pixel / data->width, row = reading->normal_upside_down ? data->height - 1 - y : y;
+    return data->normal + 3 * (row * data->width + pixel % data->width);
+}
+
 bool lint_normal(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
                  size_t pixel, double out[3]) {
     const bool two = reading->normal >= GLINT_NORMAL_OCTAHEDRAL; /* without Z */
-    const float *v = &data->normal[3 * pixel];
+    const float *v = stored_normal(data, reading, pixel);
     return two == data->two_channels && normal_of(reading, view, (const double[]){v[0], v[1], v[2]}, out);
 }
 
 double lint_normal_rounding(const struct lint_data *data, const struct lint_reading *reading,
                             const struct lint_view *view, size_t pixel, const double normal[3]) {
-    const float *v = &data->normal[3 * pixel];
+    const float *v = stored_normal(data, reading, pixel);
     const double h = data->normal_half_step;
     double least = 1, n[3];
     for (int corner = 0; corner < 8; corner++) {

@@ -1,6 +1,8 @@
 /* Checks what lit holds: diffuse light of this frame, and nothing else. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include "glint/sort.h"
 #include "lint.h"
@@ -16,22 +18,93 @@ static double median(double *values, size_t count) {
     return count ? values[count / 2] : 0;
 }
 
-/* Metal has no diffuse reflection. False when too few samples are metal. */
+struct metal {
+    const float *material, *lit;
+    double reflected[3]; /* unit direction of the mirror ray */
+    bool glows;
+};
+
+static bool same_material(const struct metal *a, const struct metal *b) {
+    for (int k = 0; k < LINT_MATERIAL; k++)
+        if (fabsf(a->material[k] - b->material[k]) > 1.0f / 128) return false;
+    return true;
+}
+
+static int by_light(const void *a, const void *b) {
+    const double x = lint_luminance((*(const struct metal *const *)a)->lit),
+                 y = lint_luminance((*(const struct metal *const *)b)->lit);
+    return (x > y) - (x < y);
+}
+
+/* Whether this material emits its light: nine in ten of its samples have the same colour, within 2 %, although their mirror rays differ by more
+   than 20°. What they reflect would differ, too. */
+static bool emits(struct metal **of, size_t count) {
+    size_t same = 0;
+    double mean[3] = {0}, length = 0, least = 1;
+    if (count < 16) return false;
+    qsort(of, count, sizeof *of, by_light);
+    const float *middle = of[count / 2]->lit;
+    for (size_t i = 0; i < count; i++) {
+        bool alike = true;
+        for (int k = 0; k < 3; k++) alike &= fabsf(of[i]->lit[k] - middle[k]) <= 0.01f * (of[i]->lit[k] + middle[k]);
+        same += alike;
+        for (int k = 0; k < 3; k++) mean[k] += of[i]->reflected[k];
+    }
+    for (int k = 0; k < 3; k++) length += mean[k] * mean[k];
+    for (size_t i = 0; i < count; i++) {
+        const double *d = of[i]->reflected;
+        least = fmin(least, (d[0] * mean[0] + d[1] * mean[1] + d[2] * mean[2]) / sqrt(length));
+    }
+    return 10 * same >= 9 * count && least < 0.985;
+}
+
+static void find_emitters(struct metal *metals, size_t count) {
+    static struct metal *of[LINT_SAMPLES];
+    static bool seen[LINT_SAMPLES];
+    memset(seen, 0, sizeof seen);
+    for (size_t i = 0; i < count; i++) {
+        size_t alike = 0;
+        for (size_t k = i; k < count && !seen[i]; k++)
+            if (!seen[k] && same_material(&metals[i], &metals[k])) of[alike++] = &metals[k];
+        for (size_t k = 0; k < alike; k++) seen[of[k] - metals] = true;
+        const bool glow = emits(of, alike);
+        for (size_t k = 0; k < alike; k++) of[k]->glows = glow;
+    }
+}
+
+static bool metal_at(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
+                     uint32_t pixel, struct metal *out) {
+    double p[3], n[3], along = 0, length = 0;
+    if (!(data->material[LINT_MATERIAL * (size_t)pixel + 1] > 0.95f) || !lint_place(data, reading, view, pixel, p) ||
+        !lint_normal(data, reading, view, pixel, n))
+        return false;
+    *out = (struct metal){data->material + LINT_MATERIAL * (size_t)pixel, lint_lit(data, reading, pixel), {0}, false};
+    for (int k = 0; k < 3; k++) {
+        p[k] -= view->position[k];
+        along += p[k] * n[k];
+        length += p[k] * p[k];
+    }
+    for (int k = 0; k < 3; k++) out->reflected[k] = (p[k] - 2 * along * n[k]) / sqrt(length);
+    return true;
+}
+
+/* Metal has no diffuse reflection. What it emits does not count. False when too few samples are metal. */
 static bool check_metals(const struct lint_data *data, const struct lint_reading *reading, const struct lint_view *view,
                          struct lint_findings *findings) {
     static double others[LINT_SAMPLES];
-    size_t metals = 0, lit = 0, count = 0;
+    static struct metal found[LINT_SAMPLES];
+    size_t metals = 0, lit = 0, count = 0, all = 0;
     for (size_t i = 0; i < data->sample_count; i++) {
         const size_t pixel = data->samples[i];
         if (!is_surface(data, reading, view, (uint32_t)pixel)) continue;
-        if (!(data->material[3 * pixel + 1] > 0.95f)) others[count++] = lint_luminance(data->lit + 3 * pixel);
+        if (metal_at(data, reading, view, (uint32_t)pixel, &found[all])) all++;
+        else others[count++] = lint_luminance(lint_lit(data, reading, (uint32_t)pixel));
     }
     const double typical = median(others, count);
-    for (size_t i = 0; i < data->sample_count; i++) {
-        const size_t pixel = data->samples[i];
-        if (!is_surface(data, reading, view, (uint32_t)pixel) || !(data->material[3 * pixel + 1] > 0.95f)) continue;
-        metals++;
-        lit += lint_luminance(data->lit + 3 * pixel) > 0.02 * typical;
+    find_emitters(found, all);
+    for (size_t i = 0; i < all; i++) {
+        metals += !found[i].glows;
+        lit += !found[i].glows && lint_luminance(found[i].lit) > 0.02 * typical;
     }
     if (metals < 50) return false;
     if (lit < metals / 2) return true;
@@ -43,7 +116,7 @@ static bool check_metals(const struct lint_data *data, const struct lint_reading
 
 /* Whether the reflectance at normal incidence is at least 2 %. */
 static bool reflects(const struct lint_data *data, size_t pixel) {
-    const float *m = data->material + 3 * pixel;
+    const float *m = data->material + LINT_MATERIAL * pixel;
     return m[1] > 0.5f || !data->has_specular || m[2] >= 0.25f;
 }
 
@@ -81,7 +154,8 @@ static void check_specular(const struct lint_data *data, const struct lint_readi
                  "lit and scene have the same colour at %zu of %zu samples of surfaces that reflect", same.agree,
                  same.count);
     } else if (!check_metals(data, reading, view, findings) && same.count < LINT_ENOUGH)
-        lint_undecided(findings, "whether lit contains specular light: too few samples are metal, and %s",
+        lint_undecided(findings,
+                       "whether lit contains specular light: too few samples are metal that emits nothing, and %s",
                        data->scene ? "too few can be compared with scene" : "there is no scene to compare with");
 }
 

@@ -8,7 +8,7 @@
 
 #include "glint/capture.h"
 
-enum { LINT_CUBES = 12, LINT_SAMPLES = 4096, LINT_FINDINGS = 32 };
+enum { LINT_CUBES = 12, LINT_SAMPLES = 4096, LINT_FINDINGS = 32, LINT_MATERIAL = 6 /* channels */ };
 
 struct lint_cube {
     char name[64];
@@ -37,7 +37,7 @@ struct lint_data {
     bool has_motion, has_specular;
     uint32_t width, height;
     float *depth, *normal /* X Y Z */, *motion /* X Y */, *lit /* R G B */,
-        *material /* roughness metalness specular */, *scene /* R G B; NULL where the capture has none */;
+        *material /* roughness metalness specular albedo.R G B */, *scene /* R G B; NULL where the capture has none */;
     /* The previous frame; NULL where the capture does not contain it. */
     float *before_depth, *before_lit;
     enum glint_depth_encoding before_encoding;
@@ -65,6 +65,7 @@ struct lint_reading {
     enum glint_normal_space space;
     double normal_sign[3];
     int normal_axis[3]; /* which stored channel is X, Y, Z */
+    bool normal_upside_down;
     enum glint_motion_encoding motion;
     double motion_sign[2];
     bool motion_unjittered; /* motion without the change of jitter */
@@ -153,9 +154,16 @@ struct lint_tally {
 };
 void lint_count(struct lint_tally *tally, bool agrees);
 extern const char *const lint_measure_names[];
+/* Directions that a surface may face, 22° wide. */
+enum { LINT_DIRECTIONS = 6 * 4 * 4 };
+struct lint_facing {
+    unsigned char direction; /* of the facet */
+    signed char agrees;      /* 1: yes, -1: no, 0: not compared */
+};
 struct lint_agreement {
     double share[LINT_MEASURES]; /* of the compared samples */
     size_t count[LINT_MEASURES];
+    struct lint_facing facing[LINT_SAMPLES]; /* LINT_FACETS, sample by sample */
 };
 enum { LINT_ENOUGH = 200 };
 /* Takes the measures whose bits are set in `which`, and copies the others from `known`. NULL for `known` takes all. */

@@ -90,20 +90,31 @@ enum lint_facet lint_facet_of(const struct lint_data *data, const struct lint_re
                                                                                          : LINT_UNSURE_FACET;
 }
 
+/* Each face of a cube has four by four. */
+static unsigned char direction_of(const double normal[3]) {
+    double u, v;
+    const int face = cube_face_of(normal, &u, &v);
+    return (unsigned char)(16 * face + 4 * (int)fmin(4 * v, 3) + (int)fmin(4 * u, 3));
+}
+
 /* Samples whose facet may be rotated beyond the tolerance by rounding of depth alone are not compared. The tolerance of a normal grows
    by the angle that its own rounding may cause, which is large for 8-bit X and Y at grazing angles (FORMAT.md, Precision); beyond 15
    degrees a match would prove nothing. */
-static struct lint_tally compare_facets(const struct lint_data *data, const struct lint_reading *reading) {
+static struct lint_tally compare_facets(const struct lint_data *data, const struct lint_reading *reading,
+                                        struct lint_facing facing[LINT_SAMPLES]) {
     const struct lint_eyes eyes = lint_eyes_of(data, reading);
     struct lint_tally tally = {0, 0};
     for (size_t i = 0; i < data->sample_count; i++) {
         const uint32_t pixel = data->samples[i];
         double f[3], n[3];
+        facing[i] = (struct lint_facing){0, 0};
         if (lint_facet_of(data, reading, &eyes.now, pixel, f) != LINT_FACET) continue;
         if (!lint_normal(data, reading, &eyes.now, pixel, n)) continue;
         const double rounding = acos(lint_normal_rounding(data, reading, &eyes.now, pixel, n));
         if (!(rounding < 0.26)) continue;
-        lint_count(&tally, dot(f, n) > cos(acos(SAME_DIRECTION) + rounding));
+        const bool agrees = dot(f, n) > cos(acos(SAME_DIRECTION) + rounding);
+        lint_count(&tally, agrees);
+        facing[i] = (struct lint_facing){direction_of(f), agrees ? 1 : -1};
     }
     return tally;
 }
@@ -229,11 +240,13 @@ static struct lint_tally compare_colors(const struct lint_data *data, const stru
 struct lint_agreement lint_agree(const struct lint_data *data, const struct lint_reading *reading,
                                  const struct lint_agreement *known, unsigned which) {
     static struct lint_tally (*const take[])(const struct lint_data *, const struct lint_reading *) = {
-        compare_facets, compare_cubemaps, compare_motion, compare_colors, lint_before, lint_light, lint_sky};
-    struct lint_agreement a = known ? *known : (struct lint_agreement){{0}, {0}};
+        NULL, compare_cubemaps, compare_motion, compare_colors, lint_before, lint_light, lint_sky};
+    struct lint_agreement a = {{0}, {0}, {{0, 0}}};
+    if (known) a = *known;
     for (int m = 0; m < LINT_MEASURES; m++) {
         if (known && !(which & (1u << m))) continue;
-        const struct lint_tally tally = take[m](data, reading);
+        const struct lint_tally tally =
+            m == LINT_FACETS ? compare_facets(data, reading, a.facing) : take[m](data, reading);
         a.count[m] = tally.count;
         a.share[m] = tally.count ? (double)tally.agree / (double)tally.count : 0;
     }

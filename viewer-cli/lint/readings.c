@@ -88,8 +88,36 @@ double lint_worth(const struct lint_agreement *a, const struct lint_agreement *o
     return a->share[m] * fmin(1, 2 * (double)a->count[m] / reference);
 }
 
+/* The probability that a fair coin shows heads at least this often. */
+static double tail(size_t heads, size_t throws) {
+    double probability = pow(0.5, (double)throws), sum = 0;
+    for (size_t k = 0; k <= throws; k++) {
+        if (k >= heads) sum += probability;
+        probability *= (double)(throws - k) / (double)(k + 1);
+    }
+    return sum;
+}
+
+/* Whether the second reading of normals is right where the first is not, by a sign test of pairs: what counts is each sample that matches under
+   one of them alone. The samples of surfaces that face one way are no independent draws, since a reading turns all of their normals alike: a
+   wrong one may match there, as it does on foliage with the ground's normals. So each direction throws a coin, by the sum of its samples. Where
+   the first reading is right, the second is ahead in half of the directions at most. All rows together err once in a hundred captures. */
+static bool is_ahead(const struct lint_agreement *from, const struct lint_agreement *to) {
+    int ahead[LINT_DIRECTIONS] = {0};
+    size_t better = 0, decided = 0;
+    for (size_t i = 0; i < LINT_SAMPLES; i++) {
+        const struct lint_facing first = from->facing[i], second = to->facing[i];
+        if (first.agrees && second.agrees) ahead[first.direction] += (second.agrees - first.agrees) / 2;
+    }
+    for (size_t d = 0; d < LINT_DIRECTIONS; d++) {
+        better += ahead[d] > 0;
+        decided += ahead[d] != 0;
+    }
+    return tail(better, decided) < 0.01 / ROWS;
+}
+
 /* By how much the second agreement is better: the sum over all measures. -1 when any measure gets worse. 0 when no measure gains
-   much: at least one must halve its mismatches or more than double its matches, by more than a few samples. */
+   much: at least one must halve its mismatches or more than double its matches, by more than a few samples, or be proven by pairs. */
 static double gain(const struct lint_agreement *from, const struct lint_agreement *to, int *most) {
     double sum = 0, largest = 0;
     for (int m = 0; m < LINT_MEASURES; m++) {
@@ -98,7 +126,8 @@ static double gain(const struct lint_agreement *from, const struct lint_agreemen
         if (difference < -0.02) return -1;
         sum += difference;
         if (difference <= largest || difference < 0.015) continue;
-        if (1 - after > 0.5 * (1 - before) && after < 2.5 * before) continue;
+        if (1 - after > 0.5 * (1 - before) && after < 2.5 * before && !(m == LINT_FACETS && is_ahead(from, to)))
+            continue;
         largest = difference;
         *most = m;
     }

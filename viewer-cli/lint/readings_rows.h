@@ -31,6 +31,7 @@ READING("normal.negated", negate_axes(r->normal_sign, 7), "normals point into th
 READING("normal.x", negate_axes(r->normal_sign, 1), "the X of normals has the wrong sign", "", "")
 READING("normal.y", negate_axes(r->normal_sign, 2), "the Y of normals has the wrong sign", "", "")
 READING("normal.z", negate_axes(r->normal_sign, 4), "the Z of normals has the wrong sign", "", "")
+READING("normal.upside_down", r->normal_upside_down = !r->normal_upside_down, "normals are upside down; depth is not", "", "")
 READING("normal.yz", exchange(r->normal_axis, 1, 2), "Y and Z of normals are swapped", "", "")
 READING("normal.xz", exchange(r->normal_axis, 0, 2), "X and Z of normals are swapped", "", "")
 READING("normal.xy", exchange(r->normal_axis, 0, 1), "X and Y of normals are swapped", "", "")

@@ -73,7 +73,8 @@ const struct glint_exr_part_info *glint_exr_part(const struct glint_exr *exr, si
 const struct glint_exr_attribute *glint_exr_attribute(const struct glint_exr_part_info *part, const char *name);
 /* Reads channels interleaved: out[(y·width + x)·count + i] is channels[i], and a channel name of NULL yields 0. `type` is GLINT_F16,
    GLINT_F32, GLINT_U8, GLINT_U16 or GLINT_U32. Half and float convert into each other, and keep every bit if no conversion is
-   needed. Conversions between float and integer types are errors, as is a value that does not fit the integer type. */
+   needed. Conversions between float and integer types are errors, as is a value that does not fit the integer type. Of a tiled part it reads the
+   largest level, as GLINT_F16, GLINT_F32 or GLINT_U32. */
 bool glint_exr_read(struct glint_exr *exr, size_t part, const char *const *channels, size_t count, enum glint_type type,
                     void *out, uint32_t threads, struct glint_error *err);
 

@@ -23,12 +23,15 @@ struct glint_pack_options {
     /* Called with what was understood, in the order in which it was; `key` is the way to it ("frame.clip_y"). May be NULL. */
     void (*note)(void *user, enum glint_pack_note kind, const char *key, const char *text);
     void *note_user;
+    /* Called with errors of the manifest beyond the first, which glint_pack returns: "FILE:LINE: KEY: what is wrong". May be NULL. */
+    void (*fault)(void *user, const char *text);
+    void *fault_user;
     glint_progress progress; /* may be NULL */
     void *progress_user;
 };
 
 /* Writes the capture that the manifest describes; the file appears under its name only when it is complete. `out` NULL: everything is
-   read and checked, and nothing is written. Errors name the manifest's line and key. */
+   read and checked, and nothing is written. Errors name the manifest's line and key; up to twenty of one manifest are told together. */
 bool glint_pack(const char *manifest, const char *out, const struct glint_pack_options *options,
                 struct glint_error *err);
 

@@ -354,7 +354,6 @@ Result march(vec3 origin, vec3 direction, float start_m, uint best) {
 
 void main() {
     load_active_centers();
-    look_for_sky();
     ivec2 pixel = tile_texel(reduction(frame.size));
     if (any(greaterThanEqual(pixel, imageSize(travelled)))) return;
     float depth_m = texelFetch(depth_half, pixel, 0).x;

@@ -40,7 +40,6 @@ bool has_ray(ivec2 pixel, out float depth_m, out vec4 normal) {
 
 void main() {
     load_active_centers();
-    look_for_sky();
     ivec2 pixel = tile_texel(reduction(frame.size));
     if (any(greaterThanEqual(pixel, imageSize(travelled)))) return;
     float depth_m, start_m = texelFetch(screen_travelled, pixel, 0).x;

@@ -49,7 +49,6 @@ Result traced(ivec2 pixel, float depth_m, vec3 normal) {
 
 void main() {
     load_active_centers();
-    look_for_sky();
     ivec2 pixel = tile_texel(reduction(frame.size));
     if (any(greaterThanEqual(pixel, imageSize(travelled)))) return;
     float depth_m;

@@ -185,13 +185,17 @@ vec4 cubemap_lookup(Ray ray, uint place) {
     return vec4(color.rgb, 1.0);
 }
 
+// Fog covers what is behind it, or adds its own colour in front of surfaces; the sky's image shows the sky as it is seen through such fog.
 vec3 through_fog(vec3 color, Ray ray) {
+    bool adds = frame.material.y != 0.0;
+    if (adds && ray.endless) return color;
     float height = frame.fog_height.x + dot(ray.position, frame.up.xyz);
     float depth = fog_optical_depth(frame.fog_color.w, height, dot(ray.direction, frame.up.xyz), frame.fog_height.y,
                                     ray.travelled_m);
-    vec3 target = fog_target == fog_target_sky && frame.counts.w > 0u ? sky_color(ray) : frame.fog_color.rgb;
     float covered = fog_factor(depth);
-    return frame.material.y != 0.0 ? color + covered * target : mix(color, target, covered);
+    if (adds) return color + covered * frame.fog_color.rgb;
+    vec3 target = fog_target == fog_target_sky && frame.counts.w > 0u ? sky_color(ray) : frame.fog_color.rgb;
+    return mix(color, target, covered);
 }
 
 // finished: it ended on screen; place: otherwise the cube map in which it ended, or none. a: 0 if there is no source.

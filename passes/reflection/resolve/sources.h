@@ -21,6 +21,6 @@ SPEC(bool,  check_depth, false, 0, 1, "1", "glint; the Mafia III talk only fetch
 SPEC(bool,  cone_cubemap, true, 0, 1, "1", "Mafia III talk, Pre-filtering cube-maps", "sample cubemap_color_mips and sky_mips as wide as the cone, where the pipeline has them; off: along the ray only")
 SPEC(bool,  cone_screen,  true, 0, 1, "1", "Mafia III talk, Current approach", "sample lit_mips as wide as the cone, where the pipeline has them; off: along the ray only")
 SPEC(bool,  engine_probe, true, 0, 1, "1", "glint", "rays that nothing continues look their colour up in the probe of the capture, if it has one: about the surface's own normal, in the level for its roughness; off: in the sky")
-CHOICE2(fog_target, sky, color, sky, "Mafia III talk, Color resolve shaders", "fog fades to the sky in the ray's direction, or to the fog's own colour; the latter in a capture without a sky")
+CHOICE2(fog_target, sky, color, sky, "Mafia III talk, Color resolve shaders", "fog fades to the sky in the ray's direction, or to the fog's own colour; the latter in a capture without a sky, and of fog that adds")
 PUSH(float, depth_tolerance, 0.05, 0.0, 10.0, "1", "glint", "max relative depth difference that joint and check_depth accept")
 PUSH(float, texel_scale, 3.5, 0.25, 64.0, "texels", "Mafia III talk, Pre-filtering cube-maps", "radius of the cone that a level represents; must equal that of cubemap_mips, lit_mips and sky_mips")

@@ -23,7 +23,6 @@ Result trace(ivec2 texel, float depth_m, vec4 normal, float start_m) {
 
 void main() {
     load_active_centers();
-    look_for_sky();
     ivec2 texel = tile_texel(reduction(frame.size));
     if (any(greaterThanEqual(texel, imageSize(transparent_travelled)))) return;
     float depth_m = texelFetch(transparent_depth_half, texel, 0).x;

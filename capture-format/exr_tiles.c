@@ -1,0 +1,75 @@
+/* Reads the full-size level of a tiled part, tile by tile, through OpenEXRCore. Captures hold scanlines; other files need not. */
+#include <string.h>
+
+#include "exr_internal.h"
+
+static bool tile_fail(const struct glint_exr *exr, size_t p, const int at[2], enum glint_code code, const char *what,
+                      struct glint_error *err) {
+    return glint_fail(err, code, "%s: part %s: tile %d, %d: %s", exr->path, exr->parts[p].info.name, at[0], at[1],
+                      what);
+}
+
+static exr_pixel_type_t pixel_type(enum glint_type type) {
+    return type == GLINT_F16 ? EXR_PIXEL_HALF : type == GLINT_F32 ? EXR_PIXEL_FLOAT : EXR_PIXEL_UINT;
+}
+
+/* Tells the pipeline where the texels of the tile's channels go: x, y is its first one. */
+static void aim(const struct glint_exr_part_info *part, const struct glint_exr_wanted *wanted, uint32_t x, uint32_t y,
+                exr_decode_pipeline_t *pipe) {
+    const size_t bytes = wanted->type == GLINT_F16 ? 2 : 4, step = wanted->count * bytes;
+    for (int c = 0; c < pipe->channel_count; c++)
+        for (size_t i = 0; i < wanted->count; i++) {
+            exr_coding_channel_info_t *channel = &pipe->channels[c];
+            if (!wanted->names[i] || strcmp(wanted->names[i], channel->channel_name) != 0) continue;
+            channel->decode_to_ptr = wanted->out + ((size_t)y * part->width + x) * step + i * bytes;
+            channel->user_bytes_per_element = (int16_t)bytes;
+            channel->user_data_type = (uint16_t)pixel_type(wanted->type);
+            channel->user_pixel_stride = (int32_t)step;
+            channel->user_line_stride = (int32_t)(step * part->width);
+        }
+}
+
+static bool read_tile(struct glint_exr *exr, size_t p, const struct glint_exr_wanted *wanted, const int at[2],
+                      const uint32_t size[2], struct glint_error *err) {
+    const struct glint_exr_part_info *part = &exr->parts[p].info;
+    const uint32_t x = (uint32_t)at[0] * size[0], y = (uint32_t)at[1] * size[1];
+    const uint32_t width = part->width - x < size[0] ? part->width - x : size[0],
+                   height = part->height - y < size[1] ? part->height - y : size[1];
+    exr_chunk_info_t chunk;
+    if (exr_read_tile_chunk_info(exr->context, (int)p, at[0], at[1], 0, 0, &chunk))
+        return tile_fail(exr, p, at, GLINT_ERROR_FORMAT, "its offset in the file is missing or damaged", err);
+    const uint64_t bytes = (uint64_t)width * height * (exr->parts[p].line_bytes / part->width);
+    if (chunk.width != (int32_t)width || chunk.height != (int32_t)height || chunk.unpacked_size != bytes ||
+        chunk.packed_size > bytes || chunk.packed_size == 0)
+        return tile_fail(exr, p, at, GLINT_ERROR_FORMAT, "its size does not fit the part", err);
+    if (bytes > exr->limits.memory_bytes / GLINT_CHUNK_SHARE / 6)
+        return tile_fail(exr, p, at, GLINT_ERROR_LIMIT, "it is larger than the limit of memory allows", err);
+    exr_decode_pipeline_t pipe = EXR_DECODE_PIPELINE_INITIALIZER;
+    if (exr_decoding_initialize(exr->context, (int)p, &chunk, &pipe))
+        return tile_fail(exr, p, at, GLINT_ERROR_MEMORY, "out of memory", err);
+    aim(part, wanted, x, y, &pipe);
+    const bool ok = exr_decoding_choose_default_routines(exr->context, (int)p, &pipe) == EXR_ERR_SUCCESS &&
+                    exr_decoding_run(exr->context, (int)p, &pipe) == EXR_ERR_SUCCESS;
+    exr_decoding_destroy(exr->context, &pipe);
+    return ok || tile_fail(exr, p, at, GLINT_ERROR_FORMAT, "damaged pixels", err);
+}
+
+bool glint_exr_read_tiles(struct glint_exr *exr, size_t p, const struct glint_exr_wanted *wanted,
+                          struct glint_error *err) {
+    const struct glint_exr_part_file *part = &exr->parts[p];
+    uint32_t size[2];
+    exr_tile_level_mode_t levels;
+    exr_tile_round_mode_t rounding;
+    if (exr_get_tile_descriptor(exr->context, (int)p, &size[0], &size[1], &levels, &rounding) || !size[0] || !size[1])
+        return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part %s: header is not complete", exr->path, part->info.name);
+    for (size_t i = 0; i < wanted->count; i++)
+        if (wanted->names[i] && glint_exr_channel(&part->info, wanted->names[i]) < 0)
+            return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part %s: %s missing", exr->path, part->info.name,
+                              wanted->names[i]);
+    memset(wanted->out, 0,
+           (size_t)part->info.width * part->info.height * wanted->count * (wanted->type == GLINT_F16 ? 2 : 4));
+    for (int y = 0; (uint64_t)y * size[1] < part->info.height; y++)
+        for (int x = 0; (uint64_t)x * size[0] < part->info.width; x++)
+            if (!read_tile(exr, p, wanted, (const int[2]){x, y}, size, err)) return false;
+    return true;
+}
