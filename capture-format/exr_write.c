@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "complete.h"
 #include "exr_internal.h"
 #include "threads.h"
 
@@ -309,37 +310,18 @@ bool glint_exr_write_file(const char *path, const struct glint_exr_part *parts, 
                           bool durable, struct glint_error *err) {
     struct glint_arena arena = {0};
     struct job job = {.path = path, .stream = {.file = GLINT_NO_FILE, .path = path}};
+    struct complete_file out;
     size_t chunk_bytes = 0;
-    bool ok = false;
-    const size_t length = strlen(path) + 32;
-    char *temporary = glint_arena_take(&arena, length);
+    if (!count) return glint_fail(err, GLINT_ERROR_USAGE, "%s: expected at least one part, found none", path);
     glint_mutex_init(&job.lock);
     glint_condition_init(&job.turn);
-    if (!temporary) {
-        glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
-        goto done;
+    bool ok = plan_chunks(&job, parts, count, &arena, &chunk_bytes, err) && complete_open(&out, path, err);
+    if (ok) {
+        job.stream.file = out.file;
+        ok = write_file(&job, chunk_bytes, threads);
+        if (!ok && err) *err = job.first;
+        ok = complete_close(&out, ok, durable, err);
     }
-    if (!count) {
-        glint_fail(err, GLINT_ERROR_USAGE, "%s: expected at least one part, found none", path);
-        goto done;
-    }
-    if (!plan_chunks(&job, parts, count, &arena, &chunk_bytes, err)) goto done;
-    snprintf(temporary, length, "%s.tmp-%ld", path, glint_process_id());
-    job.stream.file = glint_file_create(temporary);
-    if (job.stream.file == GLINT_NO_FILE) {
-        glint_fail(err, GLINT_ERROR_IO, "%s: %s", temporary, strerror(errno));
-        goto done;
-    }
-    ok = write_file(&job, chunk_bytes, threads);
-    if (!ok && err) *err = job.first;
-    if (ok && durable && !glint_file_sync(job.stream.file))
-        ok = glint_fail(err, GLINT_ERROR_IO, "%s: %s", temporary, strerror(errno));
-    if (!glint_file_close(job.stream.file) && ok)
-        ok = glint_fail(err, GLINT_ERROR_IO, "%s: %s", temporary, strerror(errno));
-    if (ok && !glint_path_replace(temporary, path))
-        ok = glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
-    if (!ok) glint_path_remove(temporary);
-done:
     glint_condition_finish(&job.turn);
     glint_mutex_finish(&job.lock);
     glint_arena_finish(&arena);

@@ -81,7 +81,12 @@ static const json_t *find_chart(const json_t *document, uint32_t number, uint32_
 static bool write_chart(const struct arguments *a, const json_t *document, struct glint_error *err) {
     uint32_t count = 0;
     const json_t *chart = find_chart(document, a->chart, &count);
-    if (chart) return page_chart_write(a->out, chart, err);
+    if (chart) {
+        struct page_charts charts = {0};
+        const bool ok = page_chart_write(&charts, a->out, chart, err);
+        page_charts_finish(&charts);
+        return ok;
+    }
     return glint_fail(err, GLINT_ERROR_USAGE, "%s: no chart %u: the page has %u", a->folders.items[0], a->chart, count);
 }
 

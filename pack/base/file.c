@@ -9,6 +9,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "complete.h"
+
 static bool read_all(int file, const char *path, struct bytes *bytes, struct glint_error *err) {
     size_t done = 0;
     while (done < bytes->size) {
@@ -65,20 +67,11 @@ bool file_same(const char *a, const char *b) {
 }
 
 bool file_write(const char *path, const void *data, size_t size, struct glint_error *err) {
-    const size_t length = strlen(path) + 32;
-    char *temporary = malloc(length);
-    if (!temporary) return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
-    snprintf(temporary, length, "%s.tmp-%ld", path, (long)getpid());
-    FILE *out = fopen(temporary, "wb");
-    bool ok = out && (!size || fwrite(data, 1, size, out) == size);
-    const int reason = errno;
-    ok = out && fclose(out) == 0 && ok && rename(temporary, path) == 0;
-    if (!ok) {
-        glint_fail(err, GLINT_ERROR_IO, "%s: cannot be written: %s", path, strerror(reason ? reason : errno));
-        if (out) unlink(temporary);
-    }
-    free(temporary);
-    return ok;
+    struct complete_file out;
+    if (!complete_open(&out, path, err)) return false;
+    const bool ok = glint_file_write(out.file, data, size, 0);
+    if (!ok) glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
+    return complete_close(&out, ok, false, err);
 }
 
 bool file_equal(const char *a, const char *b) {
@@ -97,22 +90,27 @@ bool file_equal(const char *a, const char *b) {
     return same;
 }
 
-bool file_copy(const char *from, const char *to, struct glint_error *err) {
-    const size_t length = strlen(to) + 32, piece = 65536;
-    char *temporary = malloc(length), *bytes = malloc(piece);
-    if (temporary) snprintf(temporary, length, "%s.tmp-%ld", to, (long)getpid());
-    FILE *in = fopen(from, "rb"), *out = in && temporary ? fopen(temporary, "wb") : NULL;
-    bool ok = in && out && bytes;
-    for (size_t got = piece; ok && got == piece;) {
-        got = fread(bytes, 1, piece, in);
-        ok = fwrite(bytes, 1, got, out) == got && !ferror(in);
-    }
-    const bool closed = !out || fclose(out) == 0;
-    ok = ok && closed && rename(temporary, to) == 0;
-    if (!ok) glint_fail(err, GLINT_ERROR_IO, "%s: cannot be copied to %s: %s", from, to, strerror(errno));
-    if (!ok && out) unlink(temporary);
-    if (in) fclose(in);
-    free(temporary);
+static bool copy_all(glint_file from, glint_file to) {
+    static const size_t piece = 65536;
+    char *bytes = malloc(piece);
+    bool ok = bytes != NULL;
+    uint64_t done = 0;
+    for (size_t got = piece; ok && got == piece; done += got)
+        ok = glint_file_read(from, bytes, piece, done, &got) && glint_file_write(to, bytes, got, done);
     free(bytes);
+    return ok;
+}
+
+bool file_copy(const char *from, const char *to, struct glint_error *err) {
+    struct complete_file out;
+    const glint_file in = glint_file_open(from);
+    if (in == GLINT_NO_FILE) return glint_fail(err, GLINT_ERROR_IO, "%s: %s", from, strerror(errno));
+    bool ok = complete_open(&out, to, err);
+    if (ok) {
+        ok = copy_all(in, out.file);
+        if (!ok) glint_fail(err, GLINT_ERROR_IO, "%s: cannot be copied to %s: %s", from, to, strerror(errno));
+        ok = complete_close(&out, ok, false, err);
+    }
+    glint_file_close(in);
     return ok;
 }

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "complete.h"
 #include "glint/replay.h"
 
 enum { PATH_SIZE = 4096 };
@@ -30,15 +31,14 @@ bool glint_run_remove(const char *folder, struct glint_error *err) {
 }
 
 bool run_write_json(const char *folder, const json_t *root, struct glint_error *err) {
-    char path[PATH_SIZE], temporary[PATH_SIZE];
-    snprintf(path, sizeof path, "%s/run.json", folder);
-    if (snprintf(temporary, sizeof temporary, "%s/run.json.tmp-%ld", folder, (long)getpid()) >= (int)sizeof temporary)
+    char path[PATH_SIZE];
+    struct complete_file out;
+    if (snprintf(path, sizeof path, "%s/run.json", folder) >= (int)sizeof path)
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
-    if (json_dump_file(root, temporary, JSON_INDENT(2) | JSON_REAL_PRECISION(9)) == 0 && rename(temporary, path) == 0)
-        return true;
-    glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
-    unlink(temporary);
-    return false;
+    if (!complete_open(&out, path, err)) return false;
+    const bool ok = json_dumpfd(root, (int)out.file, JSON_INDENT(2) | JSON_REAL_PRECISION(9)) == 0;
+    if (!ok) glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
+    return complete_close(&out, ok, false, err);
 }
 
 bool glint_run_write_json(const char *folder, const char *text, struct glint_error *err) {

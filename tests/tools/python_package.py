@@ -43,7 +43,7 @@ class Tests:
     def __init__(self):
         self.folder = tempfile.TemporaryDirectory()
         for name, options in (("plain", ()), ("encoded", ("--encoding", ENCODED, "--offset=1000,2000,3000"))):
-            subprocess.run([GLINT, "sample", "lake", "-o", self.path(f"{name}.exr"), "--size", "32x18", "--cube-size", "8", "--planar-size", "16x8",
+            subprocess.run([GLINT, "sample", "lake", "--light=4", "-o", self.path(f"{name}.exr"), "--size", "32x18", "--cube-size", "8", "--planar-size", "16x8",
                             "--truth", "1", "--foreground", *options], check=True)
         self.gbuffer = {"depth.Z": np.full((4, 6), 0.5, "f4"), "normal": np.broadcast_to(np.float32([0, 1, 0]), (4, 6, 3)),
                         "material.roughness": np.full((4, 6), 51, "u1")}

@@ -17,7 +17,7 @@ WRITERS = [
     ("png", "view run -o"), ("png", "diff run other -o"), ("png", "diff run other --side-by-side"), ("png", "diff run other --flicker"),
     ("html", "diff run other --html"), ("svg", "probe s.exr 20,20 -o"), ("html", "report run -o"),
     ("exr", "set s.exr frame=7 -o"), ("exr", "crop s.exr 0,0,32,16 -o"), ("exr", "strip s.exr --drop truth -o"),
-    ("exr", "pack extracted/manifest.json -o"), ("exr", "sample room --size 32x18 --cube-size 8 -o"),
+    ("exr", "pack extracted/manifest.json -o"), ("exr", "sample room --light 4 --size 32x18 --cube-size 8 -o"),
     ("json", "tune s.exr --vary screen_trace.cells --tries 2 --repeat 0 --rays 1 --budget-fetches 200% --folder tuned -o"),
 ]
 
@@ -26,7 +26,7 @@ class Tests:
     def __init__(self, folder):
         self.folder = folder
         os.chdir(folder)
-        self.call("sample room --size 48x27 --cube-size 8 --truth 1 -o s.exr")
+        self.call("sample room --light 4 --size 48x27 --cube-size 8 --truth 1 -o s.exr")
         self.call("replay s.exr -o run")
         self.call("replay s.exr -o other --set screen_trace.cells=8")
         self.call("extract s.exr -o extracted")
@@ -90,7 +90,7 @@ class Tests:
         self.refused("view run -o folder.png", "expected a file, found a folder")
 
     def test_a_sibling_with_the_cube_maps_is_not_replaced(self):
-        self.call("sample room --size 32x18 --cube-size 8 --frames 2 -o shot.exr")
+        self.call("sample room --light 4 --size 32x18 --cube-size 8 --frames 2 -o shot.exr")
         sibling, = (name for name in os.listdir(".") if name.startswith("shot.") and name not in ("shot.0001.exr", "shot.0002.exr"))
         before = self.bytes(sibling)
         for command in ("set shot.0002.exr frame=7", "crop shot.0002.exr 0,0,16,16", "strip shot.0002.exr --drop previous"):

@@ -24,7 +24,7 @@ class Tests:
     def __init__(self, folder, browser):
         self.folder, self.browser = folder, browser
         self.capture = self.path(NAME)
-        glint("sample", "room", "-o", self.capture, "--size=96x54", "--cube-size=16", "--truth=1")
+        glint("sample", "room", "--light=4", "-o", self.capture, "--size=96x54", "--cube-size=16", "--truth=1")
         glint("replay", self.capture, "-o", self.path("a"), "--against=truth", "--set=downsample.jitter=false")
         # errors of an older run must not stay
         os.makedirs(self.path("b"))

@@ -34,7 +34,7 @@ class Tests:
     def __init__(self, folder, browser):
         self.folder, self.browser = folder, browser
         capture = self.path("room.exr")
-        glint("sample", "room", "-o", capture, f"--size={SIZE[0]}x{SIZE[1]}", "--cube-size=16")
+        glint("sample", "room", "--light=4", "-o", capture, f"--size={SIZE[0]}x{SIZE[1]}", "--cube-size=16")
         glint("replay", capture, "-o", self.path("one"))
         glint("replay", capture, "-o", self.path("two"), "--set=cubemap_trace.steps_hq=3", "--set=resolve.fog=false")
         self.page = self.path("page.html")

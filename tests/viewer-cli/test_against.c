@@ -126,7 +126,7 @@ static char *truth_errors(const char *setting, const char *said) {
 
 static void both_sides_have_the_same_fog(UNUSED void **state) {
     static const char left_out[] = "its fog is left out", applied[] = "its fog is applied";
-    free(glint_ok("sample", "rain_street", "-o", RAIN, "--size=48x27", "--cube-size=8", "--truth=1"));
+    free(glint_ok("sample", "rain_street", "--light=4", "-o", RAIN, "--size=48x27", "--cube-size=8", "--truth=1"));
     char *unsaid = truth_errors(NULL, left_out), *off = truth_errors("--set=pipeline.fog=false", left_out),
          *on = truth_errors("--set=pipeline.fog=true", applied);
     assert_string_equal(unsaid, off);

@@ -71,7 +71,8 @@ static double logged_ms(const char *name, int coalition) {
 
 /* Catches: shares with a wrong sum, errors of wrong pipelines, a missing reference. */
 static void shares_add_up_to_the_error(UNUSED void **state) {
-    free(glint_ok("sample", "room", "-o", in_folder("room.exr"), "--size=32x18", "--cube-size=8", "--truth=1"));
+    free(glint_ok("sample", "room", "--light=4", "-o", in_folder("room.exr"), "--size=32x18", "--cube-size=8",
+                  "--truth=1"));
     char *text = glint_ok("blame", in_folder("room.exr"), "-o", in_folder("blame"), SMALL, "--use=upscale=best_match",
                           "--repeat=2");
     assert_contains(text, "against the reference");
@@ -192,7 +193,7 @@ static void permutations_have_intervals(UNUSED void **state) {
 }
 
 static void several_captures_have_their_mean(UNUSED void **state) {
-    free(glint_ok("sample", "street", "-o", in_folder("street.exr"), "--size=32x18", "--cube-size=8"));
+    free(glint_ok("sample", "street", "--light=4", "-o", in_folder("street.exr"), "--size=32x18", "--cube-size=8"));
     free(glint_ok("blame", in_folder("room.exr"), in_folder("street.exr"), "-o", in_folder("two"), SMALL, "--repeat=0",
                   "--exact=0", "--permutations=2"));
     json_t *found = load_json("two/shares.json");
@@ -228,7 +229,8 @@ static double share_of(const char *folder, const char *name) {
 static void a_shot_has_a_history(UNUSED void **state) {
     static const char *const use = "--use=temporal=rough";
     char frames[3][600];
-    free(glint_ok("sample", "room", "-o", in_folder("shot.exr"), "--frames=3", "--size=64x36", "--cube-size=8"));
+    free(glint_ok("sample", "room", "--light=4", "-o", in_folder("shot.exr"), "--frames=3", "--size=64x36",
+                  "--cube-size=8"));
     for (int i = 0; i < 3; i++)
         snprintf(frames[i], sizeof frames[i], "%s", in_folder("shot.0001.exr")),
             frames[i][strlen(frames[i]) - 5] = (char)('1' + i);

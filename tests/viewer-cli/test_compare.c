@@ -27,7 +27,8 @@ static double share_of_ends(const json_t *preset) {
 
 /* The error of a preset with a reflection in every pixel equals that of `replay --against truth`. */
 static void errors_are_those_of_replay(UNUSED void **state) {
-    free(glint_ok("sample", "room", "-o", in_folder("room.exr"), "--size=96x54", "--cube-size=16", "--truth=1"));
+    free(glint_ok("sample", "room", "--light=4", "-o", in_folder("room.exr"), "--size=96x54", "--cube-size=16",
+                  "--truth=1"));
     char *text = glint_ok("compare", in_folder("room.exr"), "--presets=mafia3,kf2", "--repeat=2", "--json");
     json_t *json = parse_json(text);
     free(text);
@@ -62,7 +63,8 @@ static void errors_are_those_of_replay(UNUSED void **state) {
 
 /* One table and one sheet of all captures; presets that a scene cannot run are skipped and listed. */
 static void several_captures_make_one_table_and_one_sheet(UNUSED void **state) {
-    free(glint_ok("sample", "matte", "-o", in_folder("matte.exr"), "--size=32x18", "--cube-size=16", "--truth=1"));
+    free(glint_ok("sample", "matte", "--light=4", "-o", in_folder("matte.exr"), "--size=32x18", "--cube-size=16",
+                  "--truth=1"));
     free(glint_ok("sample", "mirror_box", "-o", in_folder("box.exr"), "--size=48x27", "--cube-size=16"));
     char *text = glint_ok("compare", in_folder("box.exr"), in_folder("matte.exr"), "--presets=kf2,mafia3_shipped",
                           "--repeat=1", "-o", in_folder("out"));
@@ -88,7 +90,8 @@ static void several_captures_make_one_table_and_one_sheet(UNUSED void **state) {
 
 /* Layers over opaque surfaces are compared in the final image; presets without them have larger errors. */
 static void water_is_compared_in_the_finished_picture(UNUSED void **state) {
-    free(glint_ok("sample", "lake", "-o", in_folder("lake.exr"), "--size=48x27", "--cube-size=16", "--truth=1"));
+    free(glint_ok("sample", "lake", "--light=4", "-o", in_folder("lake.exr"), "--size=48x27", "--cube-size=16",
+                  "--truth=1"));
     char *text = glint_ok("compare", in_folder("lake.exr"), "--presets=gtav,kf2", "--repeat=1", "--json");
     json_t *json = parse_json(text);
     const json_t *with = named(json_object_get(preset_of(json, 0, "gtav"), "over"), "part", "water");

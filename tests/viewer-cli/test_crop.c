@@ -17,7 +17,7 @@ static int make_captures(void **state) {
     snprintf(made, sizeof made, "%s", in_folder("made.exr"));
     snprintf(room, sizeof room, "%s", in_folder("room.exr"));
     edited_write(made);
-    free(glint_ok("sample", "room", "-o", room, "--size", "96x64", "--cube-size", "32", "--truth", "2"));
+    free(glint_ok("sample", "room", "--light=4", "-o", room, "--size", "96x64", "--cube-size", "32", "--truth", "2"));
     return 0;
 }
 
@@ -82,8 +82,8 @@ static void motion_stays(void **state) {
     struct glint_error err = {0};
     for (int e = 0; e < 8; e++) {
         const uint32_t x0 = e % 2 ? 6 : 16, y0 = e % 2 ? 4 : 8;
-        free(glint_ok("sample", "room", "-o", in_folder("moving.exr"), "--size", "96x64", "--cube-size", "8",
-                      "--motion", names[e / 2], "--travel", "0.1,0,0.05"));
+        free(glint_ok("sample", "room", "--light=4", "-o", in_folder("moving.exr"), "--size", "96x64", "--cube-size",
+                      "8", "--motion", names[e / 2], "--travel", "0.1,0,0.05"));
         free(glint_ok("crop", in_folder("moving.exr"), rectangles[e % 2], "-o", in_folder("crop.exr")));
         struct glint_capture *a = glint_capture_open(in_folder("moving.exr"), NULL, &err),
                              *b = glint_capture_open(in_folder("crop.exr"), NULL, &err);

@@ -35,7 +35,8 @@ static int make_captures(void **state) {
     static double moved[2 + REWRITE_PARTS][16];
     size_t count = 0;
     if (make_folder(state) != 0) return -1;
-    free(glint_ok("sample", "room", "-o", in_folder("room.exr"), "--frames", "2", "--size=96x54", "--cube-size", "32"));
+    free(glint_ok("sample", "room", "--light=4", "-o", in_folder("room.exr"), "--frames", "2", "--size=96x54",
+                  "--cube-size", "32"));
     snprintf(near, sizeof near, "%s", in_folder("room.0002.exr"));
     snprintf(far, sizeof far, "%s", in_folder("far.exr"));
     rewrite_load(&r, near);

@@ -129,7 +129,7 @@ static void ranges_are_of_surfaces_alone(UNUSED void **state) {
     enum { PIXELS = 96 * 54 };
     struct glint_error err = {0};
     const char *path = in_folder("street.exr");
-    free(glint_ok("sample", "street", "-o", path, "--size=96x54", "--cube-size", "16"));
+    free(glint_ok("sample", "street", "--light=4", "-o", path, "--size=96x54", "--cube-size", "16"));
     struct glint_exr *exr = glint_exr_open(path, NULL, &err);
     assert_non_null(exr);
     float *depth_m = channel_of(exr, "depth.Z", PIXELS), *roughness = channel_of(exr, "material.roughness", PIXELS);

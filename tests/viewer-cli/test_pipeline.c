@@ -344,7 +344,7 @@ static void encodings_show_the_same_picture(UNUSED void **state) {
 }
 
 static void sample_writes_to_stdout_and_lists_its_scenes(UNUSED void **state) {
-    char *exr = glint_ok("sample", "matte", "--size=16x9", "--cube-size=8", "-o", "-");
+    char *exr = glint_ok("sample", "matte", "--light=4", "--size=16x9", "--cube-size=8", "-o", "-");
     assert_memory_equal(exr, "\x76\x2f\x31\x01", 4);
     free(exr);
     char *list = glint_ok("sample", "--list"), *json_text = glint_ok("sample", "--list", "--json");
@@ -392,7 +392,8 @@ static void history_must_be_of_the_frame_before(UNUSED void **state) {
          "its camera is not that capture's previous camera"}};
     char *history = NULL;
     assert_true(asprintf(&history, "--history=%s", in_folder("one")) > 0);
-    free(glint_ok("sample", "room", "-o", in_folder("shot.exr"), "--frames=2", "--size=48x27", "--cube-size=8"));
+    free(glint_ok("sample", "room", "--light=4", "-o", in_folder("shot.exr"), "--frames=2", "--size=48x27",
+                  "--cube-size=8"));
     free(glint_ok("replay", in_folder("shot.0001.exr"), "-o", in_folder("one")));
     free(glint_ok("replay", in_folder("shot.0002.exr"), history));
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {

@@ -12,7 +12,8 @@
 #define CAPTURE in_folder("street.exr")
 
 static void make_capture(void) {
-    if (!file_exists(CAPTURE)) free(glint_ok("sample", "street", "-o", CAPTURE, "--size=96x54", "--cube-size=16"));
+    if (!file_exists(CAPTURE))
+        free(glint_ok("sample", "street", "--light=4", "-o", CAPTURE, "--size=96x54", "--cube-size=16"));
 }
 
 /* A channel of a run's file whose name ends like this. */
@@ -163,7 +164,7 @@ static void the_text_tells_it_all(UNUSED void **state) {
     text = glint_ok("probe", CAPTURE, "48,1", "--alone");
     assert_contains(text, "no ray: it is sky");
     free(text);
-    free(glint_ok("sample", "matte", "-o", in_folder("matte.exr"), "--size=64x36", "--cube-size=8"));
+    free(glint_ok("sample", "matte", "--light=4", "-o", in_folder("matte.exr"), "--size=64x36", "--cube-size=8"));
     text = glint_ok("probe", in_folder("matte.exr"), "20,30"); /* no pass runs */
     assert_contains(text, "pixel 20,30 of 64 x 36, texel");
     free(text);

@@ -24,7 +24,8 @@ static double rmse(const json_t *run, const char *answer, const char *which) {
 }
 
 static void it_is_kept_and_goes_on(UNUSED void **state) {
-    free(glint_ok("sample", "room", "-o", in_folder("room.exr"), "--size=32x18", "--cube-size=16", "--truth=16"));
+    free(glint_ok("sample", "room", "--light=4", "-o", in_folder("room.exr"), "--size=32x18", "--cube-size=16",
+                  "--truth=16"));
     char *text = glint_ok("reference", in_folder("room.exr"), "-o", in_folder("kept"), "--rays=16", "--json");
     json_t *json = parse_json(text);
     assert_true(number(json, "rays") == 16);
@@ -100,7 +101,8 @@ static void another_captures_reference_is_told(UNUSED void **state) {
     char *text = glint_ok("replay", in_folder("room.exr"), option);
     assert_null(strstr(text, "another capture"));
     free(text);
-    free(glint_ok("sample", "room", "-o", in_folder("next.exr"), "--size=32x18", "--cube-size=16", "--first-frame=2"));
+    free(glint_ok("sample", "room", "--light=4", "-o", in_folder("next.exr"), "--size=32x18", "--cube-size=16",
+                  "--first-frame=2"));
     text = glint_ok("replay", in_folder("next.exr"), option);
     assert_contains(text, "another capture");
     free(text);
@@ -113,7 +115,7 @@ static void another_captures_reference_is_told(UNUSED void **state) {
 }
 
 static void what_cannot_be_is_said(UNUSED void **state) {
-    free(glint_ok("sample", "matte", "-o", in_folder("matte.exr"), "--size=32x18", "--cube-size=16"));
+    free(glint_ok("sample", "matte", "--light=4", "-o", in_folder("matte.exr"), "--size=32x18", "--cube-size=16"));
     free(glint_ok("replay", in_folder("room.exr"), "-o", in_folder("run")));
     glint_fails(1, "nothing in it reflects", "reference", in_folder("matte.exr"));
     glint_fails(1, "No such file", "reference", in_folder("absent.exr"));

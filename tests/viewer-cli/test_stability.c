@@ -29,7 +29,7 @@ static double largest_of(const char *file, const char *part, const char *channel
 
 /* Catches: layers of one image under the name of another, a forecast that differs from the image's values. */
 static void layers_match_the_figures(UNUSED void **state) {
-    free(glint_ok("sample", "room", "-o", in_folder("room.exr"), "--size=64x36", "--cube-size=16"));
+    free(glint_ok("sample", "room", "--light=4", "-o", in_folder("room.exr"), "--size=64x36", "--cube-size=16"));
     char *text =
         glint_ok("stability", in_folder("room.exr"), "--seeds=2", "-o", in_folder("stable"), "--json", "--bound=5");
     json_t *json = parse_json(text), *kept = json_load_file(in_folder("stable/stability.json"), 0, NULL);

@@ -58,7 +58,8 @@ static void check_front(const json_t *swept, const char *name, const char *cost,
 
 /* Catches: points with wrong values, errors of another image, and passes that run although nothing changed. */
 static void points_are_the_pipelines_they_name(UNUSED void **state) {
-    free(glint_ok("sample", "room", "-o", in_folder("room.exr"), "--size=64x36", "--cube-size=16", "--truth=1"));
+    free(glint_ok("sample", "room", "--light=4", "-o", in_folder("room.exr"), "--size=64x36", "--cube-size=16",
+                  "--truth=1"));
     free(glint_ok("reference", in_folder("room.exr"), "-o", in_folder("reference"), "--rays=16"));
     char *text = glint_ok("sweep", in_folder("room.exr"), "-o", in_folder("grid"), PLAIN, "--repeat=2", "--reference",
                           in_folder("reference"), "--vary=upscale.depth_weight=0,100", "--use=upscale=best_match",
@@ -161,7 +162,7 @@ static void a_killed_sweep_goes_on(UNUSED void **state) {
 }
 
 static void several_captures_have_a_mean_and_a_worst_case(UNUSED void **state) {
-    free(glint_ok("sample", "street", "-o", in_folder("street.exr"), "--size=64x36", "--cube-size=16"));
+    free(glint_ok("sample", "street", "--light=4", "-o", in_folder("street.exr"), "--size=64x36", "--cube-size=16"));
     free(glint_ok("sweep", in_folder("room.exr"), in_folder("street.exr"), "-o", in_folder("two"), PLAIN, "--rays=16",
                   "--repeat=0", "--vary=screen_trace=linear,dda", "--vary=screen_trace.steps=4,64", "--no-pictures",
                   "--metric=symmetric"));

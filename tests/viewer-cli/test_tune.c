@@ -12,8 +12,9 @@
 
 static int make_captures(void **state) {
     if (make_folder(state)) return 1;
-    free(glint_ok("sample", "room", "-o", in_folder("room.exr"), "--size=64x36", "--cube-size=16", "--truth=1"));
-    free(glint_ok("sample", "street", "-o", in_folder("street.exr"), "--size=64x36", "--cube-size=16"));
+    free(glint_ok("sample", "room", "--light=4", "-o", in_folder("room.exr"), "--size=64x36", "--cube-size=16",
+                  "--truth=1"));
+    free(glint_ok("sample", "street", "--light=4", "-o", in_folder("street.exr"), "--size=64x36", "--cube-size=16"));
     return 0;
 }
 

@@ -150,7 +150,7 @@ class Tests:
         """The same file, configuration and view through another program, which may round differently; and a configuration made for this test,
         whose view is a single conversion between two spaces."""
         capture, run, config = self.path("colour.exr"), self.path("colour"), self.path("own.ocio")
-        call(GLINT, "sample", "room", "-o", capture, "--size", "96x54", "--cube-size", "16")
+        call(GLINT, "sample", "room", "--light=4", "-o", capture, "--size", "96x54", "--cube-size", "16")
         call(GLINT, "replay", capture, "-o", run, "--outputs", "composed")
         (exr,) = [os.path.join(run, name) for name in os.listdir(run) if name.endswith("-compose.exr")]
         with open(config, "w", encoding="utf-8") as file:

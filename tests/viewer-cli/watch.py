@@ -38,7 +38,7 @@ class Watched:
 class Tests:
     def __init__(self, folder, browser):
         self.folder, self.browser = folder, browser
-        subprocess.run([GLINT, "sample", "room", "-o", self.path("room.exr"), "--size=48x27", "--cube-size=16"], check=True, capture_output=True)
+        subprocess.run([GLINT, "sample", "room", "--light=4", "-o", self.path("room.exr"), "--size=48x27", "--cube-size=16"], check=True, capture_output=True)
 
     def path(self, name):
         return os.path.join(self.folder, name)

@@ -49,6 +49,7 @@ struct blame {
     struct blame_sum mean;      /* mean of the captures whose shares are known, or the first capture */
     bool complete;              /* all shares and times are known */
     struct timespec published;
+    double publish_seconds; /* taken by the last time */
 };
 void blame_finish(struct blame *blame);
 static inline size_t blame_value(size_t answer, size_t class) {

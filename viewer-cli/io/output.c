@@ -85,16 +85,12 @@ bool output_open(struct output *output, const char *path, struct glint_error *er
         output->file = stdout;
         return true;
     }
-    const bool direct = stat(path, &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
-    if (!direct && asprintf(&output->temporary, "%s.tmp-%ld", path, (long)getpid()) < 0) {
-        output->temporary = NULL;
-        return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
-    }
-    output->file = fopen(direct ? path : output->temporary, "wb");
+    output->direct = stat(path, &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
+    if (!output->direct && !complete_open(&output->complete, path, err)) return false;
+    output->file = output->direct ? fopen(path, "wb") : fdopen(dup((int)output->complete.file), "wb");
     if (output->file) return true;
     glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
-    free(output->temporary);
-    output->temporary = NULL;
+    if (!output->direct) complete_close(&output->complete, false, false, err);
     return false;
 }
 
@@ -104,19 +100,16 @@ static bool finish(struct output *output, struct glint_error *err) {
     const bool flushed = !ferror(output->file) && fflush(output->file) == 0;
     const int reason = errno;
     const bool closed = output->file == stdout || fclose(output->file) == 0;
-    const int later = errno;
+    const int code = flushed ? errno : reason;
     output->file = NULL;
-    if (flushed && closed && (!output->temporary || rename(output->temporary, output->path) == 0)) return true;
-    const int code = !flushed ? reason : !closed ? later : errno;
-    return glint_fail(err, GLINT_ERROR_IO, "%s: %s", output->path,
-                      code ? strerror(code) : "not everything could be written");
+    return (flushed && closed) || glint_fail(err, GLINT_ERROR_IO, "%s: %s", output->path,
+                                             code ? strerror(code) : "not everything could be written");
 }
 
 bool output_close(struct output *output, bool ok, struct glint_error *err) {
     if (ok) ok = finish(output, err);
     if (output->file && output->file != stdout) fclose(output->file);
-    if (!ok && output->temporary) unlink(output->temporary);
-    free(output->temporary);
+    if (output->complete.temporary) ok = complete_close(&output->complete, ok, false, err);
     *output = (struct output){0};
     return ok;
 }

@@ -4,6 +4,7 @@
 
 #include <stdio.h>
 
+#include "complete.h"
 #include "glint/common.h"
 
 /* What a file contains. A command that chooses by the name's suffix has several bits. */
@@ -24,7 +25,8 @@ bool output_check(const char *path, unsigned kinds, bool overwrite, struct glint
 /* A file that is being written under a temporary name. "-" is stdout, and what is no regular file is written to directly. */
 struct output {
     const char *path;
-    char *temporary; /* NULL: written to directly */
+    bool direct;
+    struct complete_file complete; /* unless direct or stdout */
     FILE *file;
 };
 bool output_open(struct output *output, const char *path, struct glint_error *err);

@@ -160,16 +160,18 @@ static void add_facts(const struct sweep *sweep, json_t *document) {
 }
 
 static bool write_charts(const struct sweep *sweep, struct glint_error *err) {
-    for (size_t f = 0; f < sweep->front_count; f++) {
+    struct page_charts charts = {0};
+    bool ok = true;
+    for (size_t f = 0; ok && f < sweep->front_count; f++) {
         char path[4096], name[64];
         snprintf(name, sizeof name, "front-%s.svg", sweep->fronts[f].name);
         json_t *chart = chart_of(sweep, &sweep->fronts[f], false);
-        const bool ok = chart ? sweep_path(sweep, name, path, err) && page_chart_write(path, chart, err)
-                              : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+        ok = chart ? sweep_path(sweep, name, path, err) && page_chart_write(&charts, path, chart, err)
+                   : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
         json_decref(chart);
-        if (!ok) return false;
     }
-    return true;
+    page_charts_finish(&charts);
+    return ok;
 }
 
 bool sweep_write_page(const struct sweep *sweep, struct glint_error *err) {

@@ -161,6 +161,7 @@ static void add_facts(const struct tune *tune, json_t *document) {
 
 bool tune_write_page(const struct tune *tune, struct glint_error *err) {
     char title[300], html[4096], svg[4096], name[200];
+    struct page_charts charts = {0};
     const char *base = base_name(tune->out);
     const int length = (int)(strlen(base) - strlen(".json"));
     snprintf(title, sizeof title, "%.100s, tuned to %.4g %s at most", glint_pipeline_name(tune->base), tune->within,
@@ -177,7 +178,8 @@ bool tune_write_page(const struct tune *tune, struct glint_error *err) {
     bool ok = journal_path(tune->folder, name, html, err);
     snprintf(name, sizeof name, "%.*s.svg", length, base);
     ok = ok && journal_path(tune->folder, name, svg, err) && page_store(tune->folder, document, err) &&
-         page_write(html, document, NULL, err) && page_chart_write(svg, plain, err);
+         page_write(html, document, NULL, err) && page_chart_write(&charts, svg, plain, err);
+    page_charts_finish(&charts);
     json_decref(plain);
     json_decref(document);
     return ok;

@@ -50,19 +50,20 @@ uint source_of(vec3 place) {
 }
 
 // The colour of a hit that was not visible in the previous frame, sampled from a cube map by its position.
-vec4 not_shown(Ray ray) {
-    if (hidden == hidden_black) return vec4(0.0);
-    if (ray.endless) return vec4(sky_color(ray), 1.0);
+Found not_shown(Ray ray) {
+    const Found NOTHING = Found(vec4(0.0), 0.0);
+    if (hidden == hidden_black) return NOTHING;
+    if (ray.endless) return SKY;
     uint place = nearest_active(ray.end);
-    return place < frame.counts.x ? cubemap_lookup(ray, place) : vec4(0.0);
+    return place < frame.counts.x ? found_in_cubemap(ray, place) : NOTHING;
 }
 
 vec4 color_before(Ray ray, out uint source) {
     vec3 place = place_before(ray);
     source = source_of(place);
-    vec4 color = source == SHOWN          ? vec4(picture_before(place), 1.0)
-                 : has_previous_picture() ? not_shown(ray)
-                                          : screen_color(ray); // a capture without the previous frame
-    if (color.a > 0.0 && fog && frame.fog_color.w > 0.0) color.rgb = through_fog(color.rgb, ray);
-    return color;
+    Found found;
+    if (source == SHOWN) found = found_color(picture_before(place));
+    else if (has_previous_picture()) found = not_shown(ray);
+    else found = found_on_screen(ray); // a capture without the previous frame
+    return found.color.a > 0.0 ? through_fog(found, ray) : found.color;
 }

@@ -110,33 +110,44 @@ vec4 joint_texels(texture2D image, texture2D depths_m, vec2 uv, float depth_m, f
     return vec4(texelFetch(image, pixel, 0).rgb, 0.0);
 }
 
-vec3 picture(vec2 uv, ivec2 pixel, Ray ray, float depth_m) {
+// What a ray's end shows: a colour, and the share of the sky that is added to it. Only through_fog() looks the sky up: functions are inlined, so
+// that a lookup in each place that may need it would be most of the shader, and of the time to compile it.
+struct Found {
+    vec4 color;
+    float sky;
+};
+const Found SKY = Found(vec4(0.0, 0.0, 0.0, 1.0), 1.0);
+Found found_color(vec3 color) { return Found(vec4(color, 1.0), 0.0); }
+
+Found picture(vec2 uv, ivec2 pixel, Ray ray, float depth_m) {
     if (ray.cone > 0.0 && cone_screen && has_lit_mips) {
         float pixels_at_1m = abs(frame.uv_from_view.x) * float(frame.size.x);
         float level = cone_level_screen(ray.cone, ray.endless ? 1.0 : ray.travelled_m, depth_m, pixels_at_1m, texel_scale,
                                         float(findMSB(max(frame.size.x, frame.size.y))));
-        if (level > 0.0 && ray.endless && joint && (probe_is_sky() || (has_sky_mips && frame.counts.w > 0u))) return sky_color(ray);
+        if (level > 0.0 && ray.endless && joint && (probe_is_sky() || (has_sky_mips && frame.counts.w > 0u))) return SKY;
         vec4 color = level > 0.0 ? textureLod(sampler2D(lit_mips, linear_clamp), uv, level) : vec4(0.0);
         // A level without sky at this place has no colour for a ray that does not end.
-        if (color.a > (ray.endless ? 1.0 - MIN_SHARE : MIN_SHARE)) return record_picture(IMAGE_lit_mips, uv, level, color.rgb / color.a);
+        if (color.a > (ray.endless ? 1.0 - MIN_SHARE : MIN_SHARE))
+            return found_color(record_picture(IMAGE_lit_mips, uv, level, color.rgb / color.a));
     }
     vec3 color = joint          ? joint_texels(lit, depth_full, uv, ray.endless ? INFINITE : depth_m, depth_tolerance).rgb
                  : filter_color ? textureLod(sampler2D(lit, linear_clamp), uv, 0.0).rgb
                                 : texelFetch(lit, pixel, 0).rgb;
-    return record_picture(IMAGE_lit, uv, 0.0, color);
+    return found_color(record_picture(IMAGE_lit, uv, 0.0, color));
 }
 
-vec4 screen_color(Ray ray) {
+Found found_on_screen(Ray ray) {
+    const Found NOTHING = Found(vec4(0.0), 0.0);
     vec3 end = mat3(frame.view_from_world) * ray.end;
     float depth_m = end.z * frame.depth_range.z;
-    if (!(depth_m > 0.0)) return vec4(0.0);
+    if (!(depth_m > 0.0)) return NOTHING;
     vec2 uv = clamp(project(end, frame.uv_from_view, frame.depth_range.z), 0.0, 1.0);
     ivec2 pixel = min(ivec2(uv * vec2(frame.size.xy)), ivec2(frame.size.xy) - 1);
     if (check_depth && !ray.endless) {
         float seen_m = texelFetch(depth_full, pixel, 0).x;
-        if (!(abs(seen_m - depth_m) <= depth_tolerance * depth_m)) return vec4(0.0);
+        if (!(abs(seen_m - depth_m) <= depth_tolerance * depth_m)) return NOTHING;
     }
-    return vec4(picture(uv, pixel, ray, depth_m), 1.0);
+    return picture(uv, pixel, ray, depth_m);
 }
 
 // Paraboloids replace the cube maps if the pipeline converts them: one fetch without face selection.
@@ -169,42 +180,36 @@ float opacity(float alpha) { return min(alpha / (1.0 - 1.0 / 128.0), 1.0); }
 
 // A ray that ended on a surface excludes the sky beside it, which rays that end in the sky contribute. Which of both it is depends on the cube
 // map's nearest texels, not on the width of the cone.
-vec4 surface_in_cubemap(Ray ray, vec3 center, uint place) {
-    vec4 at = vec4(ray.end - center, place);
-    if (fact_sky_seen && cube_finest(cubemap_color, at).a < 0.5) return vec4(sky_color(ray), 1.0);
-    return vec4(cubemap_texel(ray, at, true).rgb, 1.0);
+Found found_in_cubemap(Ray ray, uint place) {
+    vec4 at = vec4(ray.endless ? ray.direction : ray.end - active_centers[place].xyz, place);
+    bool surface = joint && !ray.endless;
+    if (surface && fact_sky_seen && cube_finest(cubemap_color, at).a < 0.5) return SKY;
+    vec4 color = cubemap_texel(ray, at, surface);
+    return Found(vec4(color.rgb, 1.0), surface || !fact_sky_seen ? 0.0 : 1.0 - opacity(color.a));
 }
 
-vec4 cubemap_lookup(Ray ray, uint place) {
-    vec3 center = active_centers[place].xyz;
-    if (joint && !ray.endless) return surface_in_cubemap(ray, center, place);
-    vec4 color = cubemap_texel(ray, vec4(ray.endless ? ray.direction : ray.end - center, place), false);
-    if (!fact_sky_seen) return vec4(color.rgb, 1.0);
-    color.a = opacity(color.a);
-    if (color.a < 1.0) color.rgb += sky_color(ray) * (1.0 - color.a);
-    return vec4(color.rgb, 1.0);
-}
-
-// Fog covers what is behind it, or adds its own colour in front of surfaces; the sky's image shows the sky as it is seen through such fog.
-vec3 through_fog(vec3 color, Ray ray) {
-    bool adds = frame.material.y != 0.0;
-    if (adds && ray.endless) return color;
+// Adds the sky's share, and the fog in front: it covers what is behind it, or adds its own colour in front of surfaces; the sky's image shows the
+// sky as it is seen through such fog.
+vec4 through_fog(Found found, Ray ray) {
+    bool foggy = fog && frame.fog_color.w > 0.0, adds = frame.material.y != 0.0;
+    bool toward_sky = foggy && !adds && fog_target == fog_target_sky && frame.counts.w > 0u;
+    vec3 color = found.color.rgb, sky = found.sky > 0.0 || toward_sky ? sky_color(ray) : vec3(0.0);
+    if (found.sky > 0.0) color += sky * found.sky;
+    if (!foggy || (adds && ray.endless)) return vec4(color, found.color.a);
     float height = frame.fog_height.x + dot(ray.position, frame.up.xyz);
     float depth = fog_optical_depth(frame.fog_color.w, height, dot(ray.direction, frame.up.xyz), frame.fog_height.y,
                                     ray.travelled_m);
     float covered = fog_factor(depth);
-    if (adds) return color + covered * frame.fog_color.rgb;
-    vec3 target = fog_target == fog_target_sky && frame.counts.w > 0u ? sky_color(ray) : frame.fog_color.rgb;
-    return mix(color, target, covered);
+    if (adds) return vec4(color + covered * frame.fog_color.rgb, found.color.a);
+    return vec4(mix(color, toward_sky ? sky : frame.fog_color.rgb, covered), found.color.a);
 }
 
 // finished: it ended on screen; place: otherwise the cube map in which it ended, or none. a: 0 if there is no source.
 vec4 color_at_end(Ray ray, bool finished, uint place) {
-    vec4 color;
-    if (finished) color = screen_color(ray);
-    else if (place < frame.counts.x) color = cubemap_lookup(ray, place);
-    else if (ray.endless) color = vec4(has_probe() && frame.counts.x == 0u ? probe_color(ray) : sky_color(ray), 1.0);
-    else return vec4(0.0);
-    if (fog && frame.fog_color.w > 0.0) color.rgb = through_fog(color.rgb, ray);
-    return color;
+    Found found = SKY;
+    if (finished) found = found_on_screen(ray);
+    else if (place < frame.counts.x) found = found_in_cubemap(ray, place);
+    else if (!ray.endless) return vec4(0.0);
+    else if (has_probe() && frame.counts.x == 0u) found = found_color(probe_color(ray));
+    return through_fog(found, ray);
 }

@@ -280,11 +280,11 @@ var glintChart = (function () {
         return [side(chart.width, 760), side(chart.height, rows ? 110 + 30 * rows : 440)];
     }
 
-    /* As SVG, in ASCII, whatever the texts hold. */
+    /* As SVG, in ASCII, whatever the texts hold; the same for the same chart. */
     function svg(description) {
         var chart = object(description), of = size(chart), drawn = echarts.init(null, null, {renderer: 'svg', ssr: true, width: of[0], height: of[1]});
         drawn.setOption(option(chart, LIGHT, true, of[0]));
-        var result = drawn.renderToSVGString();
+        var result = drawn.renderToSVGString().replace(/\bzr\d+-/g, 'zr0-'); // ECharts counts its charts
         drawn.dispose();
         return result.replace(/[\ud800-\udbff][\udc00-\udfff]|[^\u0000-\u007f]/g, function (c) {
             var high = c.charCodeAt(0);

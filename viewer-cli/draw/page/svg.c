@@ -23,11 +23,16 @@ static void evaluate_script(duk_context *js, const char *name, const unsigned ch
 /* ECharts requests timers while it loads, but needs none here. */
 static const char timers[] = "function setTimeout() { return 0; } function clearTimeout() {}";
 
-static duk_ret_t draw_chart(duk_context *js, void *user) {
-    struct drawing *drawing = user;
+static duk_ret_t load_scripts(duk_context *js, void *user) {
+    (void)user;
     duk_eval_string_noresult(js, timers);
     evaluate_script(js, "echarts.min.js", blob_echarts, blob_echarts_end);
     evaluate_script(js, "chart.js", blob_chart, blob_chart_end);
+    return 0;
+}
+
+static duk_ret_t draw_chart(duk_context *js, void *user) {
+    struct drawing *drawing = user;
     duk_get_global_string(js, "glintChart");
     duk_push_string(js, "svg");
     duk_push_string(js, drawing->chart);
@@ -37,21 +42,36 @@ static duk_ret_t draw_chart(duk_context *js, void *user) {
     return 0;
 }
 
-static bool draw_all(struct drawing *drawing, const char *path, struct glint_error *err) {
-    duk_context *js = duk_create_heap_default();
-    if (!js) return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
-    bool ok = duk_safe_call(js, draw_chart, drawing, 0, 1) == DUK_EXEC_SUCCESS && drawing->svg;
-    if (!ok) glint_fail(err, GLINT_ERROR_FORMAT, "%s: cannot draw the chart: %s", path, duk_safe_to_string(js, -1));
-    duk_destroy_heap(js);
+static bool call(struct page_charts *charts, duk_safe_call_function function, struct drawing *drawing, const char *path,
+                 struct glint_error *err) {
+    const bool ok = duk_safe_call(charts->js, function, drawing, 0, 1) == DUK_EXEC_SUCCESS;
+    if (!ok)
+        glint_fail(err, GLINT_ERROR_FORMAT, "%s: cannot draw the chart: %s", path, duk_safe_to_string(charts->js, -1));
+    duk_pop(charts->js);
     return ok;
 }
 
-bool page_chart_write(const char *path, const json_t *chart, struct glint_error *err) {
+static bool draw(struct page_charts *charts, struct drawing *drawing, const char *path, struct glint_error *err) {
+    if (!charts->js) {
+        charts->js = duk_create_heap_default();
+        if (!charts->js) return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
+        if (!call(charts, load_scripts, NULL, path, err)) return page_charts_finish(charts), false;
+    }
+    return call(charts, draw_chart, drawing, path, err) &&
+           (drawing->svg || glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path));
+}
+
+bool page_chart_write(struct page_charts *charts, const char *path, const json_t *chart, struct glint_error *err) {
     /* ASCII, because Duktape expects characters beyond 16 bits as surrogate pairs */
     struct drawing drawing = {.chart = json_dumps(chart, JSON_ENSURE_ASCII | JSON_COMPACT | JSON_ENCODE_ANY)};
-    bool ok = drawing.chart ? draw_all(&drawing, path, err) && output_text(path, drawing.svg, err)
+    bool ok = drawing.chart ? draw(charts, &drawing, path, err) && output_text(path, drawing.svg, err)
                             : glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
     free(drawing.chart);
     free(drawing.svg);
     return ok;
+}
+
+void page_charts_finish(struct page_charts *charts) {
+    if (charts->js) duk_destroy_heap(charts->js);
+    *charts = (struct page_charts){0};
 }
