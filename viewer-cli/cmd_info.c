@@ -269,6 +269,7 @@ static enum status print_broken(const struct arguments *a, const char *path, con
 
 /* A file that is damaged can still be looked into. */
 static enum status fail(const struct arguments *a, const char *path, struct glint_error *err) {
+    text_clean(err->message); /* it may have names of the file, and is text in JSON */
     if (a->headers) return print_broken(a, path, err);
     const size_t used = strlen(err->message);
     if (path && (err->code == GLINT_ERROR_FORMAT || err->code == GLINT_ERROR_UNSUPPORTED))

@@ -16,7 +16,7 @@ GLINT = sys.argv[1]
 
 
 def run(words, **more):
-    return subprocess.run([GLINT, *words.split()], capture_output=True, text=True, **more)
+    return subprocess.run([GLINT, *words.split()], capture_output=True, text=True, encoding="utf-8", **more)
 
 
 def ok(words, status=0):
@@ -106,7 +106,7 @@ class Tests:
             json.loads(done.stdout)
 
     def test_a_capture_that_breaks_rules_is_listed(self):
-        self.write("lit.exr", self.bytes.replace(b"lit\0", b"lid\0", 1))
+        self.write("lit.exr", self.bytes.replace(b"name\0string\0\3\0\0\0lit", b"name\0string\0\3\0\0\0lid", 1))
         done = ok("info --headers lit.exr", 1)
         assert "lit.exr: not a valid capture" in done.stdout and "depth.Z" in done.stdout and "lid" in done.stdout, done.stdout
         assert "lit: missing" in done.stderr and "glint validate" in done.stderr, done.stderr

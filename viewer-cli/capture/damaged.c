@@ -17,15 +17,6 @@ struct walk {
     struct damaged *to;
 };
 
-/* Names are printed, and are text in JSON. */
-static void clean(char *text) {
-    json_t *valid = json_string(text);
-    text_clean(text);
-    for (; !valid && *text; text++)
-        if ((unsigned char)*text >= 0x80) *text = '?';
-    json_decref(valid);
-}
-
 GLINT_PRINTF(2, 3)
 static bool fault(struct walk *walk, const char *format, ...) {
     va_list args;
@@ -33,7 +24,7 @@ static bool fault(struct walk *walk, const char *format, ...) {
     va_start(args, format);
     vsnprintf(walk->to->fault, sizeof walk->to->fault, format, args);
     va_end(args);
-    clean(walk->to->fault);
+    text_clean(walk->to->fault);
     return false;
 }
 
@@ -72,7 +63,7 @@ static bool take_channels(struct walk *walk, struct damaged_part *part) {
         uint8_t rest[12];
         if (!take_text(walk, channel->name)) return false;
         if (!channel->name[0]) return true;
-        clean(channel->name);
+        text_clean(channel->name);
         if (!take(walk, &channel->type, 4) || !take(walk, rest, sizeof rest)) return false;
         part->channel_count++;
     }
@@ -84,7 +75,7 @@ static bool take_value(struct walk *walk, struct damaged_part *part, const char 
     if (!strcmp(name, "channels")) return take_channels(walk, part);
     if (!strcmp(name, "name") && bytes > 0 && bytes < 256) {
         if (!take(walk, part->name, (size_t)bytes)) return false;
-        clean(part->name);
+        text_clean(part->name);
     }
     if (!strcmp(name, "dataWindow") && bytes == sizeof box) {
         if (!take(walk, box, sizeof box)) return false;
@@ -157,7 +148,7 @@ static bool take_headers(struct walk *walk) {
         if (walk->to->count > PARTS_MAX) return fault(walk, "more than %d parts", PARTS_MAX);
         if (!take_header(walk, multi_part, &end)) {
             char text[400];
-            snprintf(text, sizeof text, "%s", walk->to->fault);
+            snprintf(text, sizeof text, "%.390s", walk->to->fault);
             snprintf(walk->to->fault, sizeof walk->to->fault, "header %zu: %s", walk->to->count, text);
             return false;
         }
