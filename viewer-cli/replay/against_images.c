@@ -65,7 +65,8 @@ static json_t *compared_json(const struct image images[IMAGES], uint32_t width, 
                                                   ERRORS_FILE, "part", images[i].name, "channels", images[i].channel,
                                                   "unit", images[i].unit, "meaning", images[i].meaning, "width",
                                                   (int)width, "height", (int)height, "format", "R32F"));
-    return json_pack("{ss so}", "slot", "against", "images", list);
+    const char *answer = !images[2].values ? "truth" : !images[0].values ? "reference" : "both";
+    return json_pack("{ss ss so}", "slot", "against", "variant", answer, "images", list);
 }
 
 bool against_write_images(const struct comparison *c, const char *folder, struct glint_error *err) {

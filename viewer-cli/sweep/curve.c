@@ -102,22 +102,15 @@ static size_t find_knee(const double *x, const double *y, size_t count, bool log
     return found;
 }
 
-/* An error that falls towards lower values is read from the highest one; where a higher figure is better, it is turned round. */
+/* Where a higher figure is better, it is turned round. */
 static size_t knee_of(const struct sweep *sweep, const struct curve *curve) {
     const double sign = glint_metric(sweep->metric)->higher_is_better ? -1 : 1;
-    const size_t count = curve->count;
-    const bool backwards = sign * curve->y[0] < sign * curve->y[count - 1];
-    double *x = calloc(count + 1, sizeof *x), *y = calloc(count + 1, sizeof *y);
-    size_t found = count;
-    for (size_t i = 0; x && y && i < count; i++) {
-        const size_t from = backwards ? count - 1 - i : i;
-        x[i] = curve->x[from];
-        y[i] = sign * curve->y[from];
-    }
-    if (x && y) found = find_knee(x, y, count, curve->log);
-    free(x);
+    double *y = calloc(curve->count + 1, sizeof *y);
+    size_t found = curve->count;
+    for (size_t i = 0; y && i < curve->count; i++) y[i] = sign * curve->y[i];
+    if (y) found = find_knee(curve->x, y, curve->count, curve->log);
     free(y);
-    return found == count ? count : backwards ? count - 1 - found : found;
+    return found;
 }
 
 size_t sweep_knee(const struct sweep *sweep) {
@@ -169,19 +162,17 @@ static json_t *chart_of(const struct sweep *sweep, const struct curve *curve, si
 }
 
 static void add_words(const struct sweep *sweep, const struct curve *curve, size_t knee, json_t *blocks) {
+    const double sign = glint_metric(sweep->metric)->higher_is_better ? -1 : 1;
+    const bool falls = sign * curve->y[0] > sign * curve->y[curve->count - 1];
     char text[700];
-    if (knee == curve->count)
-        snprintf(
-            text, sizeof text,
-            "No knee: there is no value from which on the error falls less than before. Looked for %s of the values.",
-            curve->log ? "over the logarithm" : "over the range");
+    if (knee < curve->count)
+        snprintf(text, sizeof text,
+                 "Knee at %.200s: larger values reduce the error less than those up to there. It is where the curve is "
+                 "farthest from the line between its ends (Kneedle, S = 1), over %s of the values.",
+                 glint_space_value(sweep->space, curve->points[knee], 0), curve->log ? "the logarithm" : "the range");
     else
-        snprintf(
-            text, sizeof text,
-            "Knee at %.200s: further values change the error less than those before it. It is the point at which the "
-            "curve is farthest from the line between its ends (Kneedle), %s of the values.",
-            glint_space_value(sweep->space, curve->points[knee], 0),
-            curve->log ? "over the logarithm" : "over the range");
+        snprintf(text, sizeof text, "No knee: the error %s.",
+                 falls ? "falls at no value clearly faster than after it" : "does not fall with the value");
     page_text(blocks, "text", text);
 }
 

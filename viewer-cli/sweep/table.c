@@ -76,7 +76,7 @@ void sweep_print(const struct sweep *sweep) {
     for (size_t f = 0; f < sweep->front_count; f++) print_front(sweep, &sweep->fronts[f]);
     const size_t knee = sweep_knee(sweep);
     if (knee < sweep->points) {
-        printf("knee: %s=%s, from which on further values change the error less\n", glint_space_axis(sweep->space, 0),
+        printf("knee: %s=%s, beyond which larger values reduce the error less\n", glint_space_axis(sweep->space, 0),
                glint_space_value(sweep->space, knee, 0));
     }
     printf("errors of the reflection before compose, against the %s",

@@ -168,7 +168,7 @@ class Run:
         self.passes = [Pass(self.folder, record) for record in _field(self.json, "passes", list, where)]
         self.images: dict[str, Image] = {}
         compared = _field(self.json, "compared", dict, where) if "compared" in self.json else {"images": []}
-        errors = [Image(self.folder, "against", "", image) for image in _field(compared, "images", list, where)]
+        errors = [Image(self.folder, "against", str(compared.get("variant", "")), image) for image in _field(compared, "images", list, where)]
         for image in [image for done in self.passes for image in done.images] + errors:
             self.images.setdefault(image.name, image)
         self.end_reasons = [_field(reason, "text", str, f"{where}: end_reasons") for reason in
