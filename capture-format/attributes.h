@@ -26,5 +26,8 @@ bool glint_attributes_decode(struct glint_check *check, const struct glint_exr_p
 void glint_camera_make_rigid(struct glint_camera *camera);
 /* Whether the name is glint's: it begins with `glint.` */
 bool glint_attribute_is_ours(const char *name);
+/* Reports names of glint's that the format does not know or has on other parts. Parts whose channels are any are kept as they are. */
+bool glint_attribute_names_check(struct glint_check *check, const struct glint_exr_part_info *from,
+                                 const struct glint_part_info *part);
 
 #endif

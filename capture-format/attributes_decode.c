@@ -103,22 +103,40 @@ static bool decode_classes(struct context *c, const struct glint_exr_attribute *
     return true;
 }
 
+static bool is_zero(const double *numbers, size_t count) {
+    for (size_t i = 0; i < count; i++)
+        if (numbers[i] != 0) return false;
+    return true;
+}
+
+/* The planes of one attribute. Rows of zeros end the list, so that nothing may follow them: *ended. */
+static bool decode_four_planes(struct context *c, const struct glint_exr_attribute *from, struct glint_cubemap *cubemap,
+                               bool *ended) {
+    for (unsigned r = 0; r < 4; r++) {
+        const double *plane = from->numbers + 4 * r;
+        if (*ended && !is_zero(plane, 4))
+            return BROKEN(c, ATTRIBUTE, "expected no plane after a row of zeros, found one in %s", from->name);
+        *ended = is_zero(plane, 4);
+        if (*ended) continue;
+        if (!isfinite(plane[0]) || !isfinite(plane[1]) || !isfinite(plane[2]) || !isfinite(plane[3]))
+            return BROKEN(c, ATTRIBUTE, "expected finite numbers, found %g %g %g %g", plane[0], plane[1], plane[2],
+                          plane[3]);
+        memcpy(cubemap->planes[cubemap->plane_count++], plane, 4 * sizeof *plane);
+    }
+    return true;
+}
+
 static bool decode_planes(struct context *c, struct glint_cubemap *cubemap) {
+    bool ended = false, gap = false;
     for (unsigned i = 0; i < GLINT_MAX_PLANES / 4; i++) {
         char name[64];
         snprintf(name, sizeof name, "%s.%02u", c->row->name, i);
         const struct glint_exr_attribute *from = glint_exr_attribute(c->part, name);
-        if (!from) break;
-        if (from->type != GLINT_EXR_M44D)
+        if (from && gap) return BROKEN(c, ATTRIBUTE, "expected %s after the one before it, found a gap", name);
+        gap = !from;
+        if (from && from->type != GLINT_EXR_M44D)
             return BROKEN(c, ATTRIBUTE, "expected an m44d attribute, found %s", from->type_name);
-        for (unsigned r = 0; r < 4; r++) {
-            const double *plane = from->numbers + 4 * r;
-            if (plane[0] == 0 && plane[1] == 0 && plane[2] == 0 && plane[3] == 0) return true;
-            if (!isfinite(plane[0]) || !isfinite(plane[1]) || !isfinite(plane[2]) || !isfinite(plane[3]))
-                return BROKEN(c, ATTRIBUTE, "expected finite numbers, found %g %g %g %g", plane[0], plane[1], plane[2],
-                              plane[3]);
-            memcpy(cubemap->planes[cubemap->plane_count++], plane, 4 * sizeof *plane);
-        }
+        if (from && !decode_four_planes(c, from, cubemap, &ended)) return false;
     }
     return true;
 }
@@ -171,7 +189,7 @@ static bool decode_numbers(struct context *c, const struct glint_exr_attribute *
         memcpy(member, n, 4 * sizeof *n);
         if (n[0] == 0 && n[1] == 0 && n[2] == 0)
             return BROKEN(c, ATTRIBUTE, "expected a normal that is not zero, found zero");
-        return true;
+        return is_zero(n + 4, 12) || BROKEN(c, ATTRIBUTE, "expected zeros below row 0, found other numbers");
     case GLINT_KIND_UINT:
         memcpy(member, &(uint32_t){(uint32_t)(int32_t)n[0]}, 4);
         return true;

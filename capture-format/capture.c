@@ -114,7 +114,8 @@ struct glint_capture *glint_capture_open_checked(const char *path, const struct 
         return NULL;
     }
     capture->exr = glint_exr_open(path, limits, check->err);
-    if (!capture->exr || !parse_headers(capture, check)) glint_capture_close(&capture);
+    if (!capture->exr || !glint_container_check(check, capture->exr) || !parse_headers(capture, check))
+        glint_capture_close(&capture);
     return capture;
 }
 

@@ -36,6 +36,9 @@ struct glint_capture {
 struct glint_capture *glint_capture_open_checked(const char *path, const struct glint_limits *limits,
                                                  struct glint_check *check);
 
+/* Reports what is not as the format has it in a file's compression, line order and windows. */
+bool glint_container_check(struct glint_check *check, const struct glint_exr *exr);
+
 /* Reports the pixel rules that a part violates. False if it cannot be read. */
 bool glint_validate_pixels(struct glint_check *check, struct glint_capture *capture, size_t part,
                            struct glint_error *err);

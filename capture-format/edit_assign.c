@@ -333,6 +333,19 @@ static bool assign_row(const struct value *v, const char *filter, const struct r
     return true;
 }
 
+/* Sets attributes of others. What only the format may have is removed where it may not be or is misspelt, so that the file can be mended. */
+static bool assign_other(const struct value *v, const char *filter, const char *name, size_t *count) {
+    if (glint_attribute_is_ours(name) && *v->text) return true;
+    for (size_t p = 0; p < v->edit->count; p++) {
+        const struct glint_exr_attribute *old = glint_exr_attribute(&v->edit->parts[p].info, name);
+        if (!old || !is_named(v->edit->parts[p].info.name, filter)) continue;
+        if (!set_foreign(v, p, old)) return false;
+        say_set(v, p, name);
+        ++*count;
+    }
+    return true;
+}
+
 bool glint_edit_assign(struct glint_edit *edit, const char *filter, const char *key, const char *text,
                        struct glint_error *err) {
     const struct value v = {edit, key, text, err};
@@ -340,20 +353,16 @@ bool glint_edit_assign(struct glint_edit *edit, const char *filter, const char *
     bool known = false;
     size_t count = 0;
     struct row row;
+    char full[256];
     /* Cameras have the same names on gbuffer and on planar maps; the frame's row comes first. */
     for (size_t i = 0; row_at(i, &row) && !count; i++) {
         if (strcmp(attribute_of(&row) + strlen(PREFIX), name) != 0) continue;
         known = true;
+        snprintf(full, sizeof full, "%s", attribute_of(&row));
         if (!assign_row(&v, filter, &row, &count)) return false;
     }
-    for (size_t p = 0; p < edit->count && !known; p++) {
-        const struct glint_exr_attribute *old = glint_exr_attribute(&edit->parts[p].info, key);
-        if (!old || !is_named(edit->parts[p].info.name, filter) || glint_attribute_is_ours(key)) continue;
-        if (!set_foreign(&v, p, old)) return false;
-        say_set(&v, p, key);
-        count++;
-    }
-    if (count) return true;
-    return glint_fail(err, GLINT_ERROR_USAGE, known ? "%s: no part%s%s of %s takes it" : "%s: no such key%s%s in %s",
+    if (!count && !assign_other(&v, filter, known ? full : key, &count)) return false;
+    return count ||
+           glint_fail(err, GLINT_ERROR_USAGE, known ? "%s: no part%s%s of %s takes it" : "%s: no such key%s%s in %s",
                       key, filter ? " " : "", filter ? filter : "", edit->exr->path);
 }

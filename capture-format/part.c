@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "attributes.h"
+#include "nearest.h"
 #include "probe.h"
 #include "sibling.h"
 
@@ -72,23 +73,46 @@ static bool parse_encodings(struct glint_check *check, const struct glint_exr_pa
     return true;
 }
 
-static void parse_storage(const struct glint_exr_part_info *from, struct glint_channel_info *channels, size_t count) {
+/* A format may have any name. The channel is one of the role, which the part may lack. */
+static bool check_storage(struct glint_check *check, const struct glint_part_info *out, const char *entry) {
+    const char *equals = strchr(entry, '=');
+    struct glint_nearest nearest;
+    char channel[256];
+    if (!equals || equals == entry || !equals[1])
+        return BROKEN(ATTRIBUTE, GLINT_STORAGE_ATTRIBUTE, "expected channel=format, found \"%.60s\"", entry);
+    snprintf(channel, sizeof channel, "%.*s", (int)(equals - entry), entry);
+    if (!out->role->channels || glint_role_channel_find(out->role, channel)) return true;
+    nearest = glint_nearest_to(channel);
+    for (size_t i = 0; i < out->role->channel_count; i++) glint_nearest_offer(&nearest, out->role->channels[i].name);
+    return BROKEN(ATTRIBUTE, GLINT_STORAGE_ATTRIBUTE, "expected a channel of %s, found %.60s%s", out->role->name,
+                  channel, glint_nearest_text(&nearest));
+}
+
+static bool parse_storage(struct glint_check *check, const struct glint_exr_part_info *from,
+                          const struct glint_part_info *out, struct glint_channel_info *channels) {
     const struct glint_exr_attribute *a = glint_exr_attribute(from, GLINT_STORAGE_ATTRIBUTE);
-    for (size_t i = 0; a && a->type == GLINT_EXR_STRINGS && i < a->count; i++) {
+    if (a && a->type != GLINT_EXR_STRINGS)
+        return BROKEN(ATTRIBUTE, GLINT_STORAGE_ATTRIBUTE, "expected type stringvector, found %s", a->type_name);
+    for (size_t i = 0; a && i < a->count; i++) {
         const char *equals = strchr(a->strings[i], '=');
-        for (size_t c = 0; equals && c < count; c++) {
+        if (!check_storage(check, out, a->strings[i])) return false;
+        for (size_t c = 0; equals && c < from->channel_count; c++) {
             const size_t length = strlen(channels[c].name);
             if ((size_t)(equals - a->strings[i]) == length && !strncmp(a->strings[i], channels[c].name, length))
                 snprintf(channels[c].storage, sizeof channels[c].storage, "%.63s", equals + 1);
         }
     }
+    return true;
 }
 
 static bool parse_sibling(struct glint_check *check, const struct glint_exr_part_info *from,
                           struct glint_part_info *out) {
     const struct glint_exr_attribute *a = glint_exr_attribute(from, GLINT_SIBLING_ATTRIBUTE);
     const struct glint_exr_attribute *hash = glint_exr_attribute(from, GLINT_SIBLING_HASH_ATTRIBUTE);
-    if (!a) return true;
+    if (!a && !hash) return true;
+    if (!a)
+        return BROKEN(SIBLING, NULL, "expected %s beside %s, found none", GLINT_SIBLING_ATTRIBUTE,
+                      GLINT_SIBLING_HASH_ATTRIBUTE);
     if (a->type != GLINT_EXR_STRING || strlen(a->string) >= sizeof out->sibling || !glint_sibling_is_plain(a->string))
         return BROKEN(SIBLING, NULL, "%s: expected a plain file name, found \"%.80s\"", GLINT_SIBLING_ATTRIBUTE,
                       a->type == GLINT_EXR_STRING ? a->string : a->type_name);
@@ -98,6 +122,9 @@ static bool parse_sibling(struct glint_check *check, const struct glint_exr_part
                       GLINT_SIBLING_HASH_ATTRIBUTE, hash && hash->type == GLINT_EXR_STRING ? hash->string : "none");
     if (strcmp(out->role->name, "cubemap"))
         return BROKEN(SIBLING, NULL, "%s: expected it on cubemap.NNN only", GLINT_SIBLING_ATTRIBUTE);
+    if ((from->width != 1 || from->height != 6) &&
+        !BROKEN(SIBLING, NULL, "expected a placeholder of 1 x 6 pixels, found %u x %u", from->width, from->height))
+        return false;
     snprintf(out->sibling, sizeof out->sibling, "%s", a->string);
     return true;
 }
@@ -226,12 +253,11 @@ bool glint_part_parse(struct glint_check *check, struct glint_arena *arena, cons
     out->channels = channels;
     out->channel_count = from->channel_count;
     if (!out->role) return true;
-    parse_storage(from, channels, from->channel_count);
-    if (!parse_version(check, from, out)) return false;
+    if (!parse_version(check, from, out) || !parse_storage(check, from, out, channels)) return false;
     if (out->role->reserved && !BROKEN(RESERVED, NULL, "the role is reserved for a later version")) return false;
     if (!scanline && !BROKEN(STORAGE, NULL, "expected flat scanlines without subsampling")) return false;
-    if (!parse_encodings(check, from, out) || !parse_sibling(check, from, out)) return false;
-    return parse_scopes(check, from, out) && check_channels(check, out);
+    return glint_attribute_names_check(check, from, out) && parse_encodings(check, from, out) &&
+           parse_sibling(check, from, out) && parse_scopes(check, from, out) && check_channels(check, out);
 }
 
 /* ---- rules between parts ---- */

@@ -15,7 +15,7 @@ struct tally {
 };
 
 struct tallies {
-    struct tally not_finite, out_of_range, not_unit, against_sky;
+    struct tally not_finite, out_of_range, not_unit, against_sky, against_mirror;
 };
 
 struct channel {
@@ -29,8 +29,9 @@ struct job {
     const char *names[GLINT_EXR_MAX_WANTED];
     struct channel channels[GLINT_EXR_MAX_WANTED];
     size_t count;
-    int depth; /* the plane of depth, which marks sky; -1 for none */
-    int alpha; /* the plane of alpha, which marks sky in a cube map; -1 for none */
+    int depth;             /* the plane of depth, which marks sky; -1 for none */
+    int alpha;             /* the plane of alpha, which marks sky in a cube map; -1 for none */
+    int distance, visible; /* the planes of truth.mirror; -1 for other parts */
     uint32_t width;
     glint_mutex lock;
     struct tallies found[GLINT_EXR_MAX_WANTED]; /* under the lock */
@@ -64,7 +65,13 @@ static enum glint_normal_encoding normal_encoding(const struct job *job, const s
 /* Whether stored values must be in [0, 1]. */
 static bool stored_in_unit(const struct job *job, const struct glint_role_channel *row) {
     if (!strcmp(row->encoding, "depth")) return job->decoder.encodings.depth != GLINT_DEPTH_VIEW_LINEAR;
+    if (!strcmp(row->encoding, "roughness")) return job->decoder.encodings.roughness == GLINT_ROUGHNESS_LOG2_POWER;
     return is_normal(row) && normal_encoding(job, row) != GLINT_NORMAL_SIGNED;
+}
+
+/* Whether integers are packed in 16 bits; stencil values may have any. */
+static bool is_packed(const struct glint_role_channel *row) {
+    return !strcmp(row->encoding, "motion") || !strcmp(row->encoding, "motion_depth");
 }
 
 /* The bounds of the decoded value. */
@@ -95,16 +102,25 @@ static void check_values(const struct job *job, const struct channel *channel, s
                          const bool *nothing, size_t count, size_t at) {
     const struct glint_role_channel *row = channel->row;
     const bool infinite = may_be_infinite(job, row), unit = stored_in_unit(job, row);
+    bool outside[GLINT_BLOCK] = {false};
     float low, high;
     find_bounds(row, &low, &high);
     for (size_t i = 0; i < count; i++) {
         if (nothing[i]) continue;
         if (isnan(v[i]) || (isinf(v[i]) && !(infinite && v[i] > 0))) note_violation(&found->not_finite, at + i, v[i]);
-        else if (unit && !(v[i] >= 0 && v[i] <= 1)) note_violation(&found->out_of_range, at + i, v[i]);
+        else if ((outside[i] = unit && !(v[i] >= 0 && v[i] <= 1))) note_violation(&found->out_of_range, at + i, v[i]);
     }
     decode_values(job, row, v, count);
     for (size_t i = 0; i < count; i++)
-        if (!nothing[i] && (v[i] < low || v[i] > high)) note_violation(&found->out_of_range, at + i, v[i]);
+        if (!nothing[i] && !outside[i] && (v[i] < low || v[i] > high))
+            note_violation(&found->out_of_range, at + i, v[i]);
+}
+
+static void check_packed(struct tallies *found, const uint8_t *values, const bool *nothing, size_t count, size_t at) {
+    uint32_t words[GLINT_BLOCK];
+    memcpy(words, values, count * sizeof *words);
+    for (size_t i = 0; i < count; i++)
+        if (!nothing[i] && words[i] > UINT16_MAX) note_violation(&found->out_of_range, at + i, (float)words[i]);
 }
 
 static void check_lengths(const struct job *job, struct tallies *found, const uint8_t *const *planes, size_t i,
@@ -141,6 +157,17 @@ static void check_sky(const struct job *job, struct tallies *found, const uint8_
     }
 }
 
+/* A mirror ray without a hit point has none that is visible. */
+static void check_mirror(const struct job *job, struct tallies *found, const uint8_t *const *planes, size_t offset,
+                         uint32_t x, size_t count, size_t at) {
+    float distance[GLINT_BLOCK], visible[GLINT_BLOCK];
+    load_values(job, planes, job->distance, offset, x, count, distance);
+    load_values(job, planes, job->visible, offset, x, count, visible);
+    for (size_t i = 0; i < count; i++)
+        if ((distance[i] == INFINITY || distance[i] == 0) && visible[i] != 0)
+            note_violation(&found[job->visible].against_mirror, at + i, visible[i]);
+}
+
 static void check_block(const struct job *job, struct tallies *found, const uint8_t *const *planes, size_t offset,
                         uint32_t x, size_t count, size_t at) {
     bool nothing[GLINT_BLOCK] = {false};
@@ -153,12 +180,16 @@ static void check_block(const struct job *job, struct tallies *found, const uint
     }
     for (size_t c = 0; c < job->count; c++) {
         const struct channel *channel = &job->channels[c];
-        if (channel->stored == GLINT_STORED_UINT) continue;
+        if (channel->stored == GLINT_STORED_UINT) {
+            if (is_packed(channel->row)) check_packed(&found[c], planes[c] + offset + 4 * x, nothing, count, at);
+            continue;
+        }
         load_values(job, planes, (int)c, offset, x, count, v);
         check_values(job, channel, &found[c], v, (int)c == job->depth ? none : nothing, count, at);
         if (channel->axes[0] >= 0) check_lengths(job, &found[c], planes, c, offset, x, nothing, count, at);
     }
     if (job->alpha >= 0) check_sky(job, found, planes, offset, x, count, at);
+    if (job->visible >= 0 && job->distance >= 0) check_mirror(job, found, planes, offset, x, count, at);
 }
 
 static bool check_rows(void *user, uint32_t y, uint32_t lines, const uint8_t *const *planes, size_t line_bytes,
@@ -177,6 +208,7 @@ static bool check_rows(void *user, uint32_t y, uint32_t lines, const uint8_t *co
         merge_tallies(&job->found[c].out_of_range, &found[c].out_of_range);
         merge_tallies(&job->found[c].not_unit, &found[c].not_unit);
         merge_tallies(&job->found[c].against_sky, &found[c].against_sky);
+        merge_tallies(&job->found[c].against_mirror, &found[c].against_mirror);
     }
     glint_mutex_unlock(&job->lock);
     return true;
@@ -198,6 +230,8 @@ static void plan_checks(struct job *job, const struct glint_part_info *part) {
     }
     job->depth = find_plane(job, "depth.Z");
     job->alpha = part->has_cubemap ? find_plane(job, "A") : -1;
+    job->distance = find_plane(job, "distance.Z");
+    job->visible = find_plane(job, "visible");
     for (size_t i = 0; i < job->count; i++) {
         const size_t length = strlen(job->names[i]);
         char other[64];
@@ -218,6 +252,25 @@ static bool report_tally(struct glint_check *check, const struct glint_part_info
                            tally->first % part->width, tally->first / part->width);
 }
 
+static void report_channel(struct glint_check *check, const struct glint_part_info *part, const struct job *job,
+                           size_t c) {
+    const struct channel *channel = &job->channels[c];
+    const struct tallies *found = &job->found[c];
+    const char *name = job->names[c];
+    float low, high;
+    find_bounds(channel->row, &low, &high);
+    report_tally(check, part, name, GLINT_RULE_PIXEL_FINITE, &found->not_finite,
+                 may_be_infinite(job, channel->row) ? "numbers or +inf" : "finite numbers");
+    report_tally(check, part, name, GLINT_RULE_PIXEL_RANGE, &found->out_of_range,
+                 channel->stored == GLINT_STORED_UINT                   ? "values of 16 bits"
+                 : stored_in_unit(job, channel->row) || high < INFINITY ? "values in [0, 1]"
+                                                                        : "values that are not negative");
+    report_tally(check, part, name, GLINT_RULE_PIXEL_NORMAL, &found->not_unit, "unit length within 0.02");
+    report_tally(check, part, name, GLINT_RULE_PIXEL_SKY, &found->against_sky,
+                 strcmp(name, "distance.Z") ? "0 where A is 0" : "+inf where A is 0, numbers where it is 1");
+    report_tally(check, part, name, GLINT_RULE_PIXEL_MIRROR, &found->against_mirror, "0 where distance.Z is 0 or +inf");
+}
+
 bool glint_validate_pixels(struct glint_check *check, struct glint_capture *capture, size_t p,
                            struct glint_error *err) {
     const struct glint_part_info *part = &capture->parts[p];
@@ -228,20 +281,6 @@ bool glint_validate_pixels(struct glint_check *check, struct glint_capture *capt
     const bool ok = glint_exr_rows(capture->sources[p].exr, capture->sources[p].part, job.names, job.count, 0,
                                    check_rows, &job, err);
     glint_mutex_finish(&job.lock);
-    for (size_t c = 0; ok && c < job.count; c++) {
-        const struct channel *channel = &job.channels[c];
-        float low, high;
-        find_bounds(channel->row, &low, &high);
-        report_tally(check, part, job.names[c], GLINT_RULE_PIXEL_FINITE, &job.found[c].not_finite,
-                     may_be_infinite(&job, channel->row) ? "numbers or +inf" : "finite numbers");
-        report_tally(check, part, job.names[c], GLINT_RULE_PIXEL_RANGE, &job.found[c].out_of_range,
-                     stored_in_unit(&job, channel->row) || high < INFINITY ? "values in [0, 1]"
-                                                                           : "values that are not negative");
-        report_tally(check, part, job.names[c], GLINT_RULE_PIXEL_NORMAL, &job.found[c].not_unit,
-                     "unit length within 0.02");
-        report_tally(check, part, job.names[c], GLINT_RULE_PIXEL_SKY, &job.found[c].against_sky,
-                     strcmp(job.names[c], "distance.Z") ? "0 where A is 0"
-                                                        : "+inf where A is 0, numbers where it is 1");
-    }
+    for (size_t c = 0; ok && c < job.count; c++) report_channel(check, part, &job, c);
     return ok;
 }

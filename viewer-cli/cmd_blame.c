@@ -126,10 +126,10 @@ static bool begin_blame(struct arguments *a, struct glint_error *err) {
     blame->all = a->pipeline.replay.all;
     if (!choose_metric(a, err)) return false;
     blame->base = glint_pipeline_create(a->pipeline.preset ? a->pipeline.preset : "mafia3", err);
-    a->pipeline.without_fog =
-        captures_have_fog(&blame->captures); /* of all answers, so that shares of different ones can be compared */
+    const char *fogged = captures_fogged(&blame->captures);
+    a->pipeline.without_fog = fogged != NULL; /* of all answers, so that shares of different ones can be compared */
     if (!blame->base || !pipeline_args_apply(&a->pipeline, blame->base, err)) return false;
-    pipeline_note_fog(&cmd_blame, blame->base, &blame->captures);
+    pipeline_note_fog(&cmd_blame, blame->base, fogged);
     if (!(blame->players = glint_players_create(blame->base, blame->player_rays, err))) return false;
     blame->count = glint_players_count(blame->players);
     return (blame->device = pipeline_args_device(&a->pipeline, err)) && blame_open(blame, &a->pipeline.shader, err);
@@ -152,7 +152,10 @@ static void report_interrupted_blame(struct blame *blame, bool json, bool shown)
     if (!blame_publish(blame, true, &err)) command_note(&cmd_blame, "%s", err.message);
     if (!json && !shown && blame_is_known(&blame->captured[0])) blame_print_shares(blame);
     if (!json && shown) blame_print_times(blame);
-    if (blame->out) command_note(&cmd_blame, "results are kept in %s; the same command resumes from there", blame->out);
+    if (!blame->out) return;
+    char text[512];
+    journal_describe_kept(&blame->journal, "results", text);
+    command_note(&cmd_blame, "%s", text);
 }
 
 static enum status cmd_blame_run(int argc, char **argv) {

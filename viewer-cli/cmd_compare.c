@@ -182,7 +182,7 @@ static enum status cmd_compare_run(int argc, char **argv) {
     struct contest contest = {.rounds = a.rounds};
     const struct glint_device_options device = {.select = a.device};
     bool ok = contest_begin(&contest, a.presets.items, &a.settings, &err);
-    if (ok) pipeline_note_fog(&cmd_compare, contest.contestants[0].pipeline, &a.captures);
+    if (ok) pipeline_note_fog(&cmd_compare, contest.contestants[0].pipeline, captures_fogged(&a.captures));
     ok = ok && (contest.device = glint_device_create(&device, &err)) != NULL;
     enum status status = ok ? compare(&contest, &a, &err) : command_fail(&cmd_compare, &err);
     contest_finish(&contest);

@@ -1,4 +1,6 @@
 /* glint diff: compares two images, two runs, or a run with the engine's own intermediate images. */
+#include <stdlib.h>
+
 #include "command.h"
 #include "diff/options.h"
 
@@ -17,6 +19,9 @@ static const struct example examples[] = {
     {"glint diff planned all", "checks that a plan changed no bit, by a run with --all"},
     {"glint diff run:travelled run2:travelled", "compares one image"},
     {"glint diff run street.exr", "compares a run with the engine's images (engine.SLOT.IMAGE)"},
+    {"glint diff run:reflection street.exr:truth.reflection.ggx --metrics",
+     "compares an image with a part of a capture"},
+    {"glint diff run:reflection_half run:reflection --resample", "compares images of different sizes"},
     {"glint diff run run2 --metrics rmse,flip --json", "prints image metrics (see docs/metrics.md)"},
     {0},
 };
@@ -44,12 +49,14 @@ static enum status cmd_diff_run(int argc, char **argv) {
     struct arguments a = {.diff = diff_args_default()};
     struct glint_error err = {0};
     struct diff diff;
-    command_parse(&cmd_diff, argc, argv, &a);
+    char **arguments = metric_args_complete(argc, argv);
+    command_parse(&cmd_diff, argc, arguments ? arguments : argv, &a);
     const bool ok = diff_args_compare(&a.diff, a.paths, &diff, &err);
     const enum diff_status status = ok ? diff.status : diff_args_fail(&cmd_diff, &err);
     if (ok && a.diff.json) print_json(diff_json(&diff));
     else if (ok && !a.diff.quiet) diff_print(&diff, a.diff.verbose);
     diff_finish(&diff);
+    free(arguments);
     return (enum status)status;
 }
 
@@ -59,7 +66,8 @@ const struct command cmd_diff = {
     .summary = "compare two images, two runs, or a run with the engine's intermediate images",
     .description =
         "A and B are EXR files, runs, or one image of either (F:PART:LAYER, RUN:IMAGE). For a run and a capture, the "
-        "run is compared with the engine's own intermediate images in the capture. Limits and exit codes are those "
+        "run is compared with the engine's own intermediate images in the capture, and one image of the run with the "
+        "part of the capture that is named (F:PART), decoded. Limits and exit codes are those "
         "of idiff: 0 equal, 1 warning, 2 failure, 3 different size, 4 unreadable (5: wrong usage). An image or "
         "channel that only one side contains is a failure. NaN equals only NaN. For each image the output shows the "
         "share of pixels that differ at all, the number of pixels over the limit, the RMS of all channels and, for an "

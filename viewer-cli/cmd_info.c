@@ -6,6 +6,7 @@
 #include "command.h"
 #include "options/args.h"
 #include "capture/camera_facts.h"
+#include "capture/damaged.h"
 #include "capture/missing.h"
 #include "capture/depth_facts.h"
 #include "capture/info_tables.h"
@@ -21,7 +22,11 @@ struct arguments {
 enum { KEY_HEADERS = 256, KEY_SURVEY };
 
 static const struct argp_option options[] = {
-    {"headers", KEY_HEADERS, NULL, 0, "Read no pixels: no ranges and no survey", 0},
+    {"headers", KEY_HEADERS, NULL, 0,
+     "Read no pixels: no ranges and no survey. Of a damaged file, or a capture that breaks rules of the format, what "
+     "can be "
+     "read is listed, and where it breaks; the exit status is 1",
+     0},
     {"survey", KEY_SURVEY, NULL, 0,
      "Print only the survey, which counts on the device what the pixels of a capture need", 0},
     {"json", 'j', NULL, 0, "Print JSON", 0},
@@ -145,18 +150,21 @@ static enum status print_capture(const struct arguments *a, struct glint_capture
     return !survey || carries_print(capture, &err) ? STATUS_DONE : command_fail(&cmd_info, &err);
 }
 
+static json_t *parts_json(const struct glint_exr *exr, const struct channel_table *all) {
+    json_t *parts = json_array();
+    for (size_t i = 0; i < glint_exr_part_count(exr); i++) {
+        const struct glint_exr_part_info *part = glint_exr_part(exr, i);
+        json_array_append_new(parts, json_pack("{s:s, s:I, s:I, s:o}", "name", part->name, "width",
+                                               (json_int_t)part->width, "height", (json_int_t)part->height, "channels",
+                                               channels_json(all, part->name)));
+    }
+    return parts;
+}
+
 static enum status print_exr(const struct arguments *a, const struct glint_exr *exr, const struct channel_table *all) {
     size_t count = glint_exr_part_count(exr);
-    if (a->json) {
-        json_t *parts = json_array();
-        for (size_t i = 0; i < count; i++) {
-            const struct glint_exr_part_info *part = glint_exr_part(exr, i);
-            json_array_append_new(parts, json_pack("{s:s, s:I, s:I, s:o}", "name", part->name, "width",
-                                                   (json_int_t)part->width, "height", (json_int_t)part->height,
-                                                   "channels", channels_json(all, part->name)));
-        }
-        return print_json(json_pack("{s:s, s:b, s:o}", "file", a->path, "capture", 0, "parts", parts));
-    }
+    if (a->json)
+        return print_json(json_pack("{s:s, s:b, s:o}", "file", a->path, "capture", 0, "parts", parts_json(exr, all)));
     printf("%s: an EXR file, not a capture, %zu part%s\n\n", a->path, count, count == 1 ? "" : "s");
     info_print_channels(all);
     return STATUS_DONE;
@@ -224,6 +232,70 @@ static enum status survey_of(const struct arguments *a) {
     return status;
 }
 
+/* ---- Files that cannot be opened ---- */
+
+/* A whole EXR file that is no valid capture. */
+static enum status print_invalid(const struct arguments *a, const struct glint_exr *exr,
+                                 const struct channel_table *all, const struct glint_error *why) {
+    if (a->json) {
+        print_json(json_pack("{s:s, s:b, s:s, s:o}", "file", a->path, "capture", 0, "fault", why->message, "parts",
+                             parts_json(exr, all)));
+    } else {
+        printf("%s: not a valid capture, %zu parts\n\n", a->path, glint_exr_part_count(exr));
+        info_print_channels(all);
+        putchar('\n');
+    }
+    command_note(&cmd_info, "%s; glint validate lists every violation", why->message);
+    return STATUS_CHECK;
+}
+
+static enum status print_damaged(const struct arguments *a, const char *path, const struct glint_error *why) {
+    struct glint_error err = *why;
+    struct damaged damaged;
+    enum status status = STATUS_CHECK;
+    if (!damaged_read(&damaged, path, &err)) return command_fail(&cmd_info, &err);
+    if (a->json) {
+        print_json(json_pack("{s:s, s:b, s:s, s:s, s:o}", "file", a->path, "capture", 0, "fault", why->message,
+                             "breaks_at", damaged.fault, "parts", damaged_json(&damaged)));
+        command_note(&cmd_info, "%s", why->message);
+    } else {
+        printf("%s: damaged, %zu part%s\n\n", a->path, damaged.count, damaged.count == 1 ? "" : "s");
+        damaged_print(&damaged);
+        fflush(stdout);
+        status = command_fail(&cmd_info, why);
+    }
+    damaged_finish(&damaged);
+    return status;
+}
+
+/* What --headers shows of a file that is no valid capture or no whole EXR file. */
+static enum status print_broken(const struct arguments *a, const char *path, const struct glint_error *why) {
+    struct glint_error err = {0};
+    struct channel_table all = {0};
+    struct progress progress;
+    if (!path || (why->code != GLINT_ERROR_FORMAT && why->code != GLINT_ERROR_UNSUPPORTED))
+        return command_fail(&cmd_info, why);
+    struct glint_exr *exr = glint_exr_open(path, NULL, NULL);
+    if (!exr) return print_damaged(a, path, why);
+    progress_begin(&progress);
+    const bool ok = channels_of_exr(&all, exr, false, progress_report, &progress, &err);
+    progress_end(&progress);
+    const enum status status = ok ? print_invalid(a, exr, &all, why) : command_fail(&cmd_info, &err);
+    channel_table_finish(&all);
+    glint_exr_close(&exr);
+    return status;
+}
+
+/* A file that is damaged can still be looked into. */
+static enum status fail(const struct arguments *a, const char *path, struct glint_error *err) {
+    text_clean(err->message); /* it may have names of the file, and is text in JSON */
+    if (a->headers) return print_broken(a, path, err);
+    const size_t used = strlen(err->message);
+    if (path && (err->code == GLINT_ERROR_FORMAT || err->code == GLINT_ERROR_UNSUPPORTED))
+        snprintf(err->message + used, sizeof err->message - used, "; --headers lists what can be read");
+    return command_fail(&cmd_info, err);
+}
+
 static enum status cmd_info_run(int argc, char **argv) {
     struct arguments a = {0};
     command_parse(&cmd_info, argc, argv, &a);
@@ -249,7 +321,7 @@ static enum status cmd_info_run(int argc, char **argv) {
         ok = exr && channels_of_exr(&all, exr, !a.headers, progress_report, &progress, &err);
     }
     progress_end(&progress);
-    enum status status = !ok       ? command_fail(&cmd_info, &err)
+    enum status status = !ok       ? fail(&a, path, &err)
                          : capture ? print_capture(&a, capture, &all, a.headers ? NULL : &survey)
                                    : print_exr(&a, exr, &all);
     channel_table_finish(&all);

@@ -204,11 +204,14 @@ static void print_all(const struct glint_reference *reference, const struct argu
 }
 
 static void note_interrupted(const struct glint_reference_state *state, const char *folder) {
-    const uint32_t rays = state->rays + state->begun;
-    if (rays)
-        command_note(&cmd_reference, "%u rays per pixel are kept in %s; the same command resumes from there", rays,
-                     folder);
-    else command_note(&cmd_reference, "interrupted before the first round of rays was complete: nothing is kept");
+    const uint32_t traced = state->rays + state->begun;
+    if (state->kept)
+        command_note(&cmd_reference, "%u rays per pixel are kept in %s; the same command resumes from there",
+                     state->kept, folder);
+    if (traced > state->kept)
+        command_note(&cmd_reference, "%u rays per pixel are lost: they could not be written to %s",
+                     traced - state->kept, folder);
+    else if (!traced) command_note(&cmd_reference, "interrupted before the first ray of all pixels: nothing is kept");
 }
 
 static enum status trace_reference(const struct arguments *a, const struct opened *opened, struct glint_error *err) {

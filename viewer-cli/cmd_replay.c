@@ -39,7 +39,8 @@ static const struct argp_option options[] = {
     {"against",     KEY_AGAINST,     "WHAT", 0, "Compare with a better solution. truth: the path-traced reflection and mirror rays in the capture (truth.*); turns on "
         "--diagnostics; use downsample.jitter=false to compare rays. reference: the preset reference on the same capture; "
         "reference=RUN: a run of glint reference. both (or both=RUN): both, and the difference between truth and reference. The "
-        "truth has no fog: with truth, both and a RUN without fog it is left out here, too", 0},
+        "truth has no fog: with truth, both and a RUN without fog it is left out here, too. With -o the run gets images of the error, "
+        "error and flip, and reference_error and reference_flip", 0},
     METRIC_OPTIONS,
     {"watch",       KEY_WATCH,       NULL,   0, "Replay again whenever the preset file or a shader changes: RUN contains the newest version, RUN/first the first one, "
         "and RUN/watch.html compares both and reloads itself. Shaders that do not compile are ignored until they do. Stop with "
@@ -311,7 +312,8 @@ static bool replay_one(struct job *job, const char *path, const char *folder, co
                       glint_replay_write(job->replay, folder, progress_report, &progress, err))) &&
          glint_replay_bad_values(job->replay, &found.bad, &found.count, err) &&
          (!compared || against_compare(job->against, job->replay, capture, job->pipeline, compared, err)) &&
-         (!compared || !folder || report_keep_errors(folder, compared, err));
+         (!compared || !folder ||
+          (report_keep_errors(folder, compared, err) && against_write_images(compared, folder, err)));
     progress_end(&progress);
     if (ok) warn(job);
     if (ok && job->runs)
@@ -395,9 +397,10 @@ static enum status cmd_replay_run(int argc, char **argv) {
     struct glint_error err = {0};
     enum status status;
     const bool prepared = against_prepare(&a.against, &a.pipeline.without_fog, &err);
-    a.pipeline.without_fog = a.pipeline.without_fog && captures_have_fog(&a.captures);
+    const char *fogged = a.pipeline.without_fog ? captures_fogged(&a.captures) : NULL;
+    a.pipeline.without_fog = fogged != NULL;
     if (prepared && !a.watch) job.pipeline = pipeline_args_create(&a.pipeline, &err);
-    if (job.pipeline && a.pipeline.without_fog) pipeline_note_fog(&cmd_replay, job.pipeline, &a.captures);
+    if (job.pipeline) pipeline_note_fog(&cmd_replay, job.pipeline, fogged);
     if (job.pipeline || a.watch) job.device = pipeline_args_device(&a.pipeline, &err);
     if (job.pipeline && job.device) job.replay = glint_replay_create(job.device, &err);
     if (job.device && a.watch) {

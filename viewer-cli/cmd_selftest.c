@@ -226,6 +226,12 @@ static bool run_cases(struct glint_selftest *selftest, const struct arguments *a
     return ok;
 }
 
+/* That a device cannot be tested is another result than that it computes wrongly. */
+static enum status fail(const struct glint_error *err) {
+    const enum status status = command_fail(&cmd_selftest, err);
+    return status == STATUS_CHECK ? STATUS_NOT_RUN : status;
+}
+
 static enum status cmd_selftest_run(int argc, char **argv) {
     struct arguments a = {0};
     struct glint_error err = {0};
@@ -234,7 +240,7 @@ static enum status cmd_selftest_run(int argc, char **argv) {
     clock_gettime(CLOCK_MONOTONIC, &start);
     struct glint_selftest *selftest = glint_selftest_create(list_or_null(&a.only), &err);
     const bool ok = selftest && (a.list || run_cases(selftest, &a, &err));
-    const enum status status = ok ? report(selftest, &a, seconds_since(&start)) : command_fail(&cmd_selftest, &err);
+    const enum status status = ok ? report(selftest, &a, seconds_since(&start)) : fail(&err);
     glint_selftest_destroy(&selftest);
     list_free(&a.only);
     return status;
@@ -255,7 +261,7 @@ const struct command cmd_selftest = {
         "neighbouring floats at the expected value. Where the reason for a bound is the precision that Vulkan "
         "guarantees, a conforming device may reach the bound. Ties are decisions, such as hit or miss, that are "
         "within rounding of the opposite result. Failed cases are repeated at the end with their description. The "
-        "exit status is 1 if a case fails and 2 if none could be run.",
+        "exit status is 1 if a case fails and 2 if the cases could not be run, such as without a device.",
     .options = options,
     .targets = targets,
     .parse = cmd_selftest_parse,

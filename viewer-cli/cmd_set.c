@@ -136,9 +136,9 @@ static bool check_key(const struct glint_edit *edit, const char *key, struct gli
     }
     for (size_t p = 0; (part = glint_edit_part(edit, p)) != NULL; p++)
         for (size_t a = 0; a < part->attribute_count; a++) {
-            if (!strncmp(part->attributes[a].name, "glint.", 6)) continue;
             if (!strcmp(part->attributes[a].name, key)) return true;
-            glint_nearest_offer(&near, part->attributes[a].name);
+            if (strncmp(part->attributes[a].name, "glint.", 6) != 0)
+                glint_nearest_offer(&near, part->attributes[a].name);
         }
     return glint_fail(err, GLINT_ERROR_USAGE, "%s: no such key%s; glint set --list shows them", key,
                       glint_nearest_text(&near));
@@ -195,7 +195,9 @@ const struct command cmd_set = {
         "have them, or, after PART:, only to parts with this name or beginning with it (cubemap, previous). Numbers "
         "are separated by commas, matrices are written row by row, and an empty value removes the attribute. Pixels "
         "keep every bit: set changes what is said about them. The input may break rules of FORMAT.md, the copy must "
-        "not. Other attributes that a part already has can be set by their names, too.",
+        "not: an attribute that a part must not have is removed by its whole name, such as glint.exposurE=. Other "
+        "attributes "
+        "that a part already has can be set by their names, too.",
     .options = options,
     .targets = targets,
     .parse = cmd_set_parse,

@@ -123,9 +123,10 @@ static bool begin_sweep(struct arguments *a, struct glint_error *err) {
     sweep->all = a->pipeline.replay.all;
     if (!answer_args_metric(a->metric, &sweep->metric, err)) return false;
     sweep->metrics = GLINT_METRICS_CHEAP | 1u << sweep->metric;
-    a->pipeline.without_fog = sweep->against.truth && captures_have_fog(&sweep->captures);
+    const char *fogged = sweep->against.truth ? captures_fogged(&sweep->captures) : NULL;
+    a->pipeline.without_fog = fogged != NULL;
     if (!(sweep->base = pipeline_args_create(&a->pipeline, err))) return false;
-    if (sweep->against.truth) pipeline_note_fog(&cmd_sweep, sweep->base, &sweep->captures);
+    pipeline_note_fog(&cmd_sweep, sweep->base, fogged);
     sweep->space = a->hypercube ? glint_space_create_hypercube(sweep->base, a->axes.items, a->hypercube, a->seed, err)
                                 : glint_space_create(sweep->base, a->axes.items, err);
     char sample[64] = "grid";
@@ -165,6 +166,12 @@ static enum status report_failures(const struct sweep *sweep) {
     return status;
 }
 
+static void note_kept(const struct sweep *sweep) {
+    char text[512];
+    journal_describe_kept(&sweep->journal, "results", text);
+    command_note(&cmd_sweep, "%s", text);
+}
+
 static enum status cmd_sweep_run(int argc, char **argv) {
     struct arguments a = {.sweep = {.rounds = 3, .pictures = true, .metric = GLINT_METRIC_RMSE}, .seed = 1};
     struct glint_error err = {0};
@@ -177,8 +184,7 @@ static enum status cmd_sweep_run(int argc, char **argv) {
               write_tables(sweep, &err) && sweep_draw_fronts(sweep, &err) && sweep_write_page(sweep, &err);
     progress_end(&progress);
     enum status status = ok ? STATUS_DONE : command_fail(&cmd_sweep, &err);
-    if (!ok && err.code == GLINT_ERROR_INTERRUPTED)
-        command_note(&cmd_sweep, "results are kept in %s; the same command resumes from there", sweep->out);
+    if (!ok && err.code == GLINT_ERROR_INTERRUPTED) note_kept(sweep);
     missing_note(&cmd_sweep, &sweep->missing, 0);
     if (ok && a.json) status = print_json(sweep_json(sweep));
     else if (ok) sweep_print(sweep);
@@ -199,7 +205,9 @@ const struct command cmd_sweep = {
         "points: those for which no other point has less error in the same GPU time, or less error with the same "
         "number of texture fetches per pixel, which does not depend on the device. Captures are uploaded once, and "
         "points are ordered so that only passes whose inputs or parameters change are run again. Fog stays as the "
-        "preset sets it. The folder contains the page index.html, a chart of each front as SVG, points.csv, "
+        "preset sets it. The folder contains the page index.html, a chart of each front as SVG, for one numeric "
+        "parameter also charts of error and cost against it with the knee (the value beyond which larger "
+        "ones reduce the error less), points.csv, "
         "points.json, pictures, and log.jsonl, to which each result is appended as soon as it is known: the same "
         "command resumes an interrupted sweep. Each capture is replayed without the history of previous frames. "
         "Times are measured after a warm-up with shaders without diagnostics; passes that several points share are "

@@ -183,9 +183,10 @@ static bool begin_tune(struct arguments *a, struct glint_error *err) {
     tune->shaders = &a->pipeline.shader;
     for (size_t i = 0; i < tune->slots.count; i++)
         if (!glint_slot_check(tune->slots.items[i], err)) return false;
-    a->pipeline.without_fog = tune->against.truth && captures_have_fog(&tune->captures);
+    const char *fogged = tune->against.truth ? captures_fogged(&tune->captures) : NULL;
+    a->pipeline.without_fog = fogged != NULL;
     if (!choose_metric(a, err) || !(tune->base = pipeline_args_create(&a->pipeline, err))) return false;
-    if (tune->against.truth) pipeline_note_fog(&cmd_tune, tune->base, &tune->captures);
+    pipeline_note_fog(&cmd_tune, tune->base, fogged);
     if (!(tune->device = pipeline_args_device(&a->pipeline, err)) || !glint_make_folder(tune->folder, err) ||
         !tune_load(tune, err) || !tune_make_axes(tune, err))
         return false;
@@ -201,8 +202,10 @@ static enum status report_interrupted_tune(const struct tune *tune) {
     struct glint_error err = {0};
     const bool some = tune->found.count && tune->found.feasible;
     if (some && !tune_write_preset(tune, &err)) return command_fail(&cmd_tune, &err);
-    command_note(&cmd_tune, "%s%sthe evaluations are kept in %s; the same command resumes the search",
-                 some ? tune->out : "", some ? " is the best preset so far, without final timing; " : "", tune->folder);
+    char text[512];
+    journal_describe_kept(&tune->journal, "evaluations", text);
+    command_note(&cmd_tune, "%s%s%s", some ? tune->out : "",
+                 some ? " is the best preset so far, without final timing; " : "", text);
     return STATUS_INTERRUPTED;
 }
 

@@ -233,6 +233,15 @@ static bool print_statistics(const struct source *source, const struct arguments
     return ok;
 }
 
+/* tev replaces an image of the same name, so the name has the file or run that the image is of. */
+static bool send_to_tev(const struct arguments *a, const struct source *source, struct glint_error *err) {
+    char name[4096], *part, *layer, *path = source_split(a->paths.items[0], &part, &layer);
+    if (!path) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    snprintf(name, sizeof name, "%.3700s:%s", path, source->title);
+    free(path);
+    return tev_send(a->tev, name, source, err);
+}
+
 /* Draws one image, and prints what is requested of it. */
 static bool show_image(struct picture *picture, struct arguments *a, struct glint_error *err) {
     struct source source = {0};
@@ -240,7 +249,7 @@ static bool show_image(struct picture *picture, struct arguments *a, struct glin
     bool ok = source_open(&source, &a->choice, err);
     a->statistics.range = a->render.falsecolor;
     if (ok && (a->statistics.table || a->statistics.histogram)) ok = print_statistics(&source, a, err);
-    if (ok && a->tev) ok = tev_send(a->tev, source.title, &source, err);
+    if (ok && a->tev) ok = send_to_tev(a, &source, err);
     if (ok && (a->out || a->terminal))
         ok = a->levels ? render_levels(picture, &source, &a->choice, &a->render, &invalid, err)
                        : render(picture, &source, &a->render, &invalid, err);

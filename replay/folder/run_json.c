@@ -11,20 +11,29 @@
 
 enum { PATH_SIZE = 4096 };
 
+/* Removes the files of a pass's images; failures are harmless: several images share a file. */
+static void remove_images(const char *folder, const json_t *pass) {
+    char path[PATH_SIZE];
+    json_t *image;
+    size_t i;
+    json_array_foreach(json_object_get(pass, "images"), i, image) {
+        const char *file = json_string_value(json_object_get(image, "file"));
+        const size_t length = file ? strlen(file) : 0;
+        if (length < 5 || strchr(file, '/') || strcmp(file + length - 4, ".exr") != 0) continue;
+        snprintf(path, sizeof path, "%s/%s", folder, file);
+        unlink(path);
+    }
+}
+
 bool glint_run_remove(const char *folder, struct glint_error *err) {
     char path[PATH_SIZE];
     snprintf(path, sizeof path, "%s/run.json", folder);
-    json_t *root = json_load_file(path, 0, NULL), *pass, *image;
-    size_t p, i;
+    json_t *root = json_load_file(path, 0, NULL), *pass;
+    size_t p;
     bool ok = unlink(path) == 0 || errno == ENOENT || glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
-    json_array_foreach(json_object_get(root, "passes"), p, pass) {
-        json_array_foreach(json_object_get(pass, "images"), i, image) {
-            const char *file = json_string_value(json_object_get(image, "file"));
-            size_t length = file ? strlen(file) : 0;
-            if (!ok || length < 5 || strchr(file, '/') || strcmp(file + length - 4, ".exr") != 0) continue;
-            snprintf(path, sizeof path, "%s/%s", folder, file);
-            unlink(path); /* fails harmlessly for the further images of a file */
-        }
+    if (ok) {
+        json_array_foreach(json_object_get(root, "passes"), p, pass) remove_images(folder, pass);
+        remove_images(folder, json_object_get(root, "compared"));
     }
     json_decref(root);
     return ok;

@@ -99,6 +99,11 @@ static bool parse_run(struct glint_run *run, struct glint_error *err) {
             if (!add_image(run, pass, image, err)) return false;
         }
     }
+    /* What a comparison with a better image left. */
+    const json_t *compared = json_object_get(run->root, "compared");
+    json_array_foreach(json_object_get(compared, "images"), i, image) {
+        if (!add_image(run, compared, image, err)) return false;
+    }
     return true;
 }
 

@@ -38,6 +38,7 @@ struct glint_reference *glint_reference_create(struct glint_replay *replay, stru
         ok = (reference->folder || glint_fail(err, GLINT_ERROR_MEMORY, "reference: out of memory")) &&
              reference_settings(reference, err) && reference_resume(reference, options->overwrite, err);
     }
+    if (reference->folder) reference->state.kept = reference->state.rays + reference->state.begun;
     if (!ok) glint_reference_destroy(&reference);
     return reference;
 }
@@ -98,12 +99,14 @@ static bool trace_part(struct glint_reference *reference, struct glint_progress_
     return ok;
 }
 
-/* *kept is the number of rays of the complete reference in the folder. */
-static bool save_reference(struct glint_reference *reference, uint32_t *kept, struct glint_error *err) {
-    const uint32_t rays = reference->state.rays;
-    if (rays != *kept && !reference_save(reference, err)) return false;
-    *kept = rays;
-    return !reference->state.begun || reference_save_round(reference, err);
+/* *complete is the number of rays of the complete reference in the folder. */
+static bool save_reference(struct glint_reference *reference, uint32_t *complete, struct glint_error *err) {
+    struct glint_reference_state *state = &reference->state;
+    if (state->rays != *complete && !reference_save(reference, err)) return false;
+    *complete = state->kept = state->rays;
+    if (state->begun && !reference_save_round(reference, err)) return false;
+    state->kept += state->begun;
+    return true;
 }
 
 bool glint_reference_trace(struct glint_reference *reference, uint32_t rays, double noise, glint_progress progress,
@@ -111,7 +114,7 @@ bool glint_reference_trace(struct glint_reference *reference, uint32_t rays, dou
     struct glint_reference_state *state = &reference->state;
     struct glint_progress_part part = {.progress = progress, .user = user};
     const uint32_t first = count_rays(state);
-    uint32_t kept = state->rays;
+    uint32_t complete = state->rays;
     double saved = glint_now_seconds();
     bool unsaved = false;
     bool ok = rays <= GLINT_REFERENCE_RAYS_MAX ||
@@ -122,12 +125,13 @@ bool glint_reference_trace(struct glint_reference *reference, uint32_t rays, dou
         ok = trace_part(reference, &part, err);
         unsaved = unsaved || (reference->folder && count_rays(state) != before);
         if (!ok || !unsaved || glint_now_seconds() - saved < SAVE_SECONDS) continue;
-        ok = save_reference(reference, &kept, err);
+        ok = save_reference(reference, &complete, err);
         saved = glint_now_seconds();
         unsaved = !ok;
     }
     if (!unsaved) return ok;
-    return save_reference(reference, &kept, ok ? err : NULL) && ok;
+    /* What interrupted it is the error; state->kept says what was saved nevertheless. */
+    return save_reference(reference, &complete, ok ? err : NULL) && ok;
 }
 
 const struct glint_reference_state *glint_reference_state(const struct glint_reference *reference) {

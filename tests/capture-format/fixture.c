@@ -84,6 +84,7 @@ void fixture_init(struct fixture *f) {
         float *g = f->gbuffer + 17 * i;
         double n[3];
         g[0] = i % 7 == 0 ? INFINITY : (float)(0.2 + 400 * pow(fixture_noise(i, 3), 3));
+        f->visible[i] = i % 7 == 0 ? 0 : (float)fixture_noise(i, 5);
         fixture_normal(i, n);
         for (int a = 0; a < 3; a++) g[1 + a] = (float)n[a];
         for (uint32_t c = 4; c < 10; c++) g[c] = (float)fixture_noise(i, c);
@@ -163,7 +164,7 @@ struct glint_part fixture_part(const struct fixture *f, enum fixture_part which,
     }
     if (which == FIXTURE_MIRROR) {
         add_fixture_channel(&part, c, "distance.Z", f->gbuffer, 17);
-        add_fixture_channel(&part, c, "visible", f->gbuffer + 5, 17);
+        add_fixture_channel(&part, c, "visible", f->visible, 1);
         return part;
     }
     if (which == FIXTURE_ENGINE) {

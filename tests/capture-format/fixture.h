@@ -20,6 +20,7 @@ struct fixture {
     float gbuffer[FIX_W * FIX_H * 17];
     uint32_t stencil[FIX_W * FIX_H];
     float color[FIX_W * FIX_H * 4];
+    float visible[FIX_W * FIX_H];
     float cube[FIX_CUBE * FIX_CUBE * 6 * 5];
     struct glint_cubemap cubemap;
     struct glint_planar planar;

@@ -93,6 +93,35 @@ static void one_changed_byte_is_refused(UNUSED void **state) {
     assert_refused("expected the hash");
 }
 
+static const char *said;
+static void note_rule(void *user, const char *rule, const char *message) {
+    static char text[1024];
+    (void)user;
+    snprintf(text, sizeof text, "%s: %s", rule, message);
+    said = text;
+}
+
+/* The placeholder is 1 x 6 black pixels, so that no tool shows something else than glint. */
+static void a_placeholder_with_colours_is_a_violation(UNUSED void **state) {
+    struct glint_error err = {0};
+    static struct rewrite r;
+    size_t violations = 0;
+    write_probes(0);
+    assert_true(write_capture("probes.exr", false, &err));
+    assert_true(glint_capture_validate(capture_path, NULL, note_rule, NULL, &violations, &err));
+    assert_int_equal(violations, 0);
+    rewrite_load(&r, capture_path);
+    const struct rewrite_part *part = rewrite_find(&r, "cubemap.017");
+    assert_int_equal(part->channels[1].stored, GLINT_STORED_HALF);
+    ((uint16_t *)part->data[1])[5] = 0x3c00;
+    rewrite_save(&r, capture_path);
+    rewrite_finish(&r);
+    assert_true(glint_capture_validate(capture_path, NULL, note_rule, NULL, &violations, &err));
+    assert_int_equal(violations, 1);
+    if (!strstr(said, "sibling: ") || !strstr(said, "cubemap.017: B: expected a placeholder of black pixels"))
+        fail_msg("%s", said);
+}
+
 static void another_file_of_that_name_is_refused(UNUSED void **state) {
     struct glint_error err = {0};
     write_probes(0);
@@ -214,6 +243,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pixels_come_from_the_sibling),
         cmocka_unit_test(one_changed_byte_is_refused),
+        cmocka_unit_test(a_placeholder_with_colours_is_a_violation),
         cmocka_unit_test(another_file_of_that_name_is_refused),
         cmocka_unit_test(a_name_is_a_file_of_the_folder_on_every_system),
         cmocka_unit_test(a_reader_refuses_such_names),

@@ -19,6 +19,7 @@ static size_t common_channels(struct diff_pair *pair, bool integers, const char 
                 if (side == 0) names[count++] = own->channels[i];
                 continue;
             }
+            if (own->captured || other->captured) continue; /* what a part holds besides is no image's fault */
             pair->status = DIFF_FAIL;
             snprintf(pair->note, sizeof pair->note, "channel %.100s: %s has %s", own->channels[i],
                      side ? "the first" : "the second", k < other->channel_count ? "another type" : "none");
@@ -108,6 +109,18 @@ static bool compare_kind(struct diff *diff, struct diff_pair *pair, bool integer
     return ok;
 }
 
+/* Each axis of both images becomes that of the smaller one, where the other is averaged. */
+static void resample_pair(struct diff *diff, struct diff_pair *pair) {
+    const uint32_t width = pair->a->width < pair->b->width ? pair->a->width : pair->b->width,
+                   height = pair->a->height < pair->b->height ? pair->a->height : pair->b->height;
+    struct diff_image *images[2] = {&diff->sides[0].images[pair->a - diff->sides[0].images],
+                                    &diff->sides[1].images[pair->b - diff->sides[1].images]};
+    for (int k = 0; k < 2; k++) images[k]->width = width, images[k]->height = height;
+    const size_t used = strlen(pair->note);
+    snprintf(pair->note + used, sizeof pair->note - used, ", compared at %u x %u: means of the areas that texels cover",
+             width, height);
+}
+
 static bool compare_pair(struct diff *diff, struct diff_pair *pair, struct glint_error *err) {
     size_t channels = 0;
     if (!pair->a || !pair->b) {
@@ -118,19 +131,45 @@ static bool compare_pair(struct diff *diff, struct diff_pair *pair, struct glint
         return true;
     }
     if (pair->a->width != pair->b->width || pair->a->height != pair->b->height) {
-        pair->status = DIFF_SIZE;
-        snprintf(pair->note, sizeof pair->note, "%u x %u and %u x %u", pair->a->width, pair->a->height, pair->b->width,
-                 pair->b->height);
-        return true;
+        const char *hint = diff->options.resample ? "" : "; --resample compares them";
+        snprintf(pair->note, sizeof pair->note, "%u x %u and %u x %u%s", pair->a->width, pair->a->height,
+                 pair->b->width, pair->b->height, hint);
+        if (!diff->options.resample) return pair->status = DIFF_SIZE, true;
+        resample_pair(diff, pair);
     }
     if (!glint_difference_begin(&pair->difference, pair->a->width, pair->a->height, err)) return false;
     if (diff->options.heat && !(pair->heat = calloc(pair->difference.pixels, sizeof *pair->heat)))
         return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     if (!compare_kind(diff, pair, false, &channels, err) || !compare_kind(diff, pair, true, &channels, err))
         return false;
+    if (!channels && !pair->status) {
+        pair->status = DIFF_FAIL;
+        snprintf(pair->note, sizeof pair->note, "the two have no channel in common");
+    }
     const enum diff_status found = (enum diff_status)glint_difference_end(&pair->difference, &diff->options.limits);
     if (found > pair->status) pair->status = found;
     return true;
+}
+
+static bool has_fog(const json_t *run) {
+    json_t *pass;
+    size_t i;
+    json_array_foreach(json_object_get(run, "passes"), i,
+                       pass) if (json_is_true(json_object_get(json_object_get(pass, "parameters"), "fog"))) return true;
+    return false;
+}
+
+/* The truth has no fog, which is no error of a run that has. */
+static void note_fog(const struct diff *diff, struct diff_pair *pair) {
+    for (int k = 0; k < 2; k++) {
+        const struct diff_side *side = &diff->sides[k];
+        const struct diff_image *image = k ? pair->b : pair->a;
+        if (!image || !image->captured || strncmp(image->name, "truth.", 6) != 0 ||
+            !glint_capture_frame(side->capture)->has_fog || !has_fog(diff->sides[1 - k].json))
+            continue;
+        const size_t used = strlen(pair->note);
+        snprintf(pair->note + used, sizeof pair->note - used, "%sthe truth has no fog, the run has", used ? "; " : "");
+    }
 }
 
 bool diff_compare(struct diff *diff, glint_progress progress, void *user, struct glint_error *err) {
@@ -142,6 +181,7 @@ bool diff_compare(struct diff *diff, glint_progress progress, void *user, struct
         if (progress && !progress(user, diff_pair_image(pair)->name, (double)i / (double)diff->count))
             return glint_fail(err, GLINT_ERROR_INTERRUPTED, "interrupted");
         if (!compare_pair(diff, pair, err)) return false;
+        note_fog(diff, pair);
         if (pair->status > diff->status) diff->status = pair->status;
     }
     return true;

@@ -19,32 +19,43 @@ enum { DIFF_CHANNELS = 64 };
 struct diff_image {
     char *name;
     const char *slot, *variant, *unit; /* of an image of a run; "" if unknown */
-    uint32_t width, height;
-    const char **channels; /* at most DIFF_CHANNELS */
-    bool *integers;        /* for each channel */
+    uint32_t width, height;            /* at which it is compared */
+    uint32_t own_width, own_height;    /* at which it is stored */
+    const char **channels;             /* at most DIFF_CHANNELS */
+    const char **stored;               /* their names in a captured part */
+    bool *integers;                    /* for each channel */
     size_t channel_count;
-    size_t part;                       /* index in the file */
-    const struct glint_run_image *run; /* NULL: an image of a file */
+    size_t part;                            /* index in the file */
+    const struct glint_run_image *run;      /* NULL: an image of a file */
+    const struct glint_part_info *captured; /* NULL, or the part of the capture, whose values are decoded */
 };
 struct diff_side {
     const char *text; /* as on the command line */
     char *path, *part, *layer;
     struct glint_exr *exr; /* one of these two is open */
     struct glint_run *run;
-    json_t *json;    /* run.json */
-    bool is_capture; /* the file contains a G-buffer */
+    struct glint_capture *capture; /* of a part that is compared with an image of a run */
+    json_t *json;                  /* run.json */
+    bool is_capture;               /* the file contains a G-buffer */
     struct diff_image *images;
     size_t count;
 };
 /* Opens both sides and lists their images. If one is a capture and the other a run, the capture's engine intermediates
-   are listed under the names of the run's images. */
+   are listed under the names of the run's images, or the one part that is named, such as truth.reflection.ggx. */
 bool diff_sides_open(struct diff_side sides[2], const char *const paths[2], struct glint_error *err);
 void diff_side_finish(struct diff_side *side);
 /* The image of this name, or NULL. */
 const struct diff_image *diff_side_image(const struct diff_side *side, const char *name);
-/* Reads some channels, interleaved: as uint32_t if they are integers, else as float. */
+/* Reads some channels, interleaved: as uint32_t if they are integers, else as float. Resamples to the size at which the image is compared. */
 bool diff_side_read(struct diff_side *side, const struct diff_image *image, const char *const *channels, size_t count,
                     bool integers, void *out, struct glint_error *err);
+
+/* Makes an image that is read as `out`: each texel is the mean of the area that it covers, of integers the one at its centre. resample.c */
+struct diff_size {
+    uint32_t width, height;
+};
+void diff_resample(const void *in, struct diff_size from, void *out, struct diff_size to, size_t channels,
+                   bool integers);
 
 /* ---- Pairs: pairs.c, compare.c ---- */
 
@@ -52,7 +63,7 @@ struct diff_pair {
     const struct diff_image *a, *b; /* one of them may be NULL */
     enum diff_status status;
     bool left_out;  /* only one side has the image, which is correct because the plan of the other skipped it */
-    char note[160]; /* the reason, if the values do not show it */
+    char note[240]; /* the reason, if the values do not show it */
     struct glint_difference difference;
     struct glint_metric_table metrics; /* no rows: not requested, or not defined for this image */
     /* The same over R, G and B alone, where the image has alpha, which may mean another thing in each; without marks or rows elsewhere. */
@@ -64,6 +75,7 @@ struct diff_options {
     struct glint_difference_limits limits;
     struct glint_metric_options metrics; /* metrics == 0: none */
     bool heat;
+    bool resample; /* compares images of different sizes at the smaller one */
 };
 struct diff {
     struct diff_side sides[2];

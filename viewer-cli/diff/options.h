@@ -27,6 +27,7 @@ enum {
     KEY_BESIDE,
     KEY_FLICKER,
     KEY_HTML,
+    KEY_RESAMPLE,
     KEY_AFTER_DIFF
 };
 
@@ -47,6 +48,7 @@ enum {
     {"html",          KEY_HTML,          "FILE.html", 0, "Write an HTML page with tables, histograms, and each image that differs under a slider with pixel values", 0}, \
     OVERWRITE_OPTION, \
     {"od",            KEY_ONLY_DIFFERENT, NULL, 0, "Write these files only if something differs", 0}, \
+    {"resample",      KEY_RESAMPLE,      NULL, 0, "Compare images of different sizes: the larger one is averaged over the area of each texel of the smaller one", 0}, \
     METRIC_OPTIONS, \
     {"all",           'a',               NULL, 0, "Accepted for compatibility with idiff -a; all parts are always compared", 0}, \
     {"verbose",       'v',               NULL, 0, "Also list images that are equal", 0}, \
@@ -60,6 +62,7 @@ enum {
     STORED_OUTPUT(KEY_HTML, type, args.html, OUTPUT_HTML), \
     STORED(KEY_OVERWRITE, type, args.overwrite), \
     STORED(KEY_ONLY_DIFFERENT, type, args.only_different), \
+    STORED(KEY_RESAMPLE, type, args.options.resample), \
     STORED_NUMBER(KEY_ALLOW, type, args.options.limits.allow_failures, 0, UINT32_MAX), \
     STORED('v', type, args.verbose), \
     STORED('q', type, args.quiet), \

@@ -35,6 +35,11 @@ bool diff_pair_up(struct diff *diff, struct glint_error *err) {
     const struct diff_side *one = &diff->sides[first], *other = &diff->sides[1 - first];
     diff->pairs = calloc(one->count + other->count, sizeof *diff->pairs);
     if (!diff->pairs) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    const bool captured = other->count == 1 && other->images[0].captured;
+    if (captured && one->count > 1)
+        return glint_fail(err, GLINT_ERROR_USAGE,
+                          "%s: expected one image to compare %s with, such as %s:%s; glint info %s lists them",
+                          one->text, other->text, one->path, one->images[one->count - 1].name, one->path);
     if (one->count == 1 && other->count == 1) {
         add_pair(diff, first, &one->images[0], &other->images[0]);
         return true;

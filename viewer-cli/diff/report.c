@@ -163,6 +163,47 @@ static void print_pairs(const struct diff *diff, bool verbose) {
     table_destroy(&t);
 }
 
+static void metric_row(struct table *t, const struct diff_pair *pair, const char *of,
+                       const struct glint_metric_table *metrics, uint32_t chosen) {
+    if (!metrics->count) return;
+    table_cell(t, "%s", diff_pair_image(pair)->name);
+    table_cell(t, "%s", of);
+    for (size_t k = 0; k < GLINT_METRIC_COUNT; k++) {
+        const double value = metrics->rows[0].of[k].value;
+        if (!(chosen >> k & 1)) continue;
+        if (isnan(value)) table_cell(t, "–");
+        else if (isinf(value)) table_cell(t, value > 0 ? "∞" : "-∞");
+        else table_cell(t, "%s", number_text(value));
+    }
+    table_cell(t, "%llu", (unsigned long long)metrics->rows[0].invalid);
+}
+
+/* The metrics of all images that differ. What is corrected for the noise of a truth is left out: a diff knows of none. */
+static void print_metrics(const struct diff *diff, bool verbose) {
+    const char *titles[4 + GLINT_METRIC_COUNT] = {"<image", "<channels"};
+    char texts[GLINT_METRIC_COUNT][48];
+    const uint32_t chosen =
+        diff->options.metrics.metrics & ~(1u << GLINT_METRIC_CLEAN_RMSE | 1u << GLINT_METRIC_CLEAN_RELATIVE_MSE);
+    size_t columns = 2;
+    for (size_t k = 0; k < GLINT_METRIC_COUNT; k++) {
+        snprintf(texts[k], sizeof texts[k], ">%s", glint_metric(k)->title);
+        if (chosen >> k & 1) titles[columns++] = texts[k];
+    }
+    titles[columns] = ">NaN or infinite";
+    struct table *t = table_create(titles);
+    for (size_t i = 0; i < diff->count; i++) {
+        const struct diff_pair *pair = &diff->pairs[i];
+        if (!verbose && !pair->difference.differing) continue;
+        metric_row(t, pair, pair->color_metrics.count ? "all" : "", &pair->metrics, chosen);
+        metric_row(t, pair, "R G B", &pair->color_metrics, chosen);
+    }
+    if (!table_is_empty(t)) {
+        putchar('\n');
+        table_print(t, stdout);
+    }
+    table_destroy(&t);
+}
+
 static void print_histogram(const struct glint_difference *d) {
     printf("differences of values:");
     for (size_t i = 0; i < GLINT_DIFFERENCE_BINS; i++) {
@@ -226,6 +267,7 @@ void diff_print(const struct diff *diff, bool verbose) {
             printf("; the first that differs is %s%s%s", image->slot, image->slot[0] ? ": " : "", image->name);
         }
         putchar('\n');
+        if (diff->options.metrics.metrics) print_metrics(diff, verbose);
     }
     puts(verdicts[diff->status]);
 }

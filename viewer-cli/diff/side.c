@@ -6,6 +6,7 @@
 #include "diff/diff.h"
 #include "capture/channels.h"
 #include "draw/view/source.h"
+#include "nearest.h"
 
 static bool no_memory(struct glint_error *err) {
     return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
@@ -15,6 +16,7 @@ static void image_finish(struct diff_image *image) {
     for (size_t i = 0; image->run && i < image->channel_count; i++) free((char *)image->channels[i]);
     free(image->name);
     free(image->channels);
+    free(image->stored);
     free(image->integers);
 }
 
@@ -23,6 +25,7 @@ void diff_side_finish(struct diff_side *side) {
     free(side->images);
     if (side->exr) glint_exr_close(&side->exr);
     glint_run_close(&side->run);
+    glint_capture_close(&side->capture);
     json_decref(side->json);
     free(side->path);
     *side = (struct diff_side){0};
@@ -38,14 +41,20 @@ static struct diff_image *add_image(struct diff_side *side, const char *name, si
                                .variant = "",
                                .unit = "",
                                .channels = calloc(channels + 1, sizeof *image.channels),
+                               .stored = calloc(channels + 1, sizeof *image.stored),
                                .integers = calloc(channels + 1, sizeof *image.integers)};
-    if (!larger || !image.name || !image.channels || !image.integers) {
+    if (!larger || !image.name || !image.channels || !image.stored || !image.integers) {
         image_finish(&image);
         no_memory(err);
         return NULL;
     }
     side->images[side->count] = image;
     return &side->images[side->count++];
+}
+
+static void set_size(struct diff_image *image, uint32_t width, uint32_t height) {
+    image->width = image->own_width = width;
+    image->height = image->own_height = height;
 }
 
 /* ---- Files ---- */
@@ -64,8 +73,7 @@ static bool add_part(struct diff_side *side, size_t p, const char *name, struct 
     struct diff_image *image = add_image(side, name, part->channel_count, err);
     if (!image) return false;
     image->part = p;
-    image->width = part->width;
-    image->height = part->height;
+    set_size(image, part->width, part->height);
     for (size_t c = 0; c < part->channel_count; c++) {
         if (!in_layer(side, part->channels[c].name)) continue;
         image->integers[image->channel_count] = part->channels[c].stored == GLINT_STORED_UINT;
@@ -82,6 +90,46 @@ static bool list_file(struct diff_side *side, struct glint_error *err) {
     return true;
 }
 
+/* ---- Captures ---- */
+
+static const struct glint_part_info *find_captured(const struct diff_side *side, struct glint_error *err) {
+    const struct glint_part_info *part = glint_capture_find(side->capture, side->part);
+    struct glint_nearest near = glint_nearest_to(side->part);
+    for (size_t i = 0; i < glint_capture_part_count(side->capture); i++)
+        glint_nearest_offer(&near, glint_capture_part(side->capture, i)->name);
+    if (!part)
+        glint_fail(err, GLINT_ERROR_USAGE, "%s: no part %s%s", side->path, side->part, glint_nearest_text(&near));
+    return part;
+}
+
+static const char *unit_of(const struct glint_part_info *part, const char *channel) {
+    for (size_t i = 0; part->role && i < part->role->channel_count; i++)
+        if (!strcmp(part->role->channels[i].name, channel)) return part->role->channels[i].unit;
+    return "";
+}
+
+/* One part, decoded as a replay reads it. The channels of a layer are named as those of an image: Z of depth. */
+static bool list_captured(struct diff_side *side, struct glint_error *err) {
+    if (!(side->capture = glint_capture_open(side->path, NULL, err))) return false;
+    const struct glint_part_info *part = find_captured(side, err);
+    struct diff_image *image = part ? add_image(side, part->name, part->channel_count, err) : NULL;
+    if (!image) return false;
+    image->captured = part;
+    set_size(image, part->width, part->height);
+    for (size_t c = 0; c < part->channel_count && image->channel_count < DIFF_CHANNELS; c++) {
+        const char *name = part->channels[c].name;
+        const size_t layer = side->layer ? channel_layer_length(name) : 0;
+        if (!in_layer(side, name)) continue;
+        if (!image->channel_count) image->unit = unit_of(part, name);
+        image->integers[image->channel_count] =
+            part->channels[c].stored == GLINT_STORED_UINT && strncmp(name, "motion.", 7) != 0;
+        image->stored[image->channel_count] = name;
+        image->channels[image->channel_count++] = name + (layer ? layer + 1 : 0);
+    }
+    return image->channel_count || glint_fail(err, GLINT_ERROR_USAGE, "%s: part %s has no layer or channel %s",
+                                              side->path, part->name, side->layer);
+}
+
 /* Engine intermediates are named "engine.SLOT.IMAGE". */
 static bool list_engine(struct diff_side *side, struct glint_error *err) {
     static const char prefix[] = "engine.";
@@ -90,10 +138,12 @@ static bool list_engine(struct diff_side *side, struct glint_error *err) {
         const char *dot = strncmp(name, prefix, strlen(prefix)) ? NULL : strchr(name + strlen(prefix), '.');
         if (dot && (!side->part || !strcmp(side->part, dot + 1)) && !add_part(side, p, dot + 1, err)) return false;
     }
-    return side->count || glint_fail(err, GLINT_ERROR_FORMAT,
-                                     "%s: expected intermediates of the engine to compare a run with, parts "
-                                     "engine.SLOT.IMAGE, found none",
-                                     side->text);
+    if (side->count) return true;
+    return side->part ? list_captured(side, err)
+                      : glint_fail(err, GLINT_ERROR_FORMAT,
+                                   "%s: expected intermediates of the engine to compare a run with, parts "
+                                   "engine.SLOT.IMAGE, found none; %s:PART compares an image with that part",
+                                   side->text, side->text);
 }
 
 /* ---- Runs ---- */
@@ -108,8 +158,7 @@ static bool list_run(struct diff_side *side, struct glint_error *err) {
         image->slot = info->slot;
         image->variant = info->variant;
         image->unit = info->unit;
-        image->width = info->width;
-        image->height = info->height;
+        set_size(image, info->width, info->height);
         for (const char *at = info->channels; *at && image->channel_count < info->components;) {
             const size_t length = strcspn(at, " ");
             image->integers[image->channel_count] = info->integer;
@@ -153,7 +202,7 @@ bool diff_sides_open(struct diff_side sides[2], const char *const paths[2], stru
 
 static bool read_run(struct diff_side *side, const struct diff_image *image, const char *const *channels, size_t count,
                      bool integers, void *out, struct glint_error *err) {
-    const size_t pixels = (size_t)image->width * image->height, components = image->channel_count;
+    const size_t pixels = (size_t)image->own_width * image->own_height, components = image->channel_count;
     uint32_t *all = malloc(pixels * components * sizeof *all), *to = out;
     bool ok =
         (all || no_memory(err)) && glint_run_read(side->run, image->run, integers ? GLINT_U32 : GLINT_F32, all, err);
@@ -172,8 +221,33 @@ const struct diff_image *diff_side_image(const struct diff_side *side, const cha
     return NULL;
 }
 
+static bool read_captured(struct diff_side *side, const struct diff_image *image, const char *const *channels,
+                          size_t count, bool integers, void *out, struct glint_error *err) {
+    const char *stored[DIFF_CHANNELS];
+    for (size_t k = 0; k < count; k++) {
+        size_t from = 0;
+        while (from < image->channel_count && strcmp(image->channels[from], channels[k]) != 0) from++;
+        stored[k] = image->stored[from];
+    }
+    return glint_capture_read(side->capture, image->captured, stored, count, integers ? GLINT_U32 : GLINT_F32, out, 0,
+                              err);
+}
+
+static bool read_own(struct diff_side *side, const struct diff_image *image, const char *const *channels, size_t count,
+                     bool integers, void *out, struct glint_error *err) {
+    if (side->run) return read_run(side, image, channels, count, integers, out, err);
+    if (image->captured) return read_captured(side, image, channels, count, integers, out, err);
+    return glint_exr_read(side->exr, image->part, channels, count, integers ? GLINT_U32 : GLINT_F32, out, 0, err);
+}
+
 bool diff_side_read(struct diff_side *side, const struct diff_image *image, const char *const *channels, size_t count,
                     bool integers, void *out, struct glint_error *err) {
-    if (side->run) return read_run(side, image, channels, count, integers, out, err);
-    return glint_exr_read(side->exr, image->part, channels, count, integers ? GLINT_U32 : GLINT_F32, out, 0, err);
+    const struct diff_size own = {image->own_width, image->own_height}, to = {image->width, image->height};
+    if (own.width == to.width && own.height == to.height)
+        return read_own(side, image, channels, count, integers, out, err);
+    uint32_t *values = malloc((size_t)own.width * own.height * count * sizeof *values);
+    const bool ok = (values || no_memory(err)) && read_own(side, image, channels, count, integers, values, err);
+    if (ok) diff_resample(values, own, out, to, count, integers);
+    free(values);
+    return ok;
 }

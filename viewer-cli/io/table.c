@@ -59,10 +59,26 @@ int terminal_width(void) {
     return size.ws_col;
 }
 
+/* The bytes of the UTF-8 sequence that begins here; 0 if it is none. */
+static size_t sequence_length(const unsigned char *p) {
+    const size_t length = *p < 0x80                 ? 1
+                          : *p >= 0xC2 && *p < 0xE0 ? 2
+                          : *p >= 0xE0 && *p < 0xF0 ? 3
+                          : *p >= 0xF0 && *p < 0xF5 ? 4
+                                                    : 0;
+    for (size_t i = 1; i < length; i++)
+        if ((p[i] & 0xC0) != 0x80) return 0;
+    const bool overlong = (*p == 0xE0 && p[1] < 0xA0) || (*p == 0xF0 && p[1] < 0x90),
+               none = (*p == 0xED && p[1] >= 0xA0) || (*p == 0xF4 && p[1] >= 0x90);
+    return overlong || none ? 0 : length;
+}
+
 void text_clean(char *text) {
-    for (unsigned char *p = (unsigned char *)text; *p; p++) {
-        bool high = p[0] == 0xC2 && p[1] >= 0x80 && p[1] < 0xA0; /* C1 controls in UTF-8 */
-        if (*p < 0x20 || *p == 0x7F || high) *p = '?';
+    size_t length;
+    for (unsigned char *p = (unsigned char *)text; *p; p += length ? length : 1) {
+        length = sequence_length(p);
+        const bool high = p[0] == 0xC2 && length == 2 && p[1] < 0xA0; /* C1 controls in UTF-8 */
+        if (!length || *p < 0x20 || *p == 0x7F || high) *p = '?';
         if (high) p[1] = '?';
     }
 }

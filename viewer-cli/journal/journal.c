@@ -1,6 +1,7 @@
 /* Studies on disk: a definition, and a log with one line for each result. */
 #include "journal/journal.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
@@ -49,6 +50,7 @@ static bool read_log(struct journal *journal, const char *path, struct glint_err
         if (!json || !journal->keep(journal->user, json))
             ok = glint_fail(err, GLINT_ERROR_FORMAT, "%s: byte %lld: expected a line of this %s, found '%.80s'", path,
                             (long long)whole, journal->kind, line);
+        journal->results += ok;
         json_decref(json);
     }
     free(line);
@@ -101,9 +103,32 @@ bool journal_append(struct journal *journal, json_t *line, struct glint_error *e
     if (ok && journal->log > 0 && write(journal->log, text, length + 1) != (ssize_t)(length + 1))
         ok = glint_fail(err, GLINT_ERROR_IO, "%s/log.jsonl: %s", journal->folder, strerror(errno));
     if (ok) journal->keep(journal->user, line);
+    journal->results += ok && journal->log > 0;
     free(text);
     json_decref(line);
     return ok;
+}
+
+static bool has_reference(const char *folder) {
+    DIR *dir = opendir(folder);
+    bool found = false;
+    for (const struct dirent *entry; dir && !found && (entry = readdir(dir));)
+        found = !strncmp(entry->d_name, "reference-", strlen("reference-"));
+    if (dir) closedir(dir);
+    return found;
+}
+
+void journal_describe_kept(const struct journal *journal, const char *results, char text[512]) {
+    const bool reference = journal->folder && has_reference(journal->folder);
+    if (!journal->results && !reference) {
+        snprintf(text, 512, "interrupted before the first of the %s: there is nothing to resume from", results);
+        return;
+    }
+    char count[200] = "";
+    if (journal->results) snprintf(count, sizeof count, "%zu of the %s", journal->results, results);
+    snprintf(text, 512, "%s%s%s are kept in %.200s; the same command resumes from there", count,
+             journal->results && reference ? " and " : "", reference ? "the rays of the reference" : "",
+             journal->folder);
 }
 
 void journal_close(struct journal *journal) {

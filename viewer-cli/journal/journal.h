@@ -12,6 +12,7 @@ struct journal {
     const char *folder; /* NULL: nothing is stored on disk */
     const char *kind;   /* "sweep" */
     int log;            /* file descriptor; 0: none */
+    size_t results;     /* lines of the log */
     /* Receives each line of the log, and may keep a reference to it. Returns false if the line does not belong to the study. */
     bool (*keep)(void *user, json_t *line);
     void *user;
@@ -22,6 +23,8 @@ bool journal_open(struct journal *journal, const json_t *definition, struct glin
 /* Appends a line, which it takes ownership of, and passes it to `keep`. The line is written completely or not at all. */
 bool journal_append(struct journal *journal, json_t *line, struct glint_error *err);
 void journal_close(struct journal *journal);
+/* What an interrupted study leaves in its folder: how many results ("evaluations"), and rays of references. */
+void journal_describe_kept(const struct journal *journal, const char *results, char text[512]);
 
 /* "FOLDER/name" in at most 4096 bytes. */
 bool journal_path(const char *folder, const char *name, char path[4096], struct glint_error *err);

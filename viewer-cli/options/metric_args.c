@@ -2,16 +2,28 @@
 #include "options/metric_args.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "options/args.h"
 #include "io/table.h"
 
+char **metric_args_complete(int argc, char **argv) {
+    static char written_out[] = "--metrics=default";
+    char **all = calloc((size_t)argc + 1, sizeof *all);
+    for (int i = 0; all && i < argc; i++) {
+        const bool is = !strcmp(argv[i], "--metrics") || !strcmp(argv[i], "-metrics");
+        all[i] = is && (i + 1 == argc || argv[i + 1][0] == '-') ? written_out : argv[i];
+    }
+    return all;
+}
+
 error_t metric_args_parse(int key, char *arg, struct argp_state *state, struct glint_metric_options *options) {
     struct glint_error err = {0};
     switch (key) {
     case KEY_METRICS:
-        if (!glint_metrics_parse(arg, &options->metrics, &err)) argp_error(state, "--metrics: %s", err.message);
+        if (!strcmp(arg, "default")) options->metrics = GLINT_METRICS_ALL & ~(1u << GLINT_METRIC_HDR_FLIP);
+        else if (!glint_metrics_parse(arg, &options->metrics, &err)) argp_error(state, "--metrics: %s", err.message);
         return 0;
     case KEY_PPD:
         arg_numbers("ppd", arg, &options->ppd, 1, state);

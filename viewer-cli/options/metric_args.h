@@ -11,11 +11,13 @@ enum { KEY_METRICS = 640, KEY_PPD, KEY_PEAK };
 
 /* clang-format off */
 #define METRIC_OPTIONS \
-    {"metrics", KEY_METRICS, "NAME,...", 0, "Image metrics to print, or all (default: all but hdr_flip): ", 0}, \
+    {"metrics", KEY_METRICS, "NAME,...", 0, "Image metrics to print, or all (default, also without names: all but hdr_flip): ", 0}, \
     {"ppd",     KEY_PPD,     "N",        0, "Pixels per degree of visual angle, for flip and hdr_flip (default 67: a screen 3840 pixels wide, seen from a distance equal to its width)", 0}, \
     {"peak",    KEY_PEAK,    "N",        0, "Peak value for psnr (default: the highest value of the reference image)", 0}
 /* clang-format on */
 
+/* `--metrics` without names, at the end or before another option, chooses the default: returns the arguments with it written out, malloc'd. */
+char **metric_args_complete(int argc, char **argv);
 /* Reads one of METRIC_OPTIONS; ARGP_ERR_UNKNOWN for any other key. */
 error_t metric_args_parse(int key, char *arg, struct argp_state *state, struct glint_metric_options *options);
 /* The names of the metrics, for the help of KEY_METRICS; malloc'd, NULL for other keys. */

@@ -83,24 +83,21 @@ static bool has_fog(const char *path) {
     return fog;
 }
 
-bool captures_have_fog(const struct list *captures) {
+const char *captures_fogged(const struct list *captures) {
+    const char *unread = NULL;
     for (size_t i = 0; i < captures->count; i++)
-        if (!strcmp(captures->items[i], "-") || has_fog(captures->items[i])) return true;
-    return false;
+        if (has_fog(captures->items[i])) return captures->items[i];
+        else if (!strcmp(captures->items[i], "-")) unread = captures->items[i];
+    return unread;
 }
 
-void pipeline_note_fog(const struct command *command, const struct glint_pipeline *pipeline,
-                       const struct list *captures) {
-    for (size_t i = 0; i < captures->count; i++) {
-        const char *path = captures->items[i];
-        if (!has_fog(path)) continue;
-        if (pipeline_fog(pipeline))
-            command_note(command, "%s: its fog is applied, and what it is compared with has none", path);
-        else
-            command_note(
-                command,
-                "%s: its fog is left out, as what it is compared with has none; --set pipeline.fog=true applies it",
-                path);
-        return;
-    }
+void pipeline_note_fog(const struct command *command, const struct glint_pipeline *pipeline, const char *fogged) {
+    if (!fogged || !strcmp(fogged, "-")) return;
+    if (pipeline_fog(pipeline))
+        command_note(command, "%s: its fog is applied, and what it is compared with has none", fogged);
+    else
+        command_note(
+            command,
+            "%s: its fog is left out, as what it is compared with has none; --set pipeline.fog=true applies it",
+            fogged);
 }

@@ -79,11 +79,10 @@ bool pipeline_args_apply(const struct pipeline_args *args, struct glint_pipeline
 bool pipeline_fog_off(struct glint_pipeline *pipeline, struct glint_error *err);
 /* Whether some pass of it applies fog. */
 bool pipeline_fog(const struct glint_pipeline *pipeline);
-/* Whether one of the captures has fog; stdin, "-", may have. */
-bool captures_have_fog(const struct list *captures);
-/* If one of the captures has fog, says that a comparison with something that has none is one without it. */
-void pipeline_note_fog(const struct command *command, const struct glint_pipeline *pipeline,
-                       const struct list *captures);
+/* The first capture that has fog, or stdin, "-", which may have; NULL if there is none. */
+const char *captures_fogged(const struct list *captures);
+/* If there is a capture with fog, says that a comparison with something that has none is one without it. */
+void pipeline_note_fog(const struct command *command, const struct glint_pipeline *pipeline, const char *fogged);
 struct glint_device *pipeline_args_device(const struct pipeline_args *args, struct glint_error *err);
 struct glint_replay_options pipeline_args_options(const struct pipeline_args *args);
 

@@ -134,9 +134,21 @@ struct sets {
     size_t own, count; /* own: number of classes that this owns */
 };
 
+static bool keep_error(const struct glint_pixels *found, const struct glint_pixels *answer, const uint8_t *mask,
+                       struct glint_pixels *error, struct glint_error *err) {
+    const size_t pixels = (size_t)found->width * found->height;
+    *error = (struct glint_pixels){found->width, found->height, 1, calloc(pixels + 1, sizeof(float))};
+    if (!error->values) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    for (size_t i = 0; i < pixels; i++)
+        for (uint32_t k = 0; k < 3 && (!mask || mask[i]); k++)
+            error->values[i] +=
+                fabsf(found->values[i * found->components + k] - answer->values[i * answer->components + k]) / 3;
+    return true;
+}
+
 static bool compare(const struct against *against, struct glint_capture *capture, const struct sets *sets,
                     const struct glint_pixels *found, const struct answer *answer, struct glint_metric_table *table,
-                    struct glint_error *err) {
+                    struct glint_pixels *error, struct glint_error *err) {
     const double exposure = glint_capture_frame(capture)->exposure;
     struct glint_metric_options options = against->metrics;
     metric_args_default(&options);
@@ -146,7 +158,8 @@ static bool compare(const struct against *against, struct glint_capture *capture
     options.class_sets = sets->count;
     options.truth_error = answer->error;
     options.exposure = exposure > 0 ? log2(exposure) : 0;
-    return glint_metrics_compare(found, &answer->pixels, &options, table, err);
+    return glint_metrics_compare(found, &answer->pixels, &options, table, err) &&
+           keep_error(found, &answer->pixels, options.mask, error, err);
 }
 
 static bool compare_images(struct against *against, struct glint_replay *replay, struct glint_capture *capture,
@@ -162,10 +175,10 @@ static bool compare_images(struct against *against, struct glint_replay *replay,
     const uint8_t *surfaces = sets.of[GLINT_CLASSES_SURFACE].labels;
     if (ok && c->truth)
         ok = glint_study_truth(capture, pipeline, &truth.pixels, &truth.error, err) &&
-             compare(against, capture, &sets, &found, &truth, &c->to_truth, err);
+             compare(against, capture, &sets, &found, &truth, &c->to_truth, &c->truth_error, err);
     if (ok && c->reference)
         ok = reference_answer(against, capture, &reference, &c->other_capture, err) &&
-             compare(against, capture, &sets, &found, &reference, &c->to_reference, err) &&
+             compare(against, capture, &sets, &found, &reference, &c->to_reference, &c->reference_error, err) &&
              cross_sources(against, capture, surfaces, c, err);
     if (ok && c->truth && c->reference)
         ok = glint_study_reference_bias(&reference.pixels, reference.error, &truth.pixels, truth.error, surfaces,
@@ -180,6 +193,8 @@ static bool compare_images(struct against *against, struct glint_replay *replay,
 void comparison_finish(struct comparison *c) {
     glint_metric_table_finish(&c->to_truth);
     glint_metric_table_finish(&c->to_reference);
+    glint_pixels_finish(&c->truth_error);
+    glint_pixels_finish(&c->reference_error);
     glint_classes_finish(&c->found_source);
     glint_classes_finish(&c->reference_source);
     free(c->sources);

@@ -37,6 +37,8 @@ struct comparison {
     bool has_rays, has_image, jittered;
     struct glint_trace_table rays;
     struct glint_metric_table to_truth, to_reference;
+    /* Of each pixel: the mean of |found - true| over R, G and B; 0 where nothing reflects. NULL: not compared. */
+    struct glint_pixels truth_error, reference_error;
     struct glint_image_errors missing;
     bool other_capture;  /* the run that holds the reference was made from another one, as a frame of its shot */
     char no_image[1024]; /* why, when there is none */
@@ -50,6 +52,8 @@ bool against_compare(struct against *against, struct glint_replay *replay, struc
 void against_print(const struct comparison *comparison);
 /* Adds "against_truth", "against_reference", "missing_information" to what is said of a run. */
 void against_json(const struct comparison *comparison, json_t *run);
+/* Adds the images of errors to the run that was compared: `error` and `flip` of the truth, `reference_error` and `reference_flip`. */
+bool against_write_images(const struct comparison *comparison, const char *folder, struct glint_error *err);
 /* False when one of the images contains NaN or infinite pixels: reports how many, and the first. */
 bool against_valid(const struct comparison *comparison, const char *capture, struct glint_error *err);
 void comparison_finish(struct comparison *comparison);

@@ -183,6 +183,7 @@ bool sweep_write_page(const struct sweep *sweep, struct glint_error *err) {
     json_t *document = page_create(title);
     if (!document) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     add_facts(sweep, document);
+    bool ok = sweep_add_curve(sweep, document, err);
     for (size_t f = 0; f < sweep->front_count; f++) {
         const struct sweep_front *front = &sweep->fronts[f];
         snprintf(title, sizeof title, "By %s", front->title);
@@ -191,8 +192,8 @@ bool sweep_write_page(const struct sweep *sweep, struct glint_error *err) {
         add_table(sweep, front, blocks);
         add_changes(sweep, front, blocks);
     }
-    const bool ok = sweep_path(sweep, "index.html", path, err) && page_store(sweep->out, document, err) &&
-                    page_write(path, document, sweep->out, err) && write_charts(sweep, err);
+    ok = ok && sweep_path(sweep, "index.html", path, err) && page_store(sweep->out, document, err) &&
+         page_write(path, document, sweep->out, err) && write_charts(sweep, err);
     json_decref(document);
     return ok;
 }

@@ -90,6 +90,12 @@ double sweep_error(const struct sweep_row *row, const char *answer, const char *
 /* Median of the rounds, with the lowest and the highest; NAN without any. `key`: "frame_ms", "cubemaps_ms". */
 double sweep_time(const struct sweep *sweep, const struct sweep_row *row, const char *key, double *low, double *high);
 
+/* curve.c: a sweep of one parameter. */
+/* The point beyond which larger values of the parameter reduce the error less; sweep->points if there is none or several axes. */
+size_t sweep_knee(const struct sweep *sweep);
+/* Adds charts of error and costs against the parameter, with the knee, and writes them as parameter-….svg; else does nothing. */
+bool sweep_add_curve(const struct sweep *sweep, json_t *document, struct glint_error *err);
+
 /* sweep_table.c */
 void sweep_print(const struct sweep *sweep);
 json_t *sweep_json(const struct sweep *sweep);

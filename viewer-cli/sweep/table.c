@@ -74,6 +74,11 @@ static void print_front(const struct sweep *sweep, const struct sweep_front *fro
 void sweep_print(const struct sweep *sweep) {
     const struct glint_device_info *device = glint_device_get_info(sweep->device);
     for (size_t f = 0; f < sweep->front_count; f++) print_front(sweep, &sweep->fronts[f]);
+    const size_t knee = sweep_knee(sweep);
+    if (knee < sweep->points) {
+        printf("knee: %s=%s, beyond which larger values reduce the error less\n", glint_space_axis(sweep->space, 0),
+               glint_space_value(sweep->space, knee, 0));
+    }
     printf("errors of the reflection before compose, against the %s",
            sweep->against.truth ? "truth in the capture" : "reference");
     if (sweep->captures.count > 1) printf(", mean of %zu captures", sweep->captures.count);
@@ -163,10 +168,12 @@ json_t *sweep_json(const struct sweep *sweep) {
         json_array_append_new(fronts, json_pack("{s:s, s:s, s:o}", "name", sweep->fronts[f].name, "against",
                                                 sweep->fronts[f].title, "points", on));
     }
-    return json_pack("{s:i, s:O, s:s, s:s, s:o, s:o, s:o, s:o, s:o}", "format", 1, "sweep", sweep->definition, "metric",
-                     glint_metric(sweep->metric)->name, "answer", sweep->against.truth ? "truth" : "reference",
-                     "captures", captures, "axes", axes, "fronts", fronts, "points", points, "seconds",
-                     seconds_json(sweep));
+    const size_t knee = sweep_knee(sweep);
+    return json_pack("{s:i, s:O, s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o}", "format", 1, "sweep", sweep->definition,
+                     "metric", glint_metric(sweep->metric)->name, "answer",
+                     sweep->against.truth ? "truth" : "reference", "captures", captures, "axes", axes, "fronts", fronts,
+                     "points", points, "knee", knee < sweep->points ? json_integer((json_int_t)knee) : json_null(),
+                     "seconds", seconds_json(sweep));
 }
 
 static void put_number(FILE *out, double value) {

@@ -28,6 +28,7 @@ struct glint_reference_noise {
 struct glint_reference_state {
     uint32_t rays;  /* rays a pixel, of both halves together */
     uint32_t begun; /* rays of the unfinished round, which are in no figure yet */
+    uint32_t kept;  /* rays that the folder holds, from which tracing resumes; an interrupted call tries to keep all */
     double seconds; /* time spent on all rays, in all calls */
     struct glint_reference_noise noise[GLINT_SURFACE_COUNT]; /* [0]: all surfaces */
 };

@@ -152,7 +152,8 @@ class Run:
     folder       str, as given
     json         run.json, as json.load returns it
     passes       list of Pass in the order of the pipeline
-    images       dict of Image by name; `run["travelled"]` is images["travelled"]
+    images       dict of Image by name; `run["travelled"]` is images["travelled"]. Those of errors, which `glint replay --against` adds, have the
+                 slot "against"
     end_reasons  list of the texts of images in the unit "end reason", whose values are their places in it; empty in runs of an older glint
 
     Raises Error where the folder is none of a run, or run.json says what cannot be.
@@ -166,7 +167,9 @@ class Run:
             raise Error("unsupported", f"{where}: expected format {_FORMAT}, found {str(self.json.get('format'))[:60]}")
         self.passes = [Pass(self.folder, record) for record in _field(self.json, "passes", list, where)]
         self.images: dict[str, Image] = {}
-        for image in (image for done in self.passes for image in done.images):
+        compared = _field(self.json, "compared", dict, where) if "compared" in self.json else {"images": []}
+        errors = [Image(self.folder, "against", str(compared.get("variant", "")), image) for image in _field(compared, "images", list, where)]
+        for image in [image for done in self.passes for image in done.images] + errors:
             self.images.setdefault(image.name, image)
         self.end_reasons = [_field(reason, "text", str, f"{where}: end_reasons") for reason in
                             (_field(self.json, "end_reasons", list, where) if "end_reasons" in self.json else [])]
