@@ -77,6 +77,24 @@ class Tests:
                 found = float(report[p["slot"]].replace("\u202f", ""))
                 assert abs(found - p["time_ns"]["median"] / 1e6) <= 0.06 * found + 1e-4, (p, found)  # two digits at least
 
+    def test_cold_times_are_marked_and_not_drawn_beside_others(self):
+        charts = "[...document.querySelectorAll('main > section')].find(s => s.querySelector('h2')?.textContent === 'Times')"
+        self.show("a", "b")
+        assert all(p["time_ns"]["cold"] == (p["time_ns"]["n"] > 0) for p in self.run_json("a")["passes"] if p["ran"])
+        assert not any(p["time_ns"]["cold"] for p in self.run_json("b")["passes"])
+        heads = self.browser.evaluate(f"{TABLE}('Times')")[1][0]
+        assert heads == ["pass", "a (cold)ms", "bms"] or [h.replace("ms", "") for h in heads] == ["pass", "a (cold)", "b"], heads
+        text = self.browser.evaluate(charts + ".textContent")
+        assert "a: cold, from a single round" in text and "Each frame: a (cold) " in text, text[:400]
+        drawn = self.table("Times", 0)
+        assert [row[0] for row in drawn] == [row[0] for row in self.table("Times", 1) if row[2] != "\u2013"], drawn
+        bars = self.browser.evaluate(charts + ".querySelectorAll('table')[1].querySelector('tbody tr:last-child').querySelectorAll('td.bar').length")
+        assert bars == 1, bars
+        self.show("a")  # alone, they are drawn with their mark
+        assert "Each frame: cold " in self.browser.evaluate(charts + ".textContent")
+        assert len(self.table("Times", 0)) == len(self.table("Times", 1))
+        self.browser.quiet()
+
     def test_pictures_are_whole(self):
         self.show("a")
         sizes = self.browser.evaluate("Promise.all([...document.querySelectorAll('main img')].map(i => i.decode().then(() => i.naturalWidth)))")

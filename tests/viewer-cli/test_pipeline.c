@@ -107,6 +107,7 @@ static void replay_reports_times_and_leaves_a_run(UNUSED void **state) {
         /* work on the host is not repeated */
         assert_int_equal((int)number(time, "n"), strcmp(slots[i], "cubemap_active") ? 3 : 1);
         assert_true(number(time, "min") <= number(time, "median") && number(time, "median") <= number(time, "max"));
+        assert_true(json_is_false(json_object_get(time, "cold")));
     }
     assert_true(number(json_object_get(one, "seconds"), "passes") > 0);
     assert_true(file_exists(in_folder("timed/run.json")));
@@ -117,6 +118,18 @@ static void replay_reports_times_and_leaves_a_run(UNUSED void **state) {
     for (size_t i = 0; i < SLOTS; i++) assert_contains(text, slots[i]);
     assert_contains(text, "median ms");
     assert_contains(text, "nothing written");
+    assert_null(strstr(text, "cold"));
+    free(text);
+    text = glint_ok("replay", capture);
+    assert_contains(text, "cold ms");
+    assert_null(strstr(text, "median ms"));
+    free(text);
+    text = glint_ok("replay", capture, "--json", "--no-cache");
+    json = parse_json(text);
+    const json_t *cold =
+        named(json_object_get(json_array_get(json_object_get(json, "runs"), 0), "passes"), "slot", "resolve");
+    assert_true(json_is_true(json_object_get(json_object_get(cold, "time_ns"), "cold")));
+    json_decref(json);
     free(text);
 }
 
