@@ -4,6 +4,7 @@
     const page = JSON.parse(document.getElementById('document').textContent);
     const data = /^data:image\/(png|jpeg);base64,[A-Za-z0-9+\/=]*$/;
     const charts = [];
+    const WORDS = ['infinite', 'minus infinite', 'not a number']; /* in columns of numbers */
 
     function list(v) { return Array.isArray(v) ? v : []; }
 
@@ -69,7 +70,7 @@
     function columnOf(column, cells) {
         const numbers = cells.map(valueOf).filter(v => typeof v === 'number' && Number.isFinite(v));
         const known = cells.filter(c => valueOf(c) !== null);
-        const number = numbers.length > 0 && known.every(c => Number.isFinite(valueOf(c)) || valueOf(c) === 'infinite');
+        const number = numbers.length > 0 && known.every(c => Number.isFinite(valueOf(c)) || WORDS.includes(valueOf(c)));
         return {
             ...column, number, largest: Math.max(0, ...numbers), intervals: cells.some(c => intervalText(c)),
             decimals: Number.isInteger(column.decimals) ? column.decimals : number ? decimalsOf(numbers) : null,
@@ -156,7 +157,9 @@
     }
 
     function picturesElement(block) {
-        const e = element('div', {class: block.columns === 1 ? 'pictures alone' : 'pictures'}, ...figures(block.pictures));
+        const known = list(block.pictures).filter(sourceOf);
+        const e = element('div', {class: block.columns === 1 ? 'pictures alone' : 'pictures'}, ...figures(known).flatMap((figure, i) =>
+            known[i].group && known[i].group !== known[i - 1]?.group ? [element('h3', null, known[i].group), figure] : [figure]));
         const least = block.columns > 0 ? `max(${Math.floor(96 / block.columns) - 2}%, 200px)` : '360px';
         e.style.gridTemplateColumns = `repeat(auto-fill, minmax(min(${least}, 100%), 1fr))`;
         return e;
@@ -314,7 +317,20 @@
         pictures: picturesElement,
         stage: b => glintStage.stage(b.stage, {element, list, sourceOf}),
         chart: b => chartElement(b.chart),
+        fold: b => foldElement(b.fold),
     };
+
+    /* What is in it is built when it is opened, so that it costs nothing before, and charts have a width. */
+    function foldElement(fold) {
+        const e = element('details', {class: 'fold'}, element('summary', null, fold.title));
+        e.addEventListener('toggle', () => {
+            if (!e.open || e.children.length > 1) return;
+            const before = charts.length;
+            e.append(...list(fold.blocks).map(blockElement).filter(b => b));
+            charts.slice(before).forEach(c => c.draw());
+        });
+        return e;
+    }
 
     /* A block that cannot be shown says so, and the others stay. */
     function blockElement(block) {
