@@ -4,6 +4,7 @@
     const page = JSON.parse(document.getElementById('document').textContent);
     const data = /^data:image\/(png|jpeg);base64,[A-Za-z0-9+\/=]*$/;
     const charts = [];
+    let folds = 0;
     const WORDS = ['infinite', 'minus infinite', 'not a number']; /* in columns of numbers */
 
     function list(v) { return Array.isArray(v) ? v : []; }
@@ -322,8 +323,10 @@
 
     /* What is in it is built when it is opened, so that it costs nothing before, and charts have a width. */
     function foldElement(fold) {
-        const e = element('details', {class: 'fold'}, element('summary', null, fold.title));
+        const e = element('details', {class: 'fold'}, element('summary', null, fold.title)), kept = `${page.title}|fold ${folds++}`;
+        e.open = page.refresh > 0 && glintStage.recall(kept).open === true;
         e.addEventListener('toggle', () => {
+            if (page.refresh > 0) glintStage.store(kept, {open: e.open});
             if (!e.open || e.children.length > 1) return;
             const before = charts.length;
             e.append(...list(fold.blocks).map(blockElement).filter(b => b));
