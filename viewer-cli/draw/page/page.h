@@ -16,9 +16,9 @@
      {"chart": CHART}
      {"fold": {"title": T, "blocks": [BLOCK, …]}}
                                              blocks that are built when their title is clicked
-     {"player": {"title": T, "frames": [T, …], "worst": N, "tracks": [{"name": T, "pictures": [PICTURE, …]}, …]}}
-                                             pictures of a sequence, one for each frame, of the chosen track; the frame of the
-                                             place `worst` is marked
+     {"player": {"title": T, "frames": [T, …], "tracks": [{"name": T, "pictures": [PICTURE, …]}, …], "marks": [{"frame": N, "label": T}, …]}}
+                                             pictures of a sequence, one for each frame of the chosen track; marks name frames by
+                                             their place. Points of charts that have a frame's name go with it
    "refresh" of a document, in seconds: the page reloads itself unless somebody is using it.
    CELL: text, number, boolean, null (unknown), or {"value": number, "low": L, "high": H, "text": T}: a number with its
    interval, or shown as T and sorted by value.

@@ -3,7 +3,7 @@
     'use strict';
     const page = JSON.parse(document.getElementById('document').textContent);
     const data = /^data:image\/(png|jpeg);base64,[A-Za-z0-9+\/=]*$/;
-    const charts = [];
+    const charts = [], players = [];
     let folds = 0;
     const WORDS = ['infinite', 'minus infinite', 'not a number']; /* in columns of numbers */
 
@@ -236,6 +236,7 @@
             keep(k);
             const name = points[k]?.p.name;
             for (const c of charts) if (c.keep !== keep && (name || k < 0)) c.keep(k < 0 ? -1 : c.placeOf(name));
+            for (const p of players) if (name) p.go(name);
         }
 
         function draw() {
@@ -307,6 +308,73 @@
         return tableElement({columns, rows}, keep);
     }
 
+    /* ---- Players ---- */
+
+    function playerElement(player) {
+        const tracks = list(player.tracks).filter(t => t && list(t.pictures).every(sourceOf)), frames = list(player.frames).map(glintChart.text);
+        const marks = list(player.marks).filter(m => m && frames[m.frame] !== undefined);
+        const state = {frame: 0, track: 0, timer: 0}, name = glintChart.text(player.title);
+        if (!tracks.length || !frames.length) return null;
+        const image = element('img'), caption = element('figcaption', {'aria-live': 'polite'});
+        const play = element('button', {type: 'button', click: () => state.timer ? stop() : start()});
+        const slider = element('input', {type: 'range', min: 0, max: frames.length - 1, step: 1, 'aria-label': `${name}: frame`, input: () => seek(+slider.value)});
+        const rate = element('select', {'aria-label': 'frames a second', change: () => { if (state.timer) { stop(); start(); } }},
+            ...[2, 5, 10, 25].map(r => element('option', {value: r}, `${r} frames/s`)));
+        const choices = tracks.map((t, i) => element('button', {type: 'button', click: () => { state.track = i; show(); }}, t.name));
+        const ticks = marks.map(m => {
+            const tick = element('i', {title: glintChart.text(m.label)});
+            tick.style.left = `${100 * (frames.length > 1 ? m.frame / (frames.length - 1) : 0)}%`;
+            return tick;
+        });
+        rate.value = 10;
+
+        function show() {
+            const picture = list(tracks[state.track].pictures)[state.frame];
+            const worst = marks.filter(m => m.frame === state.frame).map(m => glintChart.text(m.label));
+            if (picture) image.src = sourceOf(picture);
+            image.alt = glintChart.text(picture?.caption);
+            caption.textContent = [`${image.alt} (${state.frame + 1} of ${frames.length})`, ...worst].join(', ');
+            caption.className = worst.length ? 'worst' : '';
+            slider.value = state.frame;
+            choices.forEach((b, i) => b.setAttribute('aria-pressed', String(i === state.track)));
+            play.textContent = state.timer ? 'Pause' : 'Play';
+        }
+
+        /* The charts go along, but not ten times a second. */
+        function seek(frame) {
+            stop();
+            state.frame = Math.min(frames.length - 1, Math.max(0, frame));
+            show();
+            for (const c of charts) { const k = c.placeOf(frames[state.frame]); if (k >= 0) c.keep(k); }
+        }
+
+        function start() {
+            state.timer = setInterval(() => { state.frame = (state.frame + 1) % frames.length; show(); }, 1000 / rate.value);
+            show();
+        }
+
+        function stop() {
+            clearInterval(state.timer);
+            state.timer = 0;
+            show();
+        }
+
+        const shown = element('figure', {tabindex: 0, role: 'group', 'aria-label': `${name}: arrow keys step, Space plays`,
+            keydown: e => {
+                const step = {ArrowRight: 1, ArrowLeft: -1}[e.key];
+                if (step) seek(state.frame + step);
+                else if (e.key === ' ') play.click();
+                else return;
+                e.preventDefault();
+            }}, image, caption);
+        players.push({go: frame => { const k = frames.indexOf(glintChart.text(frame)); if (k >= 0 && k !== state.frame) { stop(); state.frame = k; show(); } }});
+        show();
+        return element('section', {class: 'player'},
+            element('div', {class: 'bar', role: 'toolbar', 'aria-label': name}, play, rate, ...choices,
+                ...marks.map(m => element('button', {type: 'button', click: () => seek(m.frame)}, `${glintChart.text(m.label)}: ${frames[m.frame]}`))),
+            element('div', {class: 'track'}, slider, ...ticks), shown);
+    }
+
     /* ---- The page ---- */
 
     const blocks = {
@@ -319,6 +387,7 @@
         stage: b => glintStage.stage(b.stage, {element, list, sourceOf}),
         chart: b => chartElement(b.chart),
         fold: b => foldElement(b.fold),
+        player: b => playerElement(b.player),
     };
 
     /* What is in it is built when it is opened, so that it costs nothing before, and charts have a width. */
