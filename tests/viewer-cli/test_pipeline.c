@@ -313,7 +313,16 @@ static void sheet_shows_images_side_by_side(UNUSED void **state) {
         free(one.rgb);
     }
     free(sheet.rgb);
+    /* All images by pass: about as wide as high; with levels, cube maps and tables many more. */
     free(glint_ok("view", run, "--sheet", "-o", in_folder("sheet.png")));
+    sheet = read_png(in_folder("sheet.png"));
+    assert_in_range(sheet.height, sheet.width / 2, sheet.width + sheet.width / 4);
+    assert_true(sheet.width > 3 * 492);
+    free(sheet.rgb);
+    free(glint_ok("view", run, "--sheet", "--levels", "-o", in_folder("levels.png")));
+    struct pixels levels = read_png(in_folder("levels.png"));
+    assert_true((size_t)levels.width * levels.height > 3 * (size_t)sheet.width * sheet.height / 2);
+    free(levels.rgb);
     glint_fails(2, "several images need --sheet", "view", run, "--image=composed,reflection", "-o", "x.png");
     glint_fails(2, "did you mean composed?", "view", run, "--sheet", "--image=compose", "-o", "x.png");
 }

@@ -67,20 +67,21 @@ static void shot_finish(struct shot_report *shot) {
 
 /* ---- Pictures ---- */
 
-/* Adds the picture of a frame to a track. `invalid` pixels are drawn in magenta. */
+/* Adds the picture of a frame to a track. Values that are no numbers are magenta. */
 static bool add_picture(struct shot_report *shot, size_t frame, enum shot_track track, const struct source *source,
                         const struct render_options *options, struct glint_error *err) {
     enum { WIDEST_PX = 960 };
     struct picture picture = {0};
+    struct legend legend;
     size_t invalid;
-    bool ok = render(&picture, source, options, &invalid, err) &&
+    bool ok = render_plain(&picture, &legend, source, options, &invalid, err) &&
               picture_shrink(&picture, (picture.width + WIDEST_PX - 1) / WIDEST_PX, true, err);
     json_t *file = ok ? page_picture(&picture, PAGE_PICTURE_BYTES / (shot->count * SHOT_TRACKS), err) : NULL;
     if (file)
-        json_array_append_new(
-            shot->tracks[track],
-            json_pack("{s:o, s:o}", "file", file, "caption",
-                      json_sprintf("frame %lld: %s", (long long)shot->frames[frame].number, source->title)));
+        json_array_append_new(shot->tracks[track],
+                              json_pack("{s:o, s:o}", "file", file, "caption",
+                                        json_sprintf("frame %lld: %s", shot->frames[frame].number, source->title)));
+    if (file && !shot->keys[track]) shot->keys[track] = page_key(&legend);
     picture_finish(&picture);
     return file != NULL;
 }
@@ -101,8 +102,7 @@ static bool add_error_image(struct shot_report *shot, size_t frame, const struct
     struct glint_pixels difference = {0};
     const struct render_options options = pixels_options();
     bool ok = pixels_difference(&p->found, &p->truth, p->error, p->mask, &difference, err);
-    const struct source source =
-        pixels_source(&difference, "error of the reflection, |found \u2212 true| / (|found| + |true|)");
+    const struct source source = pixels_source(&difference, "error, |found \u2212 true| / (|found| + |true|)");
     ok = ok && add_picture(shot, frame, SHOT_ERROR, &source, &options, err);
     glint_pixels_finish(&difference);
     return ok;
@@ -139,7 +139,8 @@ static void add_player(const struct shot_report *shot, json_t *blocks) {
     json_t *tracks = json_array(), *frames = json_array(), *marks = json_array();
     for (int k = 0; k < SHOT_TRACKS; k++)
         if (json_array_size(shot->tracks[k]) == shot->count)
-            json_array_append_new(tracks, json_pack("{s:s, s:O}", "name", names[k], "pictures", shot->tracks[k]));
+            json_array_append_new(tracks, json_pack("{s:s, s:O, s:O*}", "name", names[k], "pictures", shot->tracks[k],
+                                                    "key", shot->keys[k]));
     for (size_t i = 0; i < shot->count; i++) json_array_append_new(frames, shot_frame_name(&shot->frames[i]));
     for (int k = 0; k < SHOT_FIGURES; k++)
         if (shot->worst[k] < shot->count)
@@ -152,8 +153,8 @@ static void add_player(const struct shot_report *shot, json_t *blocks) {
 static void add_facts(const struct shot_report *shot) {
     const json_t *first = shot->frames[0].run, *last = shot->frames[shot->count - 1].run;
     char text[64];
-    snprintf(text, sizeof text, "%zu, from %lld to %lld", shot->count, (long long)shot->frames[0].number,
-             (long long)shot->frames[shot->count - 1].number);
+    snprintf(text, sizeof text, "%zu, from %lld to %lld", shot->count, shot->frames[0].number,
+             shot->frames[shot->count - 1].number);
     page_fact(shot->document, "frames", text);
     page_fact(shot->document, "first capture", report_text(json_object_get(first, "capture"), "path"));
     page_fact(shot->document, "last capture", report_text(json_object_get(last, "capture"), "path"));
@@ -163,11 +164,12 @@ static void add_facts(const struct shot_report *shot) {
 
 json_t *report_shot(const char *folder, struct glint_error *err) {
     struct shot_report shot = {.folder = folder};
-    char title[300];
-    snprintf(title, sizeof title, "%.280s, shot", folder);
     for (int k = 0; k < SHOT_TRACKS; k++) shot.tracks[k] = json_array();
     bool ok = read_frames(&shot, err) && measure(&shot, err);
     if (ok) {
+        char title[400];
+        snprintf(title, sizeof title, "%.280s: frames %lld to %lld", folder, shot.frames[0].number,
+                 shot.frames[shot.count - 1].number);
         shot.document = page_create(title);
         shot_find_worst(&shot);
         add_facts(&shot);
@@ -181,7 +183,10 @@ json_t *report_shot(const char *folder, struct glint_error *err) {
         add_player(&shot, blocks);
         shot_charts(&shot);
     }
-    for (int k = 0; k < SHOT_TRACKS; k++) json_decref(shot.tracks[k]);
+    for (int k = 0; k < SHOT_TRACKS; k++) {
+        json_decref(shot.tracks[k]);
+        json_decref(shot.keys[k]);
+    }
     shot_finish(&shot);
     if (ok) return shot.document;
     json_decref(shot.document);

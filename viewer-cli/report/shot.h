@@ -29,6 +29,7 @@ struct shot_report {
     struct shot_frame *frames;
     size_t count;
     json_t *tracks[SHOT_TRACKS]; /* PICTUREs, one for each frame, or empty */
+    json_t *keys[SHOT_TRACKS];   /* KEYs of false colours, or NULL */
     size_t worst[SHOT_FIGURES];  /* count: unknown */
     char no_truth[1024];         /* why a frame has none; "": all have one */
     json_t *document;

@@ -200,16 +200,20 @@ static json_t *series_of(const struct shot_report *shot, const struct column *co
 /* The first of the columns decides about the worst frame, which is marked. */
 static void add_chart(const struct shot_report *shot, json_t *blocks, const char *title, size_t worst,
                       const int *shown) {
-    json_t *series = json_array(), *marks = json_array();
-    for (int k = 0; shown[k] < COLUMNS; k++) json_array_append_new(series, series_of(shot, &columns[shown[k]], k > 0));
+    enum { MOST_TICKS = 12 };
+    json_t *series = json_array(), *marks = json_array(), *ticks = json_array();
+    for (int k = 0; shown[k] < COLUMNS; k++)
+        json_array_append_new(series, series_of(shot, &columns[shown[k]], shown[k] == RMSE_COLUMN));
     if (worst < shot->count) {
         const struct shot_frame *frame = &shot->frames[worst];
         json_array_append_new(marks, json_pack("{s:I, s:f, s:o}", "x", (json_int_t)frame->number, "y",
                                                columns[shown[0]].of(frame), "label",
                                                json_sprintf("worst: %lld", frame->number)));
     }
-    page_chart(blocks, json_pack("{s:s, s:{s:s}, s:{s:s, s:s, s:i}, s:i, s:o, s:o}", "title", title, "x", "name",
-                                 "frame", "y", "name", "root mean square", "unit", "radiance", "min", 0, "height", 340,
+    for (size_t i = 0; i < shot->count; i += (shot->count + MOST_TICKS - 1) / MOST_TICKS)
+        json_array_append_new(ticks, json_integer(shot->frames[i].number));
+    page_chart(blocks, json_pack("{s:s, s:{s:s, s:o}, s:{s:s, s:s, s:i}, s:o, s:o}", "title", title, "x", "name",
+                                 "frame", "ticks", ticks, "y", "name", "root mean square", "unit", "radiance", "min", 0,
                                  "series", series, "marks", marks));
 }
 

@@ -16,7 +16,7 @@
      {"chart": CHART}
      {"fold": {"title": T, "blocks": [BLOCK, …]}}
                                              blocks that are built when their title is clicked
-     {"player": {"title": T, "frames": [T, …], "tracks": [{"name": T, "pictures": [PICTURE, …]}, …], "marks": [{"frame": N, "label": T}, …]}}
+     {"player": {"title": T, "frames": [T, …], "tracks": [{"name": T, "pictures": [PICTURE, …], "key": KEY}, …], "marks": [{"frame": N, "label": T}, …]}}
                                              pictures of a sequence, one for each frame of the chosen track; marks name frames by
                                              their place. Points of charts that have a frame's name go with it
    "refresh" of a document, in seconds: the page reloads itself unless somebody is using it.

@@ -315,7 +315,7 @@
         const marks = list(player.marks).filter(m => m && frames[m.frame] !== undefined);
         const state = {frame: 0, track: 0, timer: 0}, name = glintChart.text(player.title);
         if (!tracks.length || !frames.length) return null;
-        const image = element('img'), caption = element('figcaption', {'aria-live': 'polite'});
+        const image = element('img'), caption = element('figcaption', {'aria-live': 'polite'}), key = element('div');
         const play = element('button', {type: 'button', click: () => state.timer ? stop() : start()});
         const slider = element('input', {type: 'range', min: 0, max: frames.length - 1, step: 1, 'aria-label': `${name}: frame`, input: () => seek(+slider.value)});
         const rate = element('select', {'aria-label': 'frames a second', change: () => { if (state.timer) { stop(); start(); } }},
@@ -336,6 +336,7 @@
             caption.textContent = [`${image.alt} (${state.frame + 1} of ${frames.length})`, ...worst].join(', ');
             caption.className = worst.length ? 'worst' : '';
             slider.value = state.frame;
+            key.replaceChildren(...(tracks[state.track].key ? [glintStage.key(element, [tracks[state.track].key])] : []));
             choices.forEach((b, i) => b.setAttribute('aria-pressed', String(i === state.track)));
             play.textContent = state.timer ? 'Pause' : 'Play';
         }
@@ -366,7 +367,7 @@
                 else if (e.key === ' ') play.click();
                 else return;
                 e.preventDefault();
-            }}, image, caption);
+            }}, image, key, caption);
         players.push({go: frame => { const k = frames.indexOf(glintChart.text(frame)); if (k >= 0 && k !== state.frame) { stop(); state.frame = k; show(); } }});
         show();
         return element('section', {class: 'player'},

@@ -284,5 +284,5 @@ const glintStage = (function () {
         }, 1000 * seconds);
     }
 
-    return {stage, refresh, store, recall};
+    return {stage, refresh, store, recall, key: keyElement};
 })();
