@@ -125,7 +125,7 @@ def main():
         # The screen image shows nothing behind a car: the cube map continues the ray.
         call("probe", "street.exr", "662,280", "-o", "ray.svg")
         browser.open(os.path.join(folder, "ray.svg"))
-        browser.picture(os.path.join(docs, "probe.png"), 1000, 1350)
+        browser.picture(os.path.join(docs, "probe.png"), *browser.evaluate("['width', 'height'].map(k => document.documentElement[k].baseVal.value)"))
         for name, lines, command in (("terminal-view", 40, "glint view run"), ("terminal-diff", 26, "glint diff run run2")):
             screen = terminal(folder, path, 118, lines, "clear", command)
             with open(os.path.join(folder, "screen.html"), "w", encoding="utf-8") as file:
@@ -138,8 +138,8 @@ def main():
         most = [(image["largest"][k] + 0.5) / image[size] for k, size in (("x", "width"), ("y", "height"))]
         browser.look(dark=True)
         browser.show(os.path.join(folder, "diff.html"))
-        browser.evaluate("[...document.querySelectorAll('h2')].at(-1).scrollIntoView()")
-        x, y, width, height = browser.evaluate("(r => [r.x, r.y, r.width, r.height])([...document.querySelectorAll('.frame')].at(-1).getBoundingClientRect())")
+        browser.evaluate("[...document.querySelectorAll('main > section')].find(s => s.querySelector('.stage')).scrollIntoView()")
+        x, y, width, height = browser.evaluate("(r => [r.x, r.y, r.width, r.height])(document.querySelector('.frame').getBoundingClientRect())")
         browser.click(x + most[0] * width + 60, y + 0.5 * height)
         browser.point_at(x + most[0] * width, y + most[1] * height)
         browser.evaluate("new Promise(done => setTimeout(done, 300))")

@@ -134,9 +134,10 @@ static void print_total(struct table *table, const char *what, double ms) {
     for (int k = 0; k < 3; k++) table_cell(table, "%s", "");
 }
 
-static void print_passes(const struct glint_pass_result *results, size_t count) {
-    static const char *const titles[] = {"<slot", "<variant", ">median ms", ">min", ">max", "<", NULL};
-    struct table *table = table_create(titles);
+static void print_passes(const struct glint_pass_result *results, size_t count, bool cold) {
+    static const char *const titles[] = {"<slot", "<variant", ">median ms", ">min", ">max", "<", NULL},
+                             *const cold_titles[] = {"<slot", "<variant", ">cold ms", ">min", ">max", "<", NULL};
+    struct table *table = table_create(cold ? cold_titles : titles);
     double frame = 0, cubes = 0;
     for (size_t i = 0; i < count; i++) {
         const struct glint_pass_result *r = &results[i];
@@ -187,10 +188,10 @@ static void print_run(const char *capture, const char *folder, const struct comp
     const struct glint_device_info *device = glint_device_get_info(job->device);
     printf("%s on %s%s\n\n", capture, device->name,
            device->is_cpu ? " (a CPU device: times do not represent a GPU)" : "");
-    print_passes(results, count);
+    print_passes(results, count, job->a->pipeline.replay.repeat == 0);
     print_bad_values(found->bad, found->count);
     if (job->a->pipeline.replay.repeat == 0)
-        puts("one round without warm-up, so times include first-use costs; use --repeat N to measure");
+        puts("cold: one round without warm-up, so times include first-use costs; use --repeat N to measure");
     putchar('\n');
     for (size_t i = 0; i < sizeof phases / sizeof *phases; i++)
         printf("%s%s %s", i ? ", " : "", phases[i], time_text(glint_replay_seconds(job->replay, phases[i])));
@@ -221,12 +222,12 @@ static json_t *run_json(const char *capture, const char *folder, const struct co
     const struct glint_pass_result *results = glint_replay_results(replay, &count);
     for (size_t i = 0; i < count; i++) {
         const struct glint_pass_result *r = &results[i];
-        json_array_append_new(passes,
-                              json_pack("{s:s, s:s, s:b, s:b, s:b, s:s, s:{s:I, s:I, s:I, s:I}}", "slot", r->pass->slot,
-                                        "variant", r->pass->variant, "ran", r->ran, "cached", r->cached, "cached_work",
-                                        r->cached_work, "reason", r->reason, "time_ns", "n", (json_int_t)r->time.n,
-                                        "min", (json_int_t)r->time.min_ns, "median", (json_int_t)r->time.median_ns,
-                                        "max", (json_int_t)r->time.max_ns));
+        json_array_append_new(passes, json_pack("{s:s, s:s, s:b, s:b, s:b, s:s, s:{s:I, s:I, s:I, s:I, s:b}}", "slot",
+                                                r->pass->slot, "variant", r->pass->variant, "ran", r->ran, "cached",
+                                                r->cached, "cached_work", r->cached_work, "reason", r->reason,
+                                                "time_ns", "n", (json_int_t)r->time.n, "min",
+                                                (json_int_t)r->time.min_ns, "median", (json_int_t)r->time.median_ns,
+                                                "max", (json_int_t)r->time.max_ns, "cold", r->time.cold));
     }
     for (size_t i = 0; i < sizeof phases / sizeof *phases; i++)
         json_object_set_new(seconds, phases[i], json_number(glint_replay_seconds(replay, phases[i])));

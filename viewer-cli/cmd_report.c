@@ -4,7 +4,7 @@
 
 #include "command.h"
 #include "options/args.h"
-#include "report/report.h"
+#include "report/shot.h"
 
 struct arguments {
     struct list folders, images;
@@ -27,6 +27,7 @@ static const struct argp_option options[] = {
 static const struct example examples[] = {
     {"glint report run -o run.html", "shows pictures, times, plan and parameters of a run"},
     {"glint report a b -o ab.html", "compares two runs"},
+    {"glint report shot -o shot.html", "plays the frames of a shot, with their error and flicker"},
     {"glint report swept -o swept.html", "writes the page of a sweep"},
     {"glint report swept -o front.svg", "writes its first chart as a picture"},
     {0},
@@ -58,9 +59,11 @@ static bool has_page(const char *folder) {
 static json_t *make_document(const struct arguments *a, struct glint_error *err) {
     const char *const *folders = a->folders.items;
     if (a->folders.count == 1 && has_page(folders[0])) return page_load(folders[0], err);
+    if (a->folders.count == 1 && report_is_shot(folders[0])) return report_shot(folders[0], err);
     for (size_t i = 0; i < a->folders.count; i++)
-        if (has_page(folders[i])) {
-            glint_fail(err, GLINT_ERROR_USAGE, "%s contains the page of a study: report it separately", folders[i]);
+        if (has_page(folders[i]) || report_is_shot(folders[i])) {
+            glint_fail(err, GLINT_ERROR_USAGE, "%s contains %s: report it separately", folders[i],
+                       has_page(folders[i]) ? "the page of a study" : "the frames of a shot");
             return NULL;
         }
     return report_runs(folders, a->folders.count, list_or_null(&a->images), err);
@@ -106,12 +109,15 @@ static enum status cmd_report_run(int argc, char **argv) {
 
 const struct command cmd_report = {
     .name = "report",
-    .arguments = "RUN|STUDY... -o R.html",
-    .summary = "write runs or a study as one self-contained page",
+    .arguments = "RUN|SHOT|STUDY... -o R.html",
+    .summary = "write runs, a shot or a study as one self-contained page",
     .description =
         "Writes a self-contained HTML page with the pictures, times, plan, parameters and device of a run; for "
         "several runs, side by side with the differences. Studies such as sweeps keep their page in their folder; it "
-        "is written again from there. Click a picture to enlarge it, and use the arrow keys to flip through the "
+        "is written again from there. A folder that glint replay wrote with several captures becomes a page that plays "
+        "its "
+        "frames and draws the error of the reflection and its flicker over them. Click a picture to enlarge it, and "
+        "use the arrow keys to flip through the "
         "others in place.",
     .options = options,
     .targets = targets,

@@ -63,8 +63,8 @@ static const struct argp_option options[] = {
     {"json",      'j',           NULL,       0, "Print --stats and --histogram as JSON", 0},
     {"to-tev",    KEY_TEV,       "HOST",     0, "Show the image in the viewer tev, which runs at HOST or HOST:PORT", 0},
     {"image",     KEY_IMAGE,     "NAME,...", 0, "Image of a run (default: its last colour image); several with --sheet", 0},
-    {"sheet",     KEY_SHEET,     NULL,       0, "Show all images of a run, or those of --image, in one picture; for several runs, one column for each and a common range "
-        "for each row", 0},
+    {"sheet",     KEY_SHEET,     NULL,       0, "Show the images of a run of full and half resolution by pass, or those of --image, in one picture; of several runs "
+        "beside each other with a common range", 0},
     {"part",      KEY_PART,      "NAME",     0, "Part of a file (default: lit, or the first with colour)", 0},
     {"layer",     KEY_LAYER,     "NAME",     0, "Layer or channel of the part, such as depth, normal, material.roughness", 0},
     {"as",        KEY_AS,        "KIND",     0, "Type of display (default: by unit and channels): ", 0},
@@ -74,7 +74,7 @@ static const struct argp_option options[] = {
     {"no-legend", KEY_NO_LEGEND, NULL,       0, "Write only the image, at its own size", 0},
     {"faces",     KEY_FACES,     NULL,       0, "Show cube maps as stored, with the faces below each other, instead of as a cross", 0},
     {"latlong",   KEY_LATLONG,   NULL,       0, "Show cube maps by longitude and latitude instead of as a cross", 0},
-    {"levels",    KEY_LEVELS,    NULL,       0, "Show all MIP levels of an image of a run", 0},
+    {"levels",    KEY_LEVELS,    NULL,       0, "Show all MIP levels of an image of a run; with --sheet also MIP levels, cube maps and tables", 0},
     {"crop",      KEY_CROP,      "X,Y,W,H",  0, "Show only this rectangle, and restrict statistics to it", 0},
     {"zoom",      KEY_ZOOM,      "N",        0, "Enlarge each pixel to N × N", 0},
     {"exposure",  KEY_EXPOSURE,  "EV",       0, "Colour: add this many stops of exposure", 0},
@@ -88,7 +88,7 @@ static const struct argp_option options[] = {
 static const struct example examples[] = {
     {"glint view run -o reflection.png", "writes the last colour image of a run, tone-mapped with the ACES view"},
     {"glint view run --image travelled -o travelled.png", "shows the travelled distance with a legend"},
-    {"glint view run --sheet -o sheet.png", "shows all images of a run in one picture"},
+    {"glint view run --sheet -o sheet.png", "shows the images of a run in one picture, by pass"},
     {"glint view a b --sheet --image travelled,composed -o ab.png", "shows two runs side by side"},
     {"glint view run:screen_end -o why.png", "shows why each ray ended (needs a run with --diagnostics)"},
     {"glint view street.exr:gbuffer:normal -o normals.png", "shows a layer of a capture"},
@@ -161,8 +161,7 @@ static void end_arguments(struct arguments *a, struct argp_state *state) {
     if (a->statistics.json && !a->statistics.table && !a->statistics.histogram)
         argp_error(state, "--json needs --stats or --histogram");
     if (a->statistics.json && a->terminal) argp_error(state, "--json and --terminal cannot share stdout");
-    if (a->sheet && (has_text_output(a) || a->levels))
-        argp_error(state, "--sheet cannot be combined with options for a single image");
+    if (a->sheet && has_text_output(a)) argp_error(state, "--sheet cannot be combined with options for a single image");
     if (!a->sheet && a->paths.count > 1)
         argp_error(state, "%s and %s: expected one image; several runs need --sheet", a->paths.items[0],
                    a->paths.items[1]);
@@ -269,7 +268,7 @@ static enum status cmd_view_run(int argc, char **argv) {
     a.choice.path = pipe_input(&pipe, a.choice.path, &err);
     bool ok = a.choice.path != NULL;
     if (ok && a.sheet)
-        ok = render_sheet(&picture, a.paths.items, a.paths.count, list_or_null(&a.images), &a.render, &err);
+        ok = render_sheet(&picture, a.paths.items, a.paths.count, list_or_null(&a.images), a.levels, &a.render, &err);
     else if (ok) ok = show_image(&picture, &a, &err);
     if (ok && a.out) ok = png_file_write(a.out, &picture, &err);
     progress_end(&progress);

@@ -84,6 +84,7 @@ static uint32_t *run_and_read(struct planner *planner, const struct frame_plan *
                            : NULL;
     for (size_t p = 0; values && p < plan->graph.pass_count; p++)
         if (run.steps[p].execute) *time = glint_time_statistics(run.steps[p].ns, run.steps[p].timed);
+    time->cold = time->n && !plan->options->repeat;
     engine_release(&run);
     return values;
 }

@@ -48,8 +48,8 @@ const char *glint_survey_motion(const struct glint_survey *survey) {
 }
 
 json_t *time_record(const struct glint_time *time) {
-    return json_pack("{sIsIsIsI}", "n", (json_int_t)time->n, "min", (json_int_t)time->min_ns, "median",
-                     (json_int_t)time->median_ns, "max", (json_int_t)time->max_ns);
+    return json_pack("{sIsIsIsIsb}", "n", (json_int_t)time->n, "min", (json_int_t)time->min_ns, "median",
+                     (json_int_t)time->median_ns, "max", (json_int_t)time->max_ns, "cold", time->cold);
 }
 
 uint32_t glint_survey_faces(const struct glint_survey *survey, enum glint_survey_face kind) {

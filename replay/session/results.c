@@ -29,6 +29,7 @@ static void store_pass(const struct run *run, size_t p, struct results *results)
     if (pass->pass->host) {
         uint64_t ns = (uint64_t)(tables_seconds(run->plan->tables, pass->pass) * 1e9);
         result->time = glint_time_statistics(&ns, 1);
+        result->time.cold = !run->options->repeat;
         return;
     }
     result->cached = !step->execute;
@@ -36,6 +37,7 @@ static void store_pass(const struct run *run, size_t p, struct results *results)
     if (!run->options->outputs) /* only a file with all images of the pass is cached */
         memcpy(results->cache_keys[p], step->cache_key, CACHE_KEY_SIZE);
     result->time = glint_time_statistics(step->ns, step->timed);
+    result->time.cold = result->time.n && !run->options->repeat;
 }
 
 bool results_store(struct glint_replay *replay, const struct run *run, struct glint_error *err) {

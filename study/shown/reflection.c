@@ -55,11 +55,10 @@ bool glint_study_reflection(struct glint_replay *replay, struct glint_pixels *pi
     return (pixels->values = study_values(replay, last, GLINT_F32, err)) != NULL;
 }
 
-bool glint_study_run_reflection(struct glint_run *run, struct glint_pixels *pixels, struct glint_error *err) {
+const struct glint_run_image *glint_study_run_reflection_image(const struct glint_run *run) {
     const struct glint_run_image *last = NULL;
     const struct glint_pass *composer = NULL;
     uint32_t widest = 0;
-    *pixels = (struct glint_pixels){0};
     for (size_t i = 0; i < glint_run_image_count(run); i++) {
         const struct glint_run_image *image = glint_run_image(run, i);
         const struct glint_pass *pass = glint_pass_find(image->slot, image->variant);
@@ -74,6 +73,12 @@ bool glint_study_run_reflection(struct glint_run *run, struct glint_pixels *pixe
         widest = image->width;
         last = image;
     }
+    return last;
+}
+
+bool glint_study_run_reflection(struct glint_run *run, struct glint_pixels *pixels, struct glint_error *err) {
+    const struct glint_run_image *last = glint_study_run_reflection_image(run);
+    *pixels = (struct glint_pixels){0};
     if (!last) return glint_fail(err, GLINT_ERROR_USAGE, "the run has no reflection to compare with");
     *pixels = (struct glint_pixels){last->width, last->height, last->components, NULL};
     return (pixels->values = study_run_values(run, last, err)) != NULL;

@@ -107,6 +107,32 @@ static void distances_know_the_sky(UNUSED void **state) {
     assert_int_equal(e.of[GLINT_SURFACE_ROUGH].rays, 0);
 }
 
+static void flicker_is_change_that_the_truth_does_not_make(UNUSED void **state) {
+    /* Pixels: a constant error; a change that the truth makes too; one that it does not; one that is masked; one without a truth. */
+    float before[] = {5, 5, 5, 1, 1, 1, 2, 2, 2, 0, 0, 0, 9, 9, 9},
+          after[] = {5, 5, 5, 4, 4, 4, 3, 2, 2, 8, 8, 8, 0, 0, 0};
+    float was[] = {1, 1, 1, 1, 1, 1, 2, 2, 2, 0, 0, 0, 9, 9, 9}, is[] = {1, 1, 1, 4, 4, 4, 2, 2, 2, 0, 0, 0, 9, 9, 9};
+    const struct glint_pixels found[2] = {{5, 1, 3, before}, {5, 1, 3, after}},
+                              truth[2] = {{5, 1, 3, was}, {5, 1, 3, is}};
+    const uint8_t mask[] = {1, 1, 1, 0, 1}, *const masks[2] = {mask, NULL};
+    const float first[] = {0, 0, 0.25F, 0, INFINITY}, *const errors[2] = {first, NULL};
+    struct glint_flicker f;
+    struct glint_error err = {0};
+    assert_true(glint_study_flicker(found, truth, errors, masks, &f, &err));
+    assert_int_equal(f.pixels, 3); /* nine values */
+    assert_near(f.picture, sqrt((3 * 9 + 1) / 9.0), 1e-15);
+    assert_near(f.truth, sqrt(3 * 9 / 9.0), 1e-15);
+    assert_near(f.beside, sqrt(1 / 9.0), 1e-15);
+    assert_near(f.clean, sqrt((1 - 3 * 0.25) / 9.0), 1e-15); /* a quarter of 2 in each of three channels */
+    assert_true(glint_study_flicker(found, NULL, NULL, masks, &f, &err));
+    assert_int_equal(f.pixels, 4);
+    assert_near(f.picture, sqrt((3 * 9 + 1 + 3 * 81) / 12.0), 1e-15);
+    assert_true(isnan(f.beside) && isnan(f.truth) && isnan(f.clean));
+    const struct glint_pixels other[2] = {{5, 1, 3, before}, {4, 1, 3, after}};
+    assert_false(glint_study_flicker(other, NULL, NULL, NULL, &f, &err));
+    assert_non_null(strstr(err.message, "expected images of 5 x 1"));
+}
+
 static void classes_meet_at_their_thresholds(UNUSED void **state) {
     assert_int_equal(glint_surface_of(0), MIRROR);
     assert_int_equal(glint_surface_of(GLINT_MIRROR_ROUGHNESS), MIRROR);
@@ -146,6 +172,7 @@ int main(void) {
         cmocka_unit_test(images_of_two_sizes_are_refused),
         cmocka_unit_test(the_truths_noise_is_taken_off),
         cmocka_unit_test(distances_know_the_sky),
+        cmocka_unit_test(flicker_is_change_that_the_truth_does_not_make),
         cmocka_unit_test(classes_meet_at_their_thresholds),
         cmocka_unit_test(a_full_picture_keeps_its_digits),
     };

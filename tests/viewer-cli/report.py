@@ -77,6 +77,24 @@ class Tests:
                 found = float(report[p["slot"]].replace("\u202f", ""))
                 assert abs(found - p["time_ns"]["median"] / 1e6) <= 0.06 * found + 1e-4, (p, found)  # two digits at least
 
+    def test_cold_times_are_marked_and_not_drawn_beside_others(self):
+        charts = "[...document.querySelectorAll('main > section')].find(s => s.querySelector('h2')?.textContent === 'Times')"
+        self.show("a", "b")
+        assert all(p["time_ns"]["cold"] == (p["time_ns"]["n"] > 0) for p in self.run_json("a")["passes"] if p["ran"])
+        assert not any(p["time_ns"]["cold"] for p in self.run_json("b")["passes"])
+        heads = self.browser.evaluate(f"{TABLE}('Times')")[1][0]
+        assert heads == ["pass", "a (cold)ms", "bms"] or [h.replace("ms", "") for h in heads] == ["pass", "a (cold)", "b"], heads
+        text = self.browser.evaluate(charts + ".textContent")
+        assert "a: cold, from a single round" in text and "Each frame: a (cold) " in text, text[:400]
+        drawn = self.table("Times", 0)
+        assert [row[0] for row in drawn] == [row[0] for row in self.table("Times", 1) if row[2] != "\u2013"], drawn
+        bars = self.browser.evaluate(charts + ".querySelectorAll('table')[1].querySelector('tbody tr:last-child').querySelectorAll('td.bar').length")
+        assert bars == 1, bars
+        self.show("a")  # alone, they are drawn with their mark
+        assert "Each frame: cold " in self.browser.evaluate(charts + ".textContent")
+        assert len(self.table("Times", 0)) == len(self.table("Times", 1))
+        self.browser.quiet()
+
     def test_pictures_are_whole(self):
         self.show("a")
         sizes = self.browser.evaluate("Promise.all([...document.querySelectorAll('main img')].map(i => i.decode().then(() => i.naturalWidth)))")
@@ -97,6 +115,66 @@ class Tests:
         captions = self.browser.evaluate("[...document.querySelectorAll('main figcaption')].map(c => c.textContent)")
         assert sum(c.startswith("a, composed") for c in captions) == sum(c.startswith("b, composed") for c in captions) == 2
         self.browser.quiet()
+
+    def test_pictures_are_paired_by_name(self):
+        """Run a has diagnostics, which b has not."""
+        self.show("a", "b")
+        rows = self.browser.evaluate("[...document.querySelectorAll('main .pictures')].at(-1).textContent") and self.browser.evaluate(
+            "[...[...document.querySelectorAll('main .pictures')].at(-1).children].map(e => [e.tagName, (e.querySelector('figcaption') || e).textContent])")
+        assert [kind for kind, _ in rows] == ["H3", "FIGURE", "FIGURE"] * (len(rows) // 3), [kind for kind, _ in rows]
+        absent = 0
+        for (_, head), (_, first), (_, second) in zip(rows[::3], rows[1::3], rows[2::3]):
+            name = head.split(": ")[1]
+            assert first.startswith(f"a, {name}") and second.startswith(f"b, {name}"), (head, first, second)
+            absent += second == f"b, {name}: not in b"
+        made = {run: {i["name"] for p in self.run_json(run)["passes"] for i in p["images"] if (i["width"], i["height"]) in ((96, 54), (48, 27)) and ".level" not in i["name"]}
+                for run in "ab"}
+        assert absent == len(made["a"] - made["b"]) > 3 and len(rows) == 3 * len(made["a"] | made["b"]), (absent, len(rows))
+        # a pair stands in one row, also in a narrow window
+        tops = self.browser.evaluate("[...[...document.querySelectorAll('main .pictures')].at(-1).querySelectorAll('figure')].map(f => f.getBoundingClientRect().y)")
+        assert tops[::2] == tops[1::2], tops
+        self.browser.quiet()
+
+    def test_a_shot_is_played_with_its_error_and_flicker(self):
+        glint("sample", "room", "-o", self.path("s.exr"), "--size=64x36", "--cube-size=16", "--frames=3", "--truth=4")
+        glint("replay", *(self.path(f"s.000{i}.exr") for i in (1, 2, 3)), "-o", self.path("shot"), "--against=truth")
+        self.show("shot")
+        rows = self.table("Error and flicker", 2)
+        assert [r[:2] for r in rows] == [[str(i), f"s.000{i}"] for i in (1, 2, 3)], rows
+        for i, row in enumerate(rows):  # errors are those that replay measured
+            with open(self.path(f"shot/s.000{i + 1}/errors.json"), encoding="utf-8") as file:
+                (everything,) = [s for s in json.load(file)["against_truth"]["image"]["surfaces"] if s["surfaces"] == "all"]
+            assert abs(float(row[2]) - everything["clean_rmse"]) < 1e-3 and abs(float(row[4]) - everything["symmetric"]) < 1e-3, (row, everything)
+        assert rows[0][5] == "\u2013" and all(float(r[5]) <= float(r[6]) for r in rows[1:]), rows
+        worst = max(range(3), key=lambda i: float(rows[i][2]))
+        assert "largest error" in rows[worst][9] and sum("largest flicker" in r[9] for r in rows) == 1, rows
+        # the player goes to the worst frame and on, and the charts with it
+        player = "document.querySelector('.player')"
+        caption = f"{player}.querySelector('figcaption').textContent"
+        self.browser.evaluate(f"[...{player}.querySelectorAll('button')].find(b => b.textContent.startsWith('largest error')).click()")
+        assert self.browser.evaluate(caption).startswith(f"frame {worst + 1}: composed") and "largest error" in self.browser.evaluate(caption)
+        assert self.browser.evaluate("document.querySelector('aside h4').textContent") == f"frame {worst + 1}"
+        sources = set()
+        for track in ("Final image", "Reflection", "Truth", "Error"):
+            self.browser.evaluate(f"[...{player}.querySelectorAll('button')].find(b => b.textContent === '{track}').click()")
+            assert self.browser.evaluate(f"{player}.querySelector('img').decode().then(() => {player}.querySelector('img').naturalWidth)") == 64
+            sources.add(self.browser.evaluate(f"{player}.querySelector('img').src"))
+        assert len(sources) == 4 and self.browser.evaluate(f"{player}.querySelectorAll('.ticks span').length") == 5
+        seen = self.browser.evaluate(f"new Promise(done => {{ const seen = new Set(); {player}.querySelector('button').click(); "
+                                     f"const look = () => {{ seen.add({caption}); seen.size < 3 ? setTimeout(look, 20) : done([...seen]); }}; look(); }})")
+        assert len(seen) == 3, seen
+        self.browser.evaluate(f"{player}.querySelector('button').click()")
+        self.browser.quiet()
+        # without its captures a shot says so, and shows how much it changes
+        for i in (1, 2, 3):
+            os.remove(self.path(f"s.000{i}.exr"))
+        glint("report", self.path("shot"), "-o", self.path("alone.html"))
+        self.browser.show(self.path("alone.html"))
+        text = self.browser.evaluate("document.querySelector('main').textContent")
+        assert "Not all frames have a truth" in text and "s.0001.exr" in text, text[:600]
+        assert len(self.table("Error and flicker", 0)) == 2
+        self.browser.quiet()
+        assert "report it separately" in glint("report", self.path("a"), self.path("shot"), "-o", self.path("x.html"), status=2)
 
     def test_errors_are_those_of_the_comparison(self):
         with open(os.path.join(self.path("a"), "errors.json"), encoding="utf-8") as file:

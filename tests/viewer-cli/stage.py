@@ -12,7 +12,7 @@ from browser import run_tests
 
 GLINT = sys.argv[1]
 SIZE = (48, 27)
-STAGE = "[...document.querySelectorAll('.stage')].at(-1)"  # of the final image
+STAGE = "document.querySelector('.stage')"  # of the final image
 FRAME = STAGE + ".querySelector('.frame')"
 
 
@@ -35,8 +35,8 @@ class Tests:
         self.folder, self.browser = folder, browser
         capture = self.path("room.exr")
         glint("sample", "room", "--light=4", "-o", capture, f"--size={SIZE[0]}x{SIZE[1]}", "--cube-size=16")
-        glint("replay", capture, "-o", self.path("one"))
-        glint("replay", capture, "-o", self.path("two"), "--set=cubemap_trace.steps_hq=3", "--set=resolve.fog=false")
+        glint("replay", capture, "-o", self.path("one"), "--diagnostics")
+        glint("replay", capture, "-o", self.path("two"), "--diagnostics", "--set=cubemap_trace.steps_hq=3", "--set=resolve.fog=false")
         self.page = self.path("page.html")
         self.report = json.loads(glint("diff", self.path("one"), self.path("two"), "--json", "--html", self.page, status=2))
         self.composed = next(i for i in self.report["images"] if i["name"] == "composed")
@@ -126,6 +126,79 @@ class Tests:
         x, y = map(int, before[0].split(","))
         assert after[0] == f"{x},{y + 1}" and not self.ask(FRAME + ".querySelector('.cross').hidden"), (before, after)
 
+    def unfold(self, name):
+        """Opens the fold of an image: an expression for it."""
+        fold = f"[...document.querySelectorAll('.fold')].find(f => f.firstChild.textContent.includes(': {name},'))"
+        self.ask(f"{fold}.open = true")
+        self.ask(f"new Promise(done => {{ const wait = () => {fold}.querySelector('.stage') ? done() : setTimeout(wait, 10); wait(); }})")
+        return fold
+
+    def test_every_image_that_differs_is_shown_the_final_ones_first(self):
+        self.show()
+        stages = self.ask("[...document.querySelectorAll('main > section')].filter(s => s.querySelector(':scope > .stage, :scope > section > .stage, .stage')).map(s => s.querySelector('h2').textContent)")
+        differing = [f"{i['slot']}: {i['name']}" for i in self.report["images"] if i.get("differing")]
+        assert stages[0] == "compose: composed" and "upscale: reflection" in stages and len(stages) == 3, stages
+        folds = self.ask("[...document.querySelectorAll('main > section > .fold')].map(f => f.firstChild.textContent.split(',')[0])")
+        folds = [f for f in folds if ": " in f]
+        assert folds == [d for d in differing if d not in stages] and len(folds) > 8, (folds, differing)
+        for name in folds:
+            fold = self.unfold(name.split(": ")[1])
+            assert self.ask(f"{fold}.querySelectorAll('.stage').length") == 1
+        self.browser.quiet()
+
+    def test_colours_have_a_key_and_values_have_names(self):
+        self.show()
+        fold = self.unfold("cubemap_end")
+        items = self.ask(f"[...{fold}.querySelectorAll('.key .items span')].map(s => s.textContent)")
+        known = {r["name"].replace("_", " ") for r in self.reasons()}
+        assert len(items) > 1 and all(re.fullmatch(r"(.+?) [\d.]+ % \u00b7 [\d.]+ %", i).group(1) in known for i in items), items
+        shares = [[float(s) for s in re.findall(r"([\d.]+) %", i)] for i in items]
+        assert all(abs(sum(s) - 100) < 0.1 * len(items) for s in zip(*shares)), items
+        largest = next(i for i in self.report["images"] if i["name"] == "cubemap_end")["largest"]
+        x, y, w, h = self.ask(f"{fold}.scrollIntoView(), (r => [r.x, r.y, r.width, r.height])({fold}.querySelector('.frame').getBoundingClientRect())")
+        self.browser.point_at(x + (largest["x"] + 0.5) / (SIZE[0] / 2) * w, y + (largest["y"] + 0.5) / ((SIZE[1] + 1) // 2) * h)
+        self.ask(f"new Promise(done => {{ const wait = () => {fold}.querySelector('.readout table') ? done() : setTimeout(wait, 10); wait(); }})")
+        cells = self.ask(f"[...{fold}.querySelectorAll('.readout tbody tr')].map(r => r.cells[1].textContent)")
+        names = [r["name"].replace("_", " ") for r in self.reasons()]
+        assert cells[:2] == [f"{int(v)}: {names[int(v)]}" for v in (largest["a"], largest["b"])] and cells[2] == "another", cells
+        # distances have a scale with numbers
+        fold = self.unfold("travelled")
+        ticks = self.ask(f"[...{fold}.querySelectorAll('.ticks span')].map(s => +s.textContent)")
+        assert len(ticks) == 5 and ticks == sorted(ticks) and ticks[0] < ticks[4], ticks
+        self.browser.quiet()
+
+    def reasons(self):
+        with open(os.path.join(self.path("one"), "run.json"), encoding="utf-8") as file:
+            return json.load(file)["end_reasons"]
+
+    def test_values_are_summed_up_as_view_prints_them(self):
+        self.show()
+        fold = "[...document.querySelectorAll('.fold')].find(f => f.firstChild.textContent.startsWith('Values of both'))"
+        self.ask(f"{fold}.open = true")
+        self.ask(f"new Promise(done => {{ const wait = () => {fold}.querySelector('table') ? done() : setTimeout(wait, 10); wait(); }})")
+        rows = self.ask(f"[...{fold}.querySelectorAll('tbody tr')].map(r => [...r.cells].map(c => c.textContent.replace('\u2212', '-')))")
+        printed = [(run, c) for run in ("one", "two") for c in json.loads(glint("view", f"{self.path(run)}:composed", "--stats", "--json"))["channels"]]
+        assert len(rows) == len(printed), rows
+        for row, (run, channel) in zip(rows, printed):
+            assert row[:2] == [run, channel["channel"]], row
+            for text, key in zip(row[2:8], ("min", "p1", "median", "p99", "max", "mean")):
+                assert abs(float(text) - channel[key]) <= 0.06 * abs(channel[key]) + 1e-4, (row, channel)  # two digits at least
+        self.browser.quiet()
+
+    def test_what_is_no_number_is_said_in_words(self):
+        for name, add in (("nan.exr", "-1"), ("number.exr", "0.25")):  # the root of a negative number is not one
+            subprocess.run(["oiiotool", "--create", "12x8", "3", f"--addc:value={add}", "--addc", add, "--powc", "0.5", "-d", "float", "-o", self.path(name)], check=True)
+        out = self.path("nan.html")
+        glint("diff", self.path("nan.exr"), self.path("number.exr"), "--html", out, status=2)
+        self.browser.show(out)
+        self.browser.point_at(*self.ask("(r => [r.x + r.width / 3, r.y + r.height / 3])(document.querySelector('.frame').getBoundingClientRect())"))
+        self.ask("new Promise(done => { const wait = () => document.querySelector('.readout table') ? done() : setTimeout(wait, 10); wait(); })")
+        cells = self.ask("[...document.querySelectorAll('.readout tbody tr')].map(r => r.cells[1].textContent)")
+        assert cells[0] == "not a number" and float(cells[1]) > 0 and cells[2] == "only one is finite", cells
+        text = self.ask("document.querySelector('main').textContent")
+        assert "not a number" in text and not re.search(r"\bnan\b", text), text[:600]
+        self.browser.quiet()
+
     def test_flicker_shows_one_and_then_the_other(self):
         self.show()
         self.press("Flicker")
@@ -151,7 +224,7 @@ class Tests:
 
     def test_the_histogram_s_shares_sum_to_one(self):
         self.show()
-        shares = self.ask("[...[...document.querySelectorAll('main > section')].at(-1).querySelectorAll('details tbody tr')].map(r => +r.cells[r.cells.length - 1].textContent)")
+        shares = self.ask("[...[...document.querySelectorAll('main > section')].find(s => s.querySelector('.stage')).querySelectorAll('details tbody tr')].map(r => +r.cells[r.cells.length - 1].textContent)")
         assert len(shares) > 1 and abs(sum(shares) - 100) < 0.05 * len(shares), shares
 
     def test_dark_and_light(self):

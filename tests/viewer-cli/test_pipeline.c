@@ -107,6 +107,7 @@ static void replay_reports_times_and_leaves_a_run(UNUSED void **state) {
         /* work on the host is not repeated */
         assert_int_equal((int)number(time, "n"), strcmp(slots[i], "cubemap_active") ? 3 : 1);
         assert_true(number(time, "min") <= number(time, "median") && number(time, "median") <= number(time, "max"));
+        assert_true(json_is_false(json_object_get(time, "cold")));
     }
     assert_true(number(json_object_get(one, "seconds"), "passes") > 0);
     assert_true(file_exists(in_folder("timed/run.json")));
@@ -117,6 +118,18 @@ static void replay_reports_times_and_leaves_a_run(UNUSED void **state) {
     for (size_t i = 0; i < SLOTS; i++) assert_contains(text, slots[i]);
     assert_contains(text, "median ms");
     assert_contains(text, "nothing written");
+    assert_null(strstr(text, "cold"));
+    free(text);
+    text = glint_ok("replay", capture);
+    assert_contains(text, "cold ms");
+    assert_null(strstr(text, "median ms"));
+    free(text);
+    text = glint_ok("replay", capture, "--json", "--no-cache");
+    json = parse_json(text);
+    const json_t *cold =
+        named(json_object_get(json_array_get(json_object_get(json, "runs"), 0), "passes"), "slot", "resolve");
+    assert_true(json_is_true(json_object_get(json_object_get(cold, "time_ns"), "cold")));
+    json_decref(json);
     free(text);
 }
 
@@ -300,7 +313,16 @@ static void sheet_shows_images_side_by_side(UNUSED void **state) {
         free(one.rgb);
     }
     free(sheet.rgb);
+    /* All images by pass: about as wide as high; with levels, cube maps and tables many more. */
     free(glint_ok("view", run, "--sheet", "-o", in_folder("sheet.png")));
+    sheet = read_png(in_folder("sheet.png"));
+    assert_in_range(sheet.height, sheet.width / 2, sheet.width + sheet.width / 4);
+    assert_true(sheet.width > 3 * 492);
+    free(sheet.rgb);
+    free(glint_ok("view", run, "--sheet", "--levels", "-o", in_folder("levels.png")));
+    struct pixels levels = read_png(in_folder("levels.png"));
+    assert_true((size_t)levels.width * levels.height > 3 * (size_t)sheet.width * sheet.height / 2);
+    free(levels.rgb);
     glint_fails(2, "several images need --sheet", "view", run, "--image=composed,reflection", "-o", "x.png");
     glint_fails(2, "did you mean composed?", "view", run, "--sheet", "--image=compose", "-o", "x.png");
 }

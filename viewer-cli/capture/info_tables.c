@@ -293,7 +293,9 @@ void info_print_whole_survey(const struct glint_survey *survey, const struct gli
            (unsigned long long)survey->moved, (unsigned long long)survey->moving);
     printf("luminance %.3g to %.3g; depth %.3g to %.3g m\n", (double)survey->light[0], (double)survey->light[1],
            (double)survey->depth_m[0], (double)survey->depth_m[1]);
-    if (time->n) printf("survey took %.3f ms\n", (double)time->median_ns * 1e-6);
+    if (time->n)
+        printf("survey took %.3f ms%s\n", (double)time->median_ns * 1e-6,
+               time->cold ? " (cold: one round without warm-up)" : "");
 }
 
 void info_print_run(const struct glint_run *run) {

@@ -145,7 +145,6 @@ struct diff_page {
     const char *title;
     const char *lead, *kind; /* a text at the top, and its kind for page_text */
     bool refresh;            /* the page reloads itself as long as a process updates it */
-    bool picture_first;      /* the final image precedes the images that differ */
 };
 bool diff_write_page(const char *path, struct diff *diff, const struct diff_page *page, struct glint_error *err);
 

@@ -6,9 +6,8 @@
 #include "options/args.h"
 #include "diff/diff.h"
 #include "draw/page/page.h"
-
-/* The number of differing images that are shown, in the order of the passes, besides the final one; the table lists all. */
-enum { STAGES = 8 };
+#include "draw/view/statistics.h"
+#include "glint/study.h"
 
 static const char *const verdicts[] = {"equal within the limits", "warning", "different", "different sizes"};
 
@@ -88,6 +87,27 @@ static void add_settings(json_t *document, const struct diff *diff, char labels[
                                   cell_of(json_object_get(row, "b"))));
 }
 
+/* "left screen", "12.5", "not a number": a value of an image, as texts of the page say it. */
+static void value_text(const struct diff_image *image, const char *channel, double value, char text[64]) {
+    struct source source = {.components = 1, .integer = true};
+    snprintf(source.unit, sizeof source.unit, "%.60s", image->unit);
+    snprintf(source.channels[0], sizeof source.channels[0], "%.250s", channel);
+    if (legend_value_name(kind_of(&source), value, text)) return;
+    if (isfinite(value)) snprintf(text, 64, "%g", value);
+    else snprintf(text, 64, "%s", isnan(value) ? "not a number" : value > 0 ? "infinite" : "minus infinite");
+}
+
+/* "12,3 R: 0.5, infinite; NOTE": the largest difference. */
+static json_t *largest_cell(const struct diff_pair *pair) {
+    const struct glint_difference *d = &pair->difference;
+    char a[64], b[64];
+    if (!d->differing) return json_string(pair->note);
+    value_text(pair->a, diff_channel(pair), d->a, a);
+    value_text(pair->b, diff_channel(pair), d->b, b);
+    return json_sprintf("%u,%u %s: %s, %s%s%s", d->x, d->y, diff_channel(pair), a, b, pair->note[0] ? "; " : "",
+                        pair->note);
+}
+
 static json_t *row_of(const struct diff_pair *pair, size_t place) {
     const struct diff_image *image = diff_pair_image(pair);
     const struct glint_difference *d = &pair->difference;
@@ -99,11 +119,9 @@ static json_t *row_of(const struct diff_pair *pair, size_t place) {
     }
     json_array_append_new(row, json_real(100 * (double)d->differing / (double)d->pixels));
     json_array_append_new(row, json_integer((json_int_t)d->failed));
-    json_array_append_new(row, json_number(d->rms));
-    json_array_append_new(row, isfinite(d->largest) ? json_real(d->largest) : json_string("infinite"));
-    json_array_append_new(row, d->differing ? json_sprintf("%u,%u %s: %g, %g%s%s", d->x, d->y, diff_channel(pair), d->a,
-                                                           d->b, pair->note[0] ? "; " : "", pair->note)
-                                            : json_string(pair->note));
+    json_array_append_new(row, page_number(d->rms));
+    json_array_append_new(row, page_number(d->largest));
+    json_array_append_new(row, largest_cell(pair));
     return row;
 }
 
@@ -155,16 +173,42 @@ static void add_histogram(json_t *blocks, const struct glint_difference *d) {
                                  "bar", "name", "values", "points", points));
 }
 
-/* Explains the scale of false colours. */
-static void add_scale(json_t *blocks, const struct legend *legend, const char *unit) {
-    char text[160];
-    if (legend->kind != KIND_DISTANCE || !(legend->low < legend->high)) return;
-    snprintf(text, sizeof text, "dark %.4g, bright %.4g%s%s%s", legend->low, legend->high, unit[0] ? " " : "", unit,
-             legend->logarithmic ? "; logarithmic" : "");
-    page_text(blocks, "text", text);
+/* What `glint view --stats` prints, of both images. */
+static bool add_statistics(json_t *blocks, const struct diff_drawing *d, char labels[2][64], struct glint_error *err) {
+    static const char *const columns[][2] = {{"min", "min"},
+                                             {"1 %", "p1"},
+                                             {"median", "median"},
+                                             {"99 %", "p99"},
+                                             {"max", "max"},
+                                             {"mean", "mean"},
+                                             {"deviation", "deviation"},
+                                             {"zero", "zero"},
+                                             {"infinite", "infinite"},
+                                             {"minus infinite", "minus_infinite"},
+                                             {"not a number", "nan"}};
+    enum { COLUMNS = sizeof columns / sizeof *columns };
+    json_t *table = page_table(page_fold(blocks, "Values of both images, linear, as glint view --stats prints them"));
+    page_column(table, "image", "");
+    page_column(table, "channel", "");
+    for (size_t k = 0; k < COLUMNS; k++) page_column(table, columns[k][0], "");
+    for (int side = 0; side < 2; side++) {
+        json_t *rows = statistics_json(&d->sources[side], err), *row;
+        size_t i;
+        if (!rows) return false;
+        json_array_foreach(rows, i, row) {
+            json_t *cells = json_pack("[s, O]", labels[side], json_object_get(row, "channel"));
+            for (size_t k = 0; k < COLUMNS; k++) {
+                json_t *value = json_object_get(row, columns[k][1]);
+                json_array_append(cells, json_is_null(value) ? json_null() : value);
+            }
+            page_row(table, cells);
+        }
+        json_decref(rows);
+    }
+    return true;
 }
 
-static bool add_stage(json_t *blocks, struct diff *diff, const struct diff_pair *pair, size_t part,
+static bool add_stage(json_t *blocks, struct diff *diff, const struct diff_pair *pair, double share,
                       struct glint_error *err) {
     struct diff_drawing d;
     char labels[2][64];
@@ -172,46 +216,84 @@ static bool add_stage(json_t *blocks, struct diff *diff, const struct diff_pair 
     bool ok = diff_draw(diff, pair, &d, err);
     diff_labels(diff, labels);
     for (int k = 0; ok && k < 3; k++) {
-        json_t *file = d.pictures[k].rgba ? page_picture(&d.pictures[k], PAGE_PICTURE_BYTES / (3 * part), err) : NULL;
         if (!d.pictures[k].rgba) continue;
+        json_t *file = page_picture(&d.pictures[k], (size_t)(PAGE_PICTURE_BYTES * share / 3), err);
         ok = file != NULL;
-        json_t *shown =
-            json_pack("{s:o*, s:s, s:b}", "file", file, "caption", k < 2 ? labels[k] : "difference", "alone", k == 2);
+        json_t *shown = json_pack("{s:o*, s:s, s:b, s:o*}", "file", file, "caption", k < 2 ? labels[k] : "difference",
+                                  "alone", k == 2, "key", page_key(&d.legends[k]));
         if (k < 2 && !d.sources[k].cube)
-            json_object_set_new(shown, "values", page_values(&d.sources[k], PAGE_VALUE_BYTES / (2 * part)));
+            json_object_set_new(shown, "values", page_values(&d.sources[k], (size_t)(PAGE_VALUE_BYTES * share / 2)));
         json_array_append_new(pictures, shown);
     }
-    if (ok) add_scale(blocks, &d.legends[0], pair->a->unit);
+    if (ok && pair->difference.differing) add_histogram(blocks, &pair->difference);
+    ok = ok && add_statistics(blocks, &d, labels, err);
     diff_drawing_finish(&d);
     return ok;
 }
 
-/* The image gets 1/part of the page's limits for pictures and values. */
-static bool add_image(json_t *document, struct diff *diff, size_t i, size_t part, struct glint_error *err) {
-    const struct diff_pair *pair = &diff->pairs[i];
-    char title[300];
-    snprintf(title, sizeof title, "%s%s%s", pair->a->slot, pair->a->slot[0] ? ": " : "", name_of(pair->a));
-    json_t *blocks = page_section(document, title);
-    if (!add_stage(blocks, diff, pair, part, err)) return false;
-    if (pair->difference.differing) add_histogram(blocks, &pair->difference);
-    return true;
+/* ---- All images ---- */
+
+static bool is_shown(const struct diff_pair *pair) {
+    return compared(pair) && pair->difference.differing;
 }
 
-/* The final image gets half of the page's limits, the other images share the rest. */
-static bool add_images(json_t *document, struct diff *diff, bool picture_first, struct glint_error *err) {
-    const size_t last = find_final_image(diff);
-    size_t shown = 0, stages = 1;
-    for (size_t i = 0; i < diff->count; i++)
-        stages += i != last && compared(&diff->pairs[i]) && diff->pairs[i].difference.differing;
-    if (stages > STAGES) stages = STAGES;
-    if (last == diff->count) return true;
-    if (picture_first && !add_image(document, diff, last, 2, err)) return false;
-    for (size_t i = 0; i < diff->count && shown + 1 < stages; i++) {
-        if (i == last || !compared(&diff->pairs[i]) || !diff->pairs[i].difference.differing) continue;
-        shown++;
-        if (!add_image(document, diff, i, 2 * (stages - 1), err)) return false;
+/* The image gets its share of the page's limits for pictures and values. */
+static bool add_first(json_t *document, struct diff *diff, const struct diff_pair *pair, double share,
+                      struct glint_error *err) {
+    char title[300];
+    snprintf(title, sizeof title, "%s%s%s", pair->a->slot, pair->a->slot[0] ? ": " : "", name_of(pair->a));
+    return add_stage(page_section(document, title), diff, pair, share, err);
+}
+
+/* "screen_trace: screen_end, 12.5 % of the pixels differ" */
+static bool add_folded(json_t *blocks, struct diff *diff, const struct diff_pair *pair, double share,
+                       struct glint_error *err) {
+    const struct glint_difference *d = &pair->difference;
+    char title[400];
+    snprintf(title, sizeof title, "%s%s%s, %.3g %% of the pixels differ", pair->a->slot, pair->a->slot[0] ? ": " : "",
+             name_of(pair->a), 100 * (double)d->differing / (double)d->pixels);
+    return add_stage(page_fold(blocks, title), diff, pair, share, err);
+}
+
+static void add_place(const struct diff *diff, const char *name, size_t first[3], size_t *count) {
+    for (size_t i = 0; i < diff->count; i++) {
+        bool known = !is_shown(&diff->pairs[i]) || strcmp(diff->pairs[i].a->name, name) != 0;
+        for (size_t k = 0; k < *count; k++) known |= first[k] == i;
+        if (!known) first[(*count)++] = i;
     }
-    return picture_first || add_image(document, diff, last, 2, err);
+}
+
+/* What one looks at first: the final image, the reflection that it is composed of, and the one before sharp reflections replace parts
+   of it. Their number. */
+static size_t find_first_images(const struct diff *diff, size_t first[3]) {
+    size_t count = 0, last = find_final_image(diff);
+    const struct glint_run_image *composed =
+        diff->sides[0].run ? glint_study_run_reflection_image(diff->sides[0].run) : NULL;
+    if (last < diff->count) first[count++] = last;
+    if (composed) add_place(diff, composed->name, first, &count);
+    if (count < 3) add_place(diff, "reflection", first, &count);
+    return count;
+}
+
+/* The others that differ are folded, in the order of the passes. */
+static bool add_images(json_t *document, struct diff *diff, struct glint_error *err) {
+    enum { FINAL = 4, REFLECTION = 2 }; /* shares of the page's limits, as multiples of the others' */
+    size_t first[3];
+    const size_t firsts = find_first_images(diff, first);
+    double parts = FINAL + 2 * REFLECTION;
+    bool ok = true;
+    json_t *blocks = NULL;
+    for (size_t i = 0; i < diff->count; i++) parts += is_shown(&diff->pairs[i]);
+    for (size_t k = 0; ok && k < firsts; k++)
+        ok = add_first(document, diff, &diff->pairs[first[k]], (k ? REFLECTION : FINAL) / parts, err);
+    for (size_t i = 0; ok && i < diff->count; i++) {
+        bool shown = !is_shown(&diff->pairs[i]);
+        for (size_t k = 0; k < firsts; k++) shown |= first[k] == i;
+        if (shown) continue;
+        if (!blocks) blocks = page_section(document, "Other images that differ, in the order of the passes");
+        ok = add_folded(blocks, diff, &diff->pairs[i], 1 / parts, err);
+    }
+    return ok;
 }
 
 bool diff_write_page(const char *path, struct diff *diff, const struct diff_page *page, struct glint_error *err) {
@@ -225,8 +307,7 @@ bool diff_write_page(const char *path, struct diff *diff, const struct diff_page
     add_settings(document, diff, labels);
     add_table(document, diff);
     const bool ok = (document || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory")) &&
-                    add_images(document, diff, page && page->picture_first, err) &&
-                    page_write(path, document, NULL, err);
+                    add_images(document, diff, err) && page_write(path, document, NULL, err);
     json_decref(document);
     return ok;
 }

@@ -95,12 +95,10 @@ bool diff_draw(struct diff *diff, const struct diff_pair *pair, struct diff_draw
     struct render_options options = {0};
     double range[2] = {INFINITY, -INFINITY};
     const char *names[4];
-    char labels[2][64];
     bool integers = false, ok = true;
     const size_t count = drawn_channels(pair, names, &integers);
     *d = (struct diff_drawing){0};
     if (!count) return glint_fail(err, GLINT_ERROR_USAGE, "%s: the two sides have no common channel", pair->a->name);
-    diff_labels(diff, labels);
     for (int k = 0; ok && k < 2; k++)
         ok = read_source(&diff->sides[k], images[k], names, count, integers, &d->sources[k], err) &&
              render_range(&d->sources[k], &options, range, err);
@@ -110,9 +108,18 @@ bool diff_draw(struct diff *diff, const struct diff_pair *pair, struct diff_draw
     for (int k = 0; ok && k < 2; k++) {
         size_t invalid;
         ok = render_plain(&d->pictures[k], &d->legends[k], &d->sources[k], &options, &invalid, err);
-        legend_label(&d->legends[k], labels[k]);
     }
     return ok && (!pair->heat || draw_heat(&d->pictures[2], &d->legends[2], diff, pair, err));
+}
+
+/* The drawing for a file, whose legends name the sides. */
+static bool draw_labelled(struct diff *diff, const struct diff_pair *pair, struct diff_drawing *d,
+                          struct glint_error *err) {
+    char labels[2][64];
+    if (!diff_draw(diff, pair, d, err)) return false;
+    diff_labels(diff, labels);
+    for (int k = 0; k < 2; k++) legend_label(&d->legends[k], labels[k]);
+    return true;
 }
 
 void diff_drawing_finish(struct diff_drawing *d) {
@@ -186,7 +193,7 @@ static bool write_pair_beside(const char *path, struct diff *diff, const struct 
     struct diff_drawing d;
     struct picture all = {0};
     uint32_t height = 0, width = 0, x = 0;
-    bool ok = diff_draw(diff, pair, &d, err);
+    bool ok = draw_labelled(diff, pair, &d, err);
     for (int k = 0; ok && k < 3; k++) {
         ok = legend_add(&d.pictures[k], &d.legends[k], err);
         width += d.pictures[k].width + (k ? GAP_PX : 0);
@@ -213,7 +220,7 @@ bool diff_write_beside(const char *path, struct diff *diff, struct glint_error *
     for (size_t i = 0; ok && i < diff->count; i++) {
         struct diff_drawing d;
         if (!differs(&diff->pairs[i])) continue;
-        ok = diff_draw(diff, &diff->pairs[i], &d, err);
+        ok = draw_labelled(diff, &diff->pairs[i], &d, err);
         for (int k = 0; ok && k < 3; k++) {
             ok = sheet_fit(&d.pictures[k], &d.legends[k], err);
             *cells++ = d.pictures[k];
@@ -241,7 +248,7 @@ bool diff_write_flicker(const char *path, struct diff *diff, struct glint_error 
     enum { TURN_MS = 500 };
     struct diff_drawing d = {0};
     const struct diff_pair *pair = find_drawn_pair(diff, err);
-    bool ok = pair && diff_draw(diff, pair, &d, err);
+    bool ok = pair && draw_labelled(diff, pair, &d, err);
     for (int k = 0; ok && k < 2; k++) ok = legend_add(&d.pictures[k], &d.legends[k], err);
     for (int k = 0; ok && k < 2; k++) ok = pad_bottom(&d.pictures[k], d.pictures[1 - k].height, err);
     ok = ok && png_file_animate(path, d.pictures, 2, TURN_MS, err);

@@ -4,7 +4,7 @@
 
 #include "draw/page/page.h"
 
-/* Describes one or several runs, side by side. `images`: names, NULL-terminated; NULL: those of the first run with full or half size. */
+/* Describes one or several runs, side by side. `images`: names, NULL-terminated; NULL: those of full and half size. */
 json_t *report_runs(const char *const *folders, size_t count, const char *const *images, struct glint_error *err);
 
 struct comparison;

@@ -136,7 +136,7 @@ static bool write_sheet(const char *folder, const struct glint_stability *s, str
     images[count++] = "flip_start";
     for (size_t i = 0; i < s->image_count; i++)
         if (s->images[i].amplification && s->images[i].per_pixel) images[count++] = s->images[i].name;
-    const bool ok = render_sheet(&sheet, runs, 1, images, &options, err) &&
+    const bool ok = render_sheet(&sheet, runs, 1, images, false, &options, err) &&
                     journal_path(folder, "stability.png", path, err) && png_file_write(path, &sheet, err);
     picture_finish(&sheet);
     free(images);

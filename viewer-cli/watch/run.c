@@ -57,8 +57,7 @@ static bool show_run(struct session *s, const char *fault, bool refresh, struct 
         snprintf(lead, sizeof lead, "Version %u, %s, failed; this is version %u.\n%.2000s", s->number, at, s->shown,
                  fault);
     else snprintf(lead, sizeof lead, "Version %u, %s, compared with the first.", s->shown, at);
-    const struct diff_page page = {
-        .title = title, .lead = lead, .kind = fault ? "code" : "text", .refresh = refresh, .picture_first = true};
+    const struct diff_page page = {.title = title, .lead = lead, .kind = fault ? "code" : "text", .refresh = refresh};
     const bool ok = diff_sides_open(diff.sides, paths, err) &&
                     diff_compare(&diff, refresh ? progress_report : NULL, &s->progress, err) &&
                     diff_write_page(s->page, &diff, &page, err);

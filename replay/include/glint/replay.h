@@ -15,6 +15,7 @@ extern "C" {
 struct glint_time {
     uint32_t n;
     uint64_t min_ns, median_ns, max_ns;
+    bool cold; /* no round came before: the time includes costs of the first use, and is not comparable with others */
 };
 /* Sorts `ns` in place. */
 struct glint_time glint_time_statistics(uint64_t *ns, size_t count);
@@ -335,7 +336,7 @@ void glint_run_close(struct glint_run **run);
    "bad_values" [{image, slot (null: the capture's), channel, x, y, value, not_finite, clamped}, …],
    "camera" {world_to_view, view_to_clip}, "seconds" by phase, "peak_memory_bytes", "warnings",
    "passes" [{slot, variant, ran, reason, cached, cached_work, dispatches, work {texels, of, rays}, host, shader,
-   parameters {name: value}, time_ns {n, min, median, max},
+   parameters {name: value}, time_ns {n, min, median, max, cold},
    images [{name, file, part, channels, unit, meaning, width, height, format}, …]}, …].
    work: the texels that a pass was dispatched over (for a list those of its tiles), their number without culling, and with diagnostics
    the number of rays that a tracer traced. */

@@ -140,6 +140,22 @@ bool glint_metrics_valid(const struct glint_metric_table *table, const char *wha
 bool glint_metrics_difference(const struct glint_metric_table *a, const struct glint_metric_table *b, size_t row,
                               enum glint_metric metric, struct glint_figure *difference, struct glint_error *err);
 
+/* ---- Change from frame to frame ---- */
+
+/* Root mean squares over the first three channels of the pixels that are compared in both frames. Errors that stay where they are cancel:
+   what is left is what a viewer sees flicker. NAN without pixels, or without a truth. */
+struct glint_flicker {
+    uint64_t pixels;
+    double picture, truth; /* the change of each from one frame to the next */
+    double beside;         /* the change of the picture less that of the truth */
+    double clean;          /* the same without the truth's noise, which the frames must have drawn independently */
+};
+/* Each array holds two frames, the earlier one first. `truth`, `truth_error` (relative standard errors, +inf where there is no truth) and
+   `mask` (0: left out), and their elements but those of `truth`, may be NULL. Fails if sizes differ or an image has fewer than three channels. */
+bool glint_study_flicker(const struct glint_pixels found[2], const struct glint_pixels *truth,
+                         const float *const *truth_error, const uint8_t *const *mask, struct glint_flicker *flicker,
+                         struct glint_error *err);
+
 /* ---- Errors by class of surface ---- */
 
 /* Classes of surface by roughness: mirror-like up to the first threshold, glossy up to the second, rough above. */

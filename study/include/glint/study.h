@@ -38,7 +38,8 @@ bool glint_study_source(struct glint_replay *replay, uint32_t width, uint32_t he
 bool glint_study_reflection(struct glint_replay *replay, struct glint_pixels *pixels, struct glint_error *err);
 /* The image of that reflection, or NULL. */
 const struct glint_image *glint_study_reflection_image(struct glint_replay *replay);
-/* The reflection of a run folder. */
+/* The reflection of a run folder, and its image, or NULL. */
+const struct glint_run_image *glint_study_run_reflection_image(const struct glint_run *run);
 bool glint_study_run_reflection(struct glint_run *run, struct glint_pixels *pixels, struct glint_error *err);
 /* The capture's true reflection (part truth.reflection.LOBE) for the lobe that the pipeline draws rays from, as R G B. *error receives
    the relative standard error of each pixel, malloc'd: channel `error`, 0 if the part does not have it, +inf where the truth is unknown (`weight`

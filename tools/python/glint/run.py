@@ -2,7 +2,7 @@
 import ctypes
 import json
 import os
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, get_type_hints
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,11 +25,13 @@ _JSON_BYTES = 1 << 24
 
 
 class Times(NamedTuple):
-    """How long a pass took in the timed rounds, nanoseconds. What kind of time it is says `run.json["device"]["times_are"]`."""
+    """How long a pass took in the timed rounds, nanoseconds. What kind of time it is says `run.json["device"]["times_are"]`.
+    cold: no round came before, so that the time includes costs of the first use."""
     n: int
     min: int
     median: int
     max: int
+    cold: bool
 
 
 class Image:
@@ -126,7 +128,7 @@ class Pass:
         self.reason = None if reason is None else _field(record, "reason", str, where)
         self.parameters: dict[str, Any] = _field(record, "parameters", dict, where)
         time = record.get("time_ns")
-        self.time = None if time is None else Times(*(_field(time, key, int, f"{where}: time_ns") for key in Times._fields))
+        self.time = None if time is None else Times(*(_field(time, key, kind, f"{where}: time_ns") for key, kind in get_type_hints(Times).items()))
         self.images = [Image(folder, self.slot, self.variant, image) for image in _field(record, "images", list, where)]
         self.record: dict[str, Any] = record
 

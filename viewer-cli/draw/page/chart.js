@@ -101,7 +101,15 @@ var glintChart = (function () {
         return ticks;
     }
 
-    function axisOption(data, key, look) {
+    /* Names below an axis that is too short for them stand on end. */
+    function standCategories(option, width) {
+        var longest = Math.max.apply(null, option.data.map(function (t) { return t.length; }).concat(0)) * 6.4;
+        if (longest + 6 < (width - 110) / Math.max(1, option.data.length)) return;
+        option.axisLabel.rotate = 90;
+        option.nameGap = 18 + longest;
+    }
+
+    function axisOption(data, key, look, width) {
         var axis = data[key], lying = key === 'y' && axis.scale === 'category';
         var option = {
             name: label(axis), nameLocation: lying ? 'end' : 'middle', nameTextStyle: {color: look.faint, fontSize: 12},
@@ -117,6 +125,7 @@ var glintChart = (function () {
             option.axisLabel.interval = 0;
             option.axisLabel.width = lying ? 220 : undefined;
             option.axisLabel.overflow = 'truncate';
+            if (!lying) standCategories(option, width);
             return option;
         }
         var range = extent(data, key), bars = data.series.some(function (s) { return s.kind === 'bar'; });
@@ -258,7 +267,7 @@ var glintChart = (function () {
                      textStyle: {color: look.text, fontSize: 12}, inactiveColor: look.line},
             grid: {left: 12, right: 24, top: 20 + (title ? 30 : 0) + 26 * lines, bottom: 12,
                    outerBoundsMode: 'same', outerBoundsContain: 'all'},
-            xAxis: axisOption(data, 'x', look), yAxis: axisOption(data, 'y', look), series: series
+            xAxis: axisOption(data, 'x', look, width), yAxis: axisOption(data, 'y', look, width), series: series
         };
     }
 

@@ -1,5 +1,6 @@
 /* Builds, stores and loads the documents of pages. */
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -34,6 +35,11 @@ json_t *page_section(json_t *document, const char *title) {
     return json_array_append_new(json_object_get(document, "sections"), section) == 0 ? blocks : NULL;
 }
 
+json_t *page_fold(json_t *blocks, const char *title) {
+    json_t *folded = json_array(), *fold = json_pack("{s:o, s:o}", "title", text_json(title), "blocks", folded);
+    return json_array_append_new(blocks, json_pack("{s:o}", "fold", fold)) == 0 ? folded : NULL;
+}
+
 void page_text(json_t *blocks, const char *kind, const char *text) {
     json_array_append_new(blocks, json_pack("{s:o}", kind, text_json(text)));
 }
@@ -55,6 +61,11 @@ void page_column(json_t *table, const char *name, const char *unit) {
 
 void page_row(json_t *table, json_t *row) {
     json_array_append_new(json_object_get(table, "rows"), row);
+}
+
+json_t *page_number(double value) {
+    if (isfinite(value)) return json_real(value);
+    return json_string(isnan(value) ? "not a number" : value > 0 ? "infinite" : "minus infinite");
 }
 
 json_t *page_interval(double value, double low, double high) {

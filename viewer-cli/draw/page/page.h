@@ -14,13 +14,22 @@
                                              comparison of pictures: under a slider, side by side, alternating or one at a
                                              time, with the values of the pixel under the pointer
      {"chart": CHART}
+     {"fold": {"title": T, "blocks": [BLOCK, …]}}
+                                             blocks that are built when their title is clicked
+     {"player": {"title": T, "frames": [T, …], "tracks": [{"name": T, "pictures": [PICTURE, …], "key": KEY}, …], "marks": [{"frame": N, "label": T}, …]}}
+                                             pictures of a sequence, one for each frame of the chosen track; marks name frames by
+                                             their place. Points of charts that have a frame's name go with it
    "refresh" of a document, in seconds: the page reloads itself unless somebody is using it.
    CELL: text, number, boolean, null (unknown), or {"value": number, "low": L, "high": H, "text": T}: a number with its
    interval, or shown as T and sorted by value.
-   PICTURE: {"file": F, "caption": T}. F: a PNG in the document's folder, or the result of page_picture.
-   SHOWN: a PICTURE, optionally with "values": VALUES; "alone": BOOL, it is not compared with others (a heat map).
-   VALUES: {"channels": [T, …], "unit": T, "width": PX, "height": PX, "every": N, "data": the result of page_values}
-                                             the values of every N-th pixel, to limit the size
+   PICTURE: {"file": F, "caption": T, "group": T}. A picture whose group is not that of the one before begins a row below the
+   group's name. F: a PNG in the document's folder, or the result of page_picture.
+   SHOWN: a PICTURE, optionally with "values": VALUES and "key": KEY; "alone": BOOL, it is not compared with others (a heat map).
+   VALUES: {"channels": [T, …], "unit": T, "width": PX, "height": PX, "every": N, "names": {"VALUE": T, …}, "data": the result of page_values}
+                                             the values of every N-th pixel, to limit the size; names: what single values mean
+   KEY: {"title": T, "scale": {"low": L, "high": H, "log": BOOL, "colors": ["#rrggbb", …]},
+         "items": [{"color": "#rrggbb", "text": T, "share": number}, …]}
+                                             what the colours of a picture stand for: the result of page_key
    CHART:
      {"title": T, "x": AXIS, "y": AXIS, "series": [SERIES, …], "marks": [MARK, …], "width": PX, "height": PX}
    AXIS: {"name": T, "unit": T, "scale": "linear" (default), "log" or "category", "min": A, "max": B, "ticks": [number, …],
@@ -41,8 +50,7 @@
 
 #include <jansson.h>
 
-#include "draw/view/picture.h"
-#include "draw/view/source.h"
+#include "draw/view/falsecolor.h"
 
 /* ---- Writing; files are renamed when complete ---- */
 
@@ -91,5 +99,11 @@ json_t *page_picture_file(const char *name, uint8_t *file, size_t size, size_t b
 json_t *page_values(const struct source *source, size_t bytes);
 /* Adds a stage and returns its pictures, borrowed. */
 json_t *page_stage(json_t *blocks, const char *title);
+/* Adds a fold and returns its blocks, borrowed. */
+json_t *page_fold(json_t *blocks, const char *title);
+/* KEY of a false-colour picture; NULL for a legend that has only a title. */
+json_t *page_key(const struct legend *legend);
+/* A number as a cell; NaN and infinity in words. */
+json_t *page_number(double value);
 
 #endif

@@ -3,7 +3,9 @@
     'use strict';
     const page = JSON.parse(document.getElementById('document').textContent);
     const data = /^data:image\/(png|jpeg);base64,[A-Za-z0-9+\/=]*$/;
-    const charts = [];
+    const charts = [], players = [];
+    let folds = 0;
+    const WORDS = ['infinite', 'minus infinite', 'not a number']; /* in columns of numbers */
 
     function list(v) { return Array.isArray(v) ? v : []; }
 
@@ -69,7 +71,7 @@
     function columnOf(column, cells) {
         const numbers = cells.map(valueOf).filter(v => typeof v === 'number' && Number.isFinite(v));
         const known = cells.filter(c => valueOf(c) !== null);
-        const number = numbers.length > 0 && known.every(c => Number.isFinite(valueOf(c)) || valueOf(c) === 'infinite');
+        const number = numbers.length > 0 && known.every(c => Number.isFinite(valueOf(c)) || WORDS.includes(valueOf(c)));
         return {
             ...column, number, largest: Math.max(0, ...numbers), intervals: cells.some(c => intervalText(c)),
             decimals: Number.isInteger(column.decimals) ? column.decimals : number ? decimalsOf(numbers) : null,
@@ -156,7 +158,9 @@
     }
 
     function picturesElement(block) {
-        const e = element('div', {class: block.columns === 1 ? 'pictures alone' : 'pictures'}, ...figures(block.pictures));
+        const known = list(block.pictures).filter(sourceOf);
+        const e = element('div', {class: block.columns === 1 ? 'pictures alone' : 'pictures'}, ...figures(known).flatMap((figure, i) =>
+            known[i].group && known[i].group !== known[i - 1]?.group ? [element('h3', null, known[i].group), figure] : [figure]));
         const least = block.columns > 0 ? `max(${Math.floor(96 / block.columns) - 2}%, 200px)` : '360px';
         e.style.gridTemplateColumns = `repeat(auto-fill, minmax(min(${least}, 100%), 1fr))`;
         return e;
@@ -232,6 +236,7 @@
             keep(k);
             const name = points[k]?.p.name;
             for (const c of charts) if (c.keep !== keep && (name || k < 0)) c.keep(k < 0 ? -1 : c.placeOf(name));
+            for (const p of players) if (name) p.go(name);
         }
 
         function draw() {
@@ -303,6 +308,74 @@
         return tableElement({columns, rows}, keep);
     }
 
+    /* ---- Players ---- */
+
+    function playerElement(player) {
+        const tracks = list(player.tracks).filter(t => t && list(t.pictures).every(sourceOf)), frames = list(player.frames).map(glintChart.text);
+        const marks = list(player.marks).filter(m => m && frames[m.frame] !== undefined);
+        const state = {frame: 0, track: 0, timer: 0}, name = glintChart.text(player.title);
+        if (!tracks.length || !frames.length) return null;
+        const image = element('img'), caption = element('figcaption', {'aria-live': 'polite'}), key = element('div');
+        const play = element('button', {type: 'button', click: () => state.timer ? stop() : start()});
+        const slider = element('input', {type: 'range', min: 0, max: frames.length - 1, step: 1, 'aria-label': `${name}: frame`, input: () => seek(+slider.value)});
+        const rate = element('select', {'aria-label': 'frames a second', change: () => { if (state.timer) { stop(); start(); } }},
+            ...[2, 5, 10, 25].map(r => element('option', {value: r}, `${r} frames/s`)));
+        const choices = tracks.map((t, i) => element('button', {type: 'button', click: () => { state.track = i; show(); }}, t.name));
+        const ticks = marks.map(m => {
+            const tick = element('i', {title: glintChart.text(m.label)});
+            tick.style.left = `${100 * (frames.length > 1 ? m.frame / (frames.length - 1) : 0)}%`;
+            return tick;
+        });
+        rate.value = 10;
+
+        function show() {
+            const picture = list(tracks[state.track].pictures)[state.frame];
+            const worst = marks.filter(m => m.frame === state.frame).map(m => glintChart.text(m.label));
+            if (picture) image.src = sourceOf(picture);
+            image.alt = glintChart.text(picture?.caption);
+            caption.textContent = [`${image.alt} (${state.frame + 1} of ${frames.length})`, ...worst].join(', ');
+            caption.className = worst.length ? 'worst' : '';
+            slider.value = state.frame;
+            key.replaceChildren(...(tracks[state.track].key ? [glintStage.key(element, [tracks[state.track].key])] : []));
+            choices.forEach((b, i) => b.setAttribute('aria-pressed', String(i === state.track)));
+            play.textContent = state.timer ? 'Pause' : 'Play';
+        }
+
+        /* The charts go along, but not ten times a second. */
+        function seek(frame) {
+            stop();
+            state.frame = Math.min(frames.length - 1, Math.max(0, frame));
+            show();
+            for (const c of charts) { const k = c.placeOf(frames[state.frame]); if (k >= 0) c.keep(k); }
+        }
+
+        function start() {
+            state.timer = setInterval(() => { state.frame = (state.frame + 1) % frames.length; show(); }, 1000 / rate.value);
+            show();
+        }
+
+        function stop() {
+            clearInterval(state.timer);
+            state.timer = 0;
+            show();
+        }
+
+        const shown = element('figure', {tabindex: 0, role: 'group', 'aria-label': `${name}: arrow keys step, Space plays`,
+            keydown: e => {
+                const step = {ArrowRight: 1, ArrowLeft: -1}[e.key];
+                if (step) seek(state.frame + step);
+                else if (e.key === ' ') play.click();
+                else return;
+                e.preventDefault();
+            }}, image, key, caption);
+        players.push({go: frame => { const k = frames.indexOf(glintChart.text(frame)); if (k >= 0 && k !== state.frame) { stop(); state.frame = k; show(); } }});
+        show();
+        return element('section', {class: 'player'},
+            element('div', {class: 'bar', role: 'toolbar', 'aria-label': name}, play, rate, ...choices,
+                ...marks.map(m => element('button', {type: 'button', click: () => seek(m.frame)}, `${glintChart.text(m.label)}: ${frames[m.frame]}`))),
+            element('div', {class: 'track'}, slider, ...ticks), shown);
+    }
+
     /* ---- The page ---- */
 
     const blocks = {
@@ -314,7 +387,23 @@
         pictures: picturesElement,
         stage: b => glintStage.stage(b.stage, {element, list, sourceOf}),
         chart: b => chartElement(b.chart),
+        fold: b => foldElement(b.fold),
+        player: b => playerElement(b.player),
     };
+
+    /* What is in it is built when it is opened, so that it costs nothing before, and charts have a width. */
+    function foldElement(fold) {
+        const e = element('details', {class: 'fold'}, element('summary', null, fold.title)), kept = `${page.title}|fold ${folds++}`;
+        e.open = page.refresh > 0 && glintStage.recall(kept).open === true;
+        e.addEventListener('toggle', () => {
+            if (page.refresh > 0) glintStage.store(kept, {open: e.open});
+            if (!e.open || e.children.length > 1) return;
+            const before = charts.length;
+            e.append(...list(fold.blocks).map(blockElement).filter(b => b));
+            charts.slice(before).forEach(c => c.draw());
+        });
+        return e;
+    }
 
     /* A block that cannot be shown says so, and the others stay. */
     function blockElement(block) {

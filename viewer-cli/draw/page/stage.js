@@ -1,5 +1,5 @@
 /* A stage of page.h: pictures over each other, a slider between two of them, both beside each other or in turns, one alone;
-   the values of the pixel that is pointed at or reached by keys. `own`: page.js's element, list, sourceOf and numberText. */
+   the key to their colours, and the values of the pixel that is pointed at or reached by keys. `own`: page.js's element, list, sourceOf and numberText. */
 const glintStage = (function () {
     'use strict';
     const TURN_MS = 500;
@@ -29,11 +29,52 @@ const glintStage = (function () {
         }));
     }
 
-    function digits(v) {
+    /* What a value says: the name that it has, else a number, else what is there instead of one. */
+    function words(v, names) {
         if (v === undefined) return '\u2013';
-        if (Number.isNaN(v)) return 'NaN';
-        if (!Number.isFinite(v)) return v > 0 ? '\u221e' : 'not compared';
-        return String(+v.toPrecision(6)).replace('-', '\u2212');
+        if (Number.isNaN(v)) return 'not a number';
+        if (!Number.isFinite(v)) return v > 0 ? 'infinite' : 'no value';
+        const number = String(+v.toPrecision(6)).replace('-', '\u2212'), name = names?.[String(v)];
+        return typeof name === 'string' ? `${number}: ${glintChart.text(name)}` : number;
+    }
+
+    /* b less a, of values that need not be finite. */
+    function change(a, b, names) {
+        if (Object.is(a, b)) return '0';
+        if (names && Object.keys(names).length) return a === b ? '0' : 'another';
+        if (Number.isFinite(a) && Number.isFinite(b)) return words(b - a);
+        return Number.isFinite(a) || Number.isFinite(b) ? 'only one is finite' : 'not comparable';
+    }
+
+    /* ---- The key to the colours ---- */
+
+    const COLOR = /^#[0-9a-f]{6}$/;
+
+    function scaleElement(element, scale) {
+        const colors = (Array.isArray(scale.colors) ? scale.colors : []).filter(c => COLOR.test(c));
+        const {low, high} = scale, at = t => scale.log ? low * (high / low) ** t : low + (high - low) * t;
+        if (colors.length < 2 || !Number.isFinite(low) || !(high > low) || (scale.log && !(low > 0))) return null;
+        const bar = element('div', {class: 'scale'});
+        bar.style.background = `linear-gradient(to right, ${colors.join()})`;
+        return element('div', null, bar, element('div', {class: 'ticks'}, ...[0, 0.25, 0.5, 0.75, 1].map(t =>
+            element('span', null, glintChart.number(+at(t).toPrecision(3))))));
+    }
+
+    /* Of one or two pictures, whose shares stand behind each other. */
+    function keyElement(element, keys) {
+        const first = keys[0], items = new Map();
+        keys.forEach((key, k) => (Array.isArray(key.items) ? key.items : []).forEach(i => {
+            if (!i || !COLOR.test(i.color)) return;
+            if (!items.has(i.text)) items.set(i.text, {color: i.color, shares: keys.map(() => 0), known: false});
+            if (Number.isFinite(i.share)) Object.assign(items.get(i.text), {known: true}).shares[k] = i.share;
+        }));
+        return element('div', {class: 'key'}, element('div', {class: 'faint'}, `${glintChart.text(first.title)}${first.scale?.log ? ', logarithmic' : ''}`),
+            first.scale ? scaleElement(element, first.scale) : null,
+            element('div', {class: 'items'}, ...[...items].map(([text, {color, shares, known}]) => {
+                const patch = element('i');
+                patch.style.background = color;
+                return element('span', null, patch, text, known ? ` ${shares.map(s => `${(100 * s).toFixed(1)} %`).join(' \u00b7 ')}` : '');
+            })));
     }
 
     /* ---- One stage ---- */
@@ -45,10 +86,10 @@ const glintStage = (function () {
         const pairs = pictures.filter(p => !p.alone), alone = pictures.filter(p => p.alone);
         const name = glintChart.text(block.title);
         const state = {mode: pairs.length > 1 ? 'slider' : 'left', left: 0, right: Math.max(0, pairs.length - 1), share: 50, zoom: 0, turn: 0, x: -1, y: -1};
-        const key = `${document.title}|${name}|${stages.filter(s => s.name === name).length}`;
+        const kept = `${document.title}|${name}|${stages.filter(s => s.name === name).length}`;
         let timer = 0;
-        stages.push({name, keep: () => store(key, state)});
-        Object.assign(state, recall(key));
+        stages.push({name, keep: () => store(kept, state)});
+        Object.assign(state, recall(kept));
         if (!pairs[state.left] || !pairs[state.right]) state.left = state.right = 0;
 
         const images = [element('img', {alt: ''}), element('img', {alt: ''})];
@@ -58,6 +99,7 @@ const glintStage = (function () {
             'aria-label': `${name}: arrow keys go from pixel to pixel, Shift by ten, Space shows the other picture`}, ...images, line, ...tags, cross);
         const scroll = element('div', {class: 'stage-scroll'}, frame);
         const slider = element('input', {type: 'range', min: 0, max: 100, step: 0.1, 'aria-label': `${name}: where the first picture ends`});
+        const key = element('div');
         const readout = element('div', {class: 'readout', 'aria-live': 'polite'});
 
         function chooser(which, label) {
@@ -97,6 +139,8 @@ const glintStage = (function () {
                 if (images[i].src !== sourceOf(p)) images[i].src = sourceOf(p);
                 images[i].alt = tags[i].textContent = glintChart.text(p.caption);
             });
+            const keys = two.filter(p => p && p.key).map(p => p.key);
+            key.replaceChildren(...(keys.length ? [keyElement(element, keys)] : []));
             slider.hidden = line.hidden = state.mode !== 'slider';
             slide(state.share);
             clearInterval(timer);
@@ -158,15 +202,15 @@ const glintStage = (function () {
         function table(v, rows, x, y) {
             const left = readable.indexOf(pairs[state.left]), right = readable.indexOf(pairs[state.right]);
             const both = left >= 0 && right >= 0 && left !== right;
-            const lines = rows.map((row, i) => [readable[i].caption, row]);
-            if (both) lines.push([`${glintChart.text(pairs[state.right].caption)} \u2212 ${glintChart.text(pairs[state.left].caption)}`, 
-                Object.fromEntries(v.channels.filter(c => c in rows[left] && c in rows[right]).map(c => [c, rows[right][c] - rows[left][c]]))]);
+            const lines = rows.map((row, i) => [readable[i].caption, v.channels.map(c => words(row[c], v.names))]);
+            if (both) lines.push([`${glintChart.text(pairs[state.right].caption)} \u2212 ${glintChart.text(pairs[state.left].caption)}`,
+                v.channels.map(c => c in rows[left] && c in rows[right] ? change(rows[left][c], rows[right][c], v.names) : '\u2013')]);
             const e = v.every > 1 ? ` (of ${x - x % v.every},${y - y % v.every}: one of ${v.every} \u00d7 ${v.every} is kept)` : '';
             return element('table', null,
                 element('thead', null, element('tr', null, element('th', {scope: 'col'}, `${x},${y}${e}`),
                     ...v.channels.map(c => element('th', {scope: 'col', class: 'number'}, c)), element('th', null, v.unit || ''))),
                 element('tbody', null, ...lines.map(([caption, row]) => element('tr', null, element('th', {scope: 'row'}, caption),
-                    ...v.channels.map(c => element('td', {class: 'number'}, digits(row[c]))), element('td')))));
+                    ...row.map(text => element('td', {class: 'number'}, text)), element('td')))));
         }
 
         function place(event) {
@@ -212,7 +256,7 @@ const glintStage = (function () {
         const result = element('section', {class: 'stage'},
             element('div', {class: 'bar', role: 'toolbar', 'aria-label': name}, ...buttons,
                 ...(pairs.length > 2 ? [chooser('left', 'first picture'), chooser('right', 'second picture')] : []), zoom),
-            slider, scroll, readout);
+            slider, scroll, key, readout);
         draw();
         return result;
     }
@@ -240,5 +284,5 @@ const glintStage = (function () {
         }, 1000 * seconds);
     }
 
-    return {stage, refresh};
+    return {stage, refresh, store, recall, key: keyElement};
 })();

@@ -1,10 +1,12 @@
-/* Encodes the values of pixels for pages, which show those under the pointer. */
+/* What a page says about pixels: their values, which it shows under the pointer, and the key to their colours. */
 #include <libdeflate.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "draw/page/base64.h"
 #include "draw/page/page.h"
+#include "draw/view/colormap.h"
 
 /* Takes every `every`-th texel and stores bytes of equal significance together, each as the difference to its left
    neighbour. Smooth images, and floats that were stored as half, then compress well. */
@@ -43,6 +45,20 @@ static uint8_t *pack(const struct source *s, uint32_t every, uint32_t width, uin
     return NULL;
 }
 
+/* The names of values of an image whose values have some, else NULL. */
+static json_t *value_names(const struct source *s) {
+    json_t *names = json_object();
+    const enum kind kind = kind_of(s);
+    for (uint32_t i = 0; i < 256; i++) {
+        char name[64], key[8];
+        snprintf(key, sizeof key, "%u", i);
+        if (legend_value_name(kind, i, name)) json_object_set_new(names, key, json_string(name));
+    }
+    if (json_object_size(names)) return names;
+    json_decref(names);
+    return NULL;
+}
+
 json_t *page_values(const struct source *s, size_t bytes) {
     enum { COARSEST = 64 };
     uint32_t every = 1;
@@ -56,9 +72,38 @@ json_t *page_values(const struct source *s, size_t bytes) {
         free(packed);
         if (fits || !packed) break;
     }
-    return json_pack("{s:o, s:s, s:I, s:I, s:I, s:o}", "channels", channels, "unit", s->unit, "width",
-                     (json_int_t)s->width, "height", (json_int_t)s->height, "every", (json_int_t)every, "data",
-                     data ? data : json_null());
+    return json_pack("{s:o, s:s, s:I, s:I, s:I, s:o*, s:o}", "channels", channels, "unit", s->unit, "width",
+                     (json_int_t)s->width, "height", (json_int_t)s->height, "every", (json_int_t)every, "names",
+                     value_names(s), "data", data ? data : json_null());
+}
+
+static json_t *color_json(struct rgb color) {
+    return json_sprintf("#%02x%02x%02x", color.r, color.g, color.b);
+}
+
+static json_t *scale_json(const struct legend *l) {
+    enum { STOPS = 16 };
+    json_t *colors = json_array();
+    for (int i = 0; i <= STOPS; i++) {
+        const double t = (double)i / STOPS;
+        const uint8_t grey = (uint8_t)(t * 255 + 0.5);
+        json_array_append_new(colors,
+                              color_json(l->kind == KIND_RAW ? (struct rgb){grey, grey, grey} : colormap_viridis(t)));
+    }
+    return json_pack("{s:f, s:f, s:b, s:o}", "low", l->low, "high", l->high, "log", l->logarithmic, "colors", colors);
+}
+
+json_t *page_key(const struct legend *l) {
+    struct legend_items items;
+    if (l->kind == KIND_COLOR) return NULL;
+    json_t *list = json_array();
+    legend_list(l, &items);
+    for (size_t i = 0; i < items.count; i++)
+        json_array_append_new(list, json_pack("{s:o, s:s, s:o*}", "color", color_json(items.of[i].color), "text",
+                                              items.of[i].text, "share",
+                                              items.of[i].share < 0 ? NULL : json_real(items.of[i].share)));
+    return json_pack("{s:s, s:o*, s:o}", "title", l->title, "scale", legend_has_scale(l) ? scale_json(l) : NULL,
+                     "items", list);
 }
 
 json_t *page_stage(json_t *blocks, const char *title) {

@@ -54,6 +54,21 @@ bool falsecolor_prepare(struct legend *legend, const struct source *source, enum
 struct legend legend_of_color(const struct source *source);
 /* Puts "LABEL: " before the title; LABEL ends at a slash. */
 void legend_label(struct legend *legend, const char *label);
+/* What the legend lists: colours and what they stand for. */
+struct legend_item {
+    struct rgb color;
+    char text[64];
+    double share; /* of the pixels; -1: unknown */
+};
+struct legend_items {
+    struct legend_item of[264];
+    size_t count;
+};
+void legend_list(const struct legend *legend, struct legend_items *items);
+bool legend_has_scale(const struct legend *legend); /* colours stand for values from `low` to `high` */
+/* What a value is called, if it has a name: an end reason ("left screen"), or index 255 ("none"). */
+bool legend_value_name(enum kind kind, double value, char name[64]);
+/* Adds the legend below the picture. */
 bool legend_add(struct picture *picture, const struct legend *legend, struct glint_error *err);
 
 #endif

@@ -23,11 +23,56 @@ void legend_label(struct legend *legend, const char *label) {
     memcpy(legend->title, title, sizeof title);
 }
 
-/* "left screen" for left_screen, short enough for narrow pictures. */
-static void reason_label(uint32_t reason, char label[64]) {
-    snprintf(label, 64, "%s", reasons[reason]);
-    for (char *p = label; (p = strchr(p, '_')) != NULL;) *p = ' ';
+bool legend_value_name(enum kind kind, double value, char name[64]) {
+    const bool reason = kind == KIND_REASON && value >= 0 && value < (double)(sizeof reasons / sizeof *reasons);
+    const bool none = kind == KIND_INDEX && value == 255;
+    if (!reason && !none) return false;
+    snprintf(name, 64, "%s", reason ? reasons[(size_t)value] : "none");
+    for (char *p = name; (p = strchr(p, '_')) != NULL;) *p = ' '; /* "left screen", short enough for narrow pictures */
+    return true;
 }
+
+/* ---- Items ---- */
+
+static void add_item(struct legend_items *items, struct rgb color, double share, const char *text) {
+    struct legend_item *item = &items->of[items->count++];
+    *item = (struct legend_item){.color = color, .share = share};
+    snprintf(item->text, sizeof item->text, "%s", text);
+}
+
+static void add_shares(struct legend_items *items, const struct legend *l) {
+    for (uint32_t i = 0; i < 257; i++) {
+        char name[64];
+        if (l->shares[i] <= 0) continue;
+        if (!legend_value_name(l->kind, i, name)) snprintf(name, sizeof name, i == 256 ? "others" : "%u", i);
+        const uint32_t category = l->kind == KIND_REASON ? i : i + 1;
+        add_item(items, l->kind == KIND_INDEX && i == 255 ? COLOR_BACKGROUND : colormap_category(category),
+                 l->shares[i], name);
+    }
+}
+
+void legend_list(const struct legend *l, struct legend_items *items) {
+    items->count = 0;
+    if (l->kind == KIND_INDEX || l->kind == KIND_REASON) add_shares(items, l);
+    if (l->kind == KIND_NORMAL) {
+        add_item(items, (struct rgb){255, 128, 128}, -1, "+X");
+        add_item(items, (struct rgb){128, 255, 128}, -1, "+Y");
+        add_item(items, (struct rgb){128, 128, 255}, -1, "+Z");
+    }
+    if (l->has_zero) add_item(items, colormap_category(0), -1, "0 or less");
+    if (l->has_none) add_item(items, COLOR_NONE, -1, "not compared");
+    if (l->has_infinite) add_item(items, COLOR_SKY, -1, "infinite (sky)");
+    if (l->kind == KIND_INVALID) {
+        add_item(items, COLOR_INVALID, -1, "NaN");
+        add_item(items, COLOR_INFINITE, -1, "infinite");
+    } else if (l->has_invalid) add_item(items, COLOR_INVALID, -1, l->kind == KIND_DISTANCE ? "NaN" : "NaN or infinite");
+}
+
+bool legend_has_scale(const struct legend *l) {
+    return l->kind == KIND_DISTANCE || l->kind == KIND_RAW;
+}
+
+/* ---- Drawing ---- */
 
 /* The position of the next item; items wrap at the width of the picture. */
 struct flow {
@@ -98,37 +143,19 @@ static void bar(struct flow *flow, const struct legend *l) {
     flow->y += LINE_PX + 2;
 }
 
-static void shares(struct flow *flow, const struct legend *l) {
-    for (uint32_t i = 0; i < 257; i++) {
-        char label[96], name[64];
-        if (l->shares[i] <= 0) continue;
-        if (l->kind == KIND_REASON && i < sizeof reasons / sizeof *reasons) reason_label(i, name);
-        else snprintf(name, sizeof name, i == 255 ? "none" : i == 256 ? "others" : "%u", i);
-        snprintf(label, sizeof label, "%s  %.1f %%", name, l->shares[i] * 100);
-        draw_legend_item(flow, i == 255 ? COLOR_BACKGROUND : colormap_category(l->kind == KIND_REASON ? i : i + 1),
-                         label);
-    }
-}
-
 /* Draws the legend, or measures it if flow->picture is NULL. flow->y ends below the last line. */
 static void lay_out_legend(struct flow *flow, const struct legend *l) {
+    struct legend_items items;
+    legend_list(l, &items);
     title(flow, l->title);
-    bool scaled = l->kind == KIND_DISTANCE || l->kind == KIND_RAW;
-    if (scaled) bar(flow, l);
-    if (l->kind == KIND_INDEX || l->kind == KIND_REASON) shares(flow, l);
-    if (l->kind == KIND_NORMAL) {
-        draw_legend_item(flow, (struct rgb){255, 128, 128}, "+X");
-        draw_legend_item(flow, (struct rgb){128, 255, 128}, "+Y");
-        draw_legend_item(flow, (struct rgb){128, 128, 255}, "+Z");
+    if (legend_has_scale(l)) bar(flow, l);
+    for (size_t i = 0; i < items.count; i++) {
+        const struct legend_item *item = &items.of[i];
+        char label[96];
+        if (item->share < 0) snprintf(label, sizeof label, "%s", item->text);
+        else snprintf(label, sizeof label, "%s  %.1f %%", item->text, item->share * 100);
+        draw_legend_item(flow, item->color, label);
     }
-    if (l->has_zero) draw_legend_item(flow, colormap_category(0), "0 or less");
-    if (l->has_none) draw_legend_item(flow, COLOR_NONE, "not compared");
-    if (l->has_infinite) draw_legend_item(flow, COLOR_SKY, "infinite (sky)");
-    if (l->kind == KIND_INVALID) {
-        draw_legend_item(flow, COLOR_INVALID, "NaN");
-        draw_legend_item(flow, COLOR_INFINITE, "infinite");
-    } else if (l->has_invalid)
-        draw_legend_item(flow, COLOR_INVALID, l->kind == KIND_DISTANCE ? "NaN" : "NaN or infinite");
     if (flow->x > MARGIN_PX) flow->y += LINE_PX;
     flow->y += MARGIN_PX / 2;
 }

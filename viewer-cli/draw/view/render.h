@@ -33,9 +33,9 @@ bool render(struct picture *picture, const struct source *source, const struct r
 bool render_levels(struct picture *picture, const struct source *finest, const struct source_choice *choice,
                    const struct render_options *options, size_t *invalid, struct glint_error *err);
 
-/* Renders all images of a run, or those of a NULL-terminated list, in rows, each with its name or legend below. With
-   several runs, there is a row for each image of the first run, with a column for each run and one range of values. */
-bool render_sheet(struct picture *sheet, const char *const *runs, size_t run_count, const char *const *images,
+/* Renders images of runs (shown.h) as one picture, about as wide as high, each with its name or legend below and its pass above; those of
+   several runs beside each other with one range of values. */
+bool render_sheet(struct picture *sheet, const char *const *runs, size_t run_count, const char *const *images, bool all,
                   const struct render_options *options, struct glint_error *err);
 
 #endif

@@ -2,13 +2,22 @@
 #include "draw/view/sheet.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include "glint/replay.h"
+#include "draw/view/text.h"
 #include "threads.h"
 
-enum { CELL_PX = 480, CELL_HEIGHT_PX = 270, GAP_PX = 12, WORKERS = 8 /* each holds an image in memory */ };
+enum {
+    CELL_PX = 480,
+    CELL_HEIGHT_PX = 270,
+    LEGEND_HEIGHT_PX = 60, /* about */
+    GAP_PX = 12,
+    HEAD_PX = 24,
+    HEAD_FONT_PX = 14,
+    WORKERS = 8 /* each holds an image in memory */
+};
 
 struct cell {
     const char *run, *image;
@@ -89,14 +98,6 @@ static bool draw_cell(struct picture *picture, const struct cell *cell, const st
     return ok;
 }
 
-static bool run_has(const char *path, const char *image, bool *has, struct glint_error *err) {
-    struct glint_run *run = glint_run_open(path, err);
-    *has = run && glint_run_find(run, image);
-    bool ok = run != NULL;
-    glint_run_close(&run);
-    return ok;
-}
-
 /* The union of all ranges of a row, so that equal colours mean equal values. */
 static bool common_range(const struct cell *cells, const bool *present, uint32_t columns,
                          struct render_options *options, struct glint_error *err) {
@@ -115,24 +116,27 @@ static bool common_range(const struct cell *cells, const bool *present, uint32_t
     return true;
 }
 
-/* Draws one image of every run. The cell of a run without this image stays empty if another run has it. */
-static bool draw_row(struct picture *pictures, const char *const *runs, uint32_t columns, const char *image,
-                     const struct render_options *options, struct glint_error *err) {
+/* The place of an image that another run has: says so, so that what stands beside each other has one name. */
+static bool draw_absent(struct picture *picture, const struct cell *cell, struct glint_error *err) {
+    static const struct rgb ground = {0x1e, 0x21, 0x27};
+    struct legend legend = {.kind = KIND_COLOR};
+    snprintf(legend.title, sizeof legend.title, "%.128s: not in %.128s", cell->image, sheet_name(cell->run));
+    return picture_init(picture, CELL_PX, CELL_HEIGHT_PX, ground, err) && legend_add(picture, &legend, err);
+}
+
+/* Draws one image of every run. */
+static bool draw_row(struct picture *pictures, const char *const *runs, uint32_t columns,
+                     const struct shown_image *image, const struct render_options *options, struct glint_error *err) {
     struct render_options row = *options;
     struct cell *cells = calloc(columns, sizeof *cells);
-    bool *present = calloc(columns, sizeof *present), ok = cells && present, any = false;
-    if (!ok) glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    for (uint32_t i = 0; ok && i < columns; i++) {
-        cells[i] = (struct cell){runs[i], image, columns > 1};
-        ok = run_has(runs[i], image, &present[i], err);
-        any = any || present[i];
-    }
-    if (ok && !any) present[0] = true; /* the attempt to open it reports the names that exist */
-    if (ok && columns > 1 && !options->falsecolor.range_given) ok = common_range(cells, present, columns, &row, err);
+    const bool unknown = !image->pass[0]; /* the attempt to open it reports the names that exist */
+    bool ok = cells || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    for (uint32_t i = 0; ok && i < columns; i++) cells[i] = (struct cell){runs[i], image->name, columns > 1};
+    if (ok && columns > 1 && !options->falsecolor.range_given) ok = common_range(cells, image->in, columns, &row, err);
     for (uint32_t i = 0; ok && i < columns; i++)
-        if (present[i]) ok = draw_cell(&pictures[i], &cells[i], &row, err);
+        ok = image->in[i] || unknown ? draw_cell(&pictures[i], &cells[i], &row, err)
+                                     : draw_absent(&pictures[i], &cells[i], err);
     free(cells);
-    free(present);
     return ok;
 }
 
@@ -146,7 +150,7 @@ static uint32_t row_height(const struct sheet *sheet, uint32_t row) {
 }
 
 bool sheet_init(struct sheet *sheet, uint32_t columns, uint32_t rows, struct glint_error *err) {
-    *sheet = (struct sheet){calloc((size_t)columns * rows + 1, sizeof *sheet->cells), columns, rows};
+    *sheet = (struct sheet){calloc((size_t)columns * rows + 1, sizeof *sheet->cells), columns, rows, 1, NULL};
     return sheet->cells || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
 }
 
@@ -156,12 +160,39 @@ void sheet_finish(struct sheet *sheet) {
     *sheet = (struct sheet){0};
 }
 
-/* Each row is as high as its highest cell. */
-bool sheet_lay_out(struct picture *picture, const struct sheet *sheet, struct glint_error *err) {
+static const char *pass_at(const struct sheet *sheet, uint32_t row, uint32_t unit) {
+    const uint32_t in_row = sheet->columns / sheet->unit;
+    const size_t i = (size_t)row * in_row + unit;
+    return unit < in_row && i < sheet->shown->count ? sheet->shown->images[i].pass : "";
+}
+
+/* Names the pass of each stretch of cells above a line as long as the stretch. */
+static void draw_heads(struct picture *picture, const struct sheet *sheet, struct text *text, uint32_t row,
+                       uint32_t top) {
+    static const struct rgb line = {0x5a, 0x5d, 0x63};
+    const uint32_t in_row = sheet->columns / sheet->unit, wide = sheet->unit * (CELL_PX + GAP_PX);
+    for (uint32_t k = 0, end; k < in_row; k = end) {
+        const char *pass = pass_at(sheet, row, k);
+        char label[128];
+        for (end = k + 1; end < in_row && !strcmp(pass_at(sheet, row, end), pass);) end++;
+        if (!*pass) continue;
+        const bool continued = k == 0 && row > 0 && !strcmp(pass_at(sheet, row - 1, in_row - 1), pass);
+        snprintf(label, sizeof label, "%s%s", pass, continued ? ", continued" : "");
+        const int x = (int)(GAP_PX + k * wide);
+        text_draw(text, picture, x, (int)top + HEAD_FONT_PX, label, COLOR_TEXT);
+        picture_fill(picture, x, (int)(top + HEAD_PX) - 5, (int)((end - k) * wide) - GAP_PX, 1, line);
+    }
+}
+
+static bool lay_out_rows(struct picture *picture, const struct sheet *sheet, struct text *text,
+                         struct glint_error *err) {
+    const uint32_t head = text ? HEAD_PX : 0;
     uint32_t height = GAP_PX, top = GAP_PX, width = sheet->columns * (CELL_PX + GAP_PX) + GAP_PX;
-    for (uint32_t row = 0; row < sheet->rows; row++) height += row_height(sheet, row) + GAP_PX;
+    for (uint32_t row = 0; row < sheet->rows; row++) height += head + row_height(sheet, row) + GAP_PX;
     if (!picture_init(picture, width, height, COLOR_BACKGROUND, err)) return false;
     for (uint32_t row = 0; row < sheet->rows; row++) {
+        if (text) draw_heads(picture, sheet, text, row, top);
+        top += head;
         for (uint32_t k = 0; k < sheet->columns; k++) {
             const struct picture *cell = &sheet->cells[(size_t)row * sheet->columns + k];
             if (cell->rgba) picture_paste(picture, cell, GAP_PX + k * (CELL_PX + GAP_PX), top);
@@ -171,27 +202,28 @@ bool sheet_lay_out(struct picture *picture, const struct sheet *sheet, struct gl
     return true;
 }
 
-static size_t count_images(const struct glint_run *run, const char *const *images) {
-    size_t count = 0;
-    if (!images) return glint_run_image_count(run);
-    while (images[count]) count++;
-    return count;
+/* Each row is as high as its highest cell. */
+bool sheet_lay_out(struct picture *picture, const struct sheet *sheet, struct glint_error *err) {
+    if (!sheet->shown) return lay_out_rows(picture, sheet, NULL, err);
+    struct text *text = text_create(HEAD_FONT_PX, err);
+    const bool ok = text && lay_out_rows(picture, sheet, text, err);
+    text_destroy(&text);
+    return ok;
 }
 
 struct filling {
     struct sheet *sheet;
     const char *const *runs;
     uint32_t run_count;
-    const struct glint_run *first;
-    const char *const *images;
+    const struct shown *shown;
     const struct render_options *options;
     struct glint_error errors[WORKERS];
 };
 
 static bool fill_row(void *user, uint32_t worker, size_t i) {
     struct filling *f = user;
-    const char *image = f->images ? f->images[i] : glint_run_image(f->first, i)->name;
-    return draw_row(&f->sheet->cells[i * f->run_count], f->runs, f->run_count, image, f->options, &f->errors[worker]);
+    return draw_row(&f->sheet->cells[i * f->run_count], f->runs, f->run_count, &f->shown->images[i], f->options,
+                    &f->errors[worker]);
 }
 
 /* Rows are drawn in parallel, one on each core. */
@@ -205,29 +237,33 @@ static bool fill_rows(struct filling *filling, size_t count, struct glint_error 
     return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
 }
 
-bool sheet_fill(struct sheet *sheet, const char *const *runs, size_t run_count, const char *const *images,
+/* The least number of units in a row with which the sheet is at least as wide as it is high. */
+static uint32_t units_in_row(size_t count, size_t cells) {
+    size_t k = 1;
+    while (k < count &&
+           k * cells * (CELL_PX + GAP_PX) < (count + k - 1) / k * (CELL_HEIGHT_PX + LEGEND_HEIGHT_PX + GAP_PX))
+        k++;
+    return (uint32_t)k;
+}
+
+bool sheet_fill(struct sheet *sheet, const char *const *runs, size_t run_count, const struct shown *shown,
                 const struct render_options *options, struct glint_error *err) {
-    struct glint_run *first = glint_run_open(runs[0], err);
-    size_t count = first ? count_images(first, images) : 0;
-    bool ok = first != NULL;
-    *sheet = (struct sheet){0};
-    if (ok && count == 0) ok = glint_fail(err, GLINT_ERROR_FORMAT, "%s: the run has no images", runs[0]);
-    if (ok) {
-        /* a single run: about as many columns as rows */
-        uint32_t columns = run_count > 1 ? (uint32_t)run_count : (uint32_t)ceil(sqrt((double)count));
-        uint32_t rows = run_count > 1 ? (uint32_t)count : (uint32_t)((count + columns - 1) / columns);
-        ok = sheet_init(sheet, columns, rows, err);
-    }
-    struct filling filling = {sheet, runs, (uint32_t)run_count, first, images, options, {{0}}};
-    ok = ok && fill_rows(&filling, count, err);
-    glint_run_close(&first);
-    return ok;
+    const uint32_t units = units_in_row(shown->count, run_count), rows = (uint32_t)((shown->count + units - 1) / units);
+    struct filling filling = {sheet, runs, (uint32_t)run_count, shown, options, {{0}}};
+    if (!sheet_init(sheet, units * (uint32_t)run_count, rows, err)) return false;
+    sheet->unit = (uint32_t)run_count;
+    return fill_rows(&filling, shown->count, err);
 }
 
 bool render_sheet(struct picture *picture, const char *const *runs, size_t run_count, const char *const *images,
-                  const struct render_options *options, struct glint_error *err) {
-    struct sheet sheet;
-    bool ok = sheet_fill(&sheet, runs, run_count, images, options, err) && sheet_lay_out(picture, &sheet, err);
+                  bool all, const struct render_options *options, struct glint_error *err) {
+    struct sheet sheet = {0};
+    struct shown shown;
+    bool ok = shown_find(&shown, runs, run_count, images, all, err) &&
+              sheet_fill(&sheet, runs, run_count, &shown, options, err);
+    if (!images) sheet.shown = &shown; /* images that were asked for stand in the order of asking */
+    ok = ok && sheet_lay_out(picture, &sheet, err);
     sheet_finish(&sheet);
+    shown_finish(&shown);
     return ok;
 }

@@ -165,6 +165,20 @@ static bool no_memory(struct glint_error *err) {
     return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
 }
 
+json_t *statistics_json(const struct source *s, struct glint_error *err) {
+    json_t *rows = json_array();
+    bool ok = true;
+    for (uint32_t k = 0; ok && k < s->components; k++) {
+        struct channel channel;
+        ok = gather(&channel, s, k, err);
+        if (ok) json_array_append_new(rows, channel_json(&channel, NULL));
+        free(channel.sorted);
+    }
+    if (ok) return rows;
+    json_decref(rows);
+    return NULL;
+}
+
 static bool print_all(const struct source *s, const struct channel *channels, const struct histogram *histograms,
                       const struct statistics_options *options, struct glint_error *err) {
     static const char *const titles[] = {"<channel", ">min",       ">1 %",  ">median",   ">99 %", ">max",

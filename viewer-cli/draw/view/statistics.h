@@ -16,5 +16,8 @@ struct statistics_options {
 
 /* Prints the requested statistics of each channel to stdout. */
 bool statistics_print(const struct source *source, const struct statistics_options *options, struct glint_error *err);
+/* [{"channel", "min", "p1", "median", "p99", "max", "mean", "deviation", "finite", "zero", "nan", "infinite", "minus_infinite"}, …] of the
+   channels; NULL on failure. */
+json_t *statistics_json(const struct source *source, struct glint_error *err);
 
 #endif
