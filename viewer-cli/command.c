@@ -20,7 +20,7 @@ static error_t command_parse_key(int key, char *arg, struct argp_state *state) {
     const struct arg_table table = {parsing->command->targets, parsing->command->options, parsing->command->operand};
     switch (key) {
     case ARGP_KEY_INIT:
-        if (parsing->command->numbers) state->child_inputs[0] = state->input;
+        state->child_inputs[0] = state->child_inputs[parsing->command->numbers] = state->input;
         return 0;
     case ARGP_KEY_FINI:
         return 0;
@@ -55,6 +55,22 @@ static const struct argp_option digits[] = {
 };
 /* clang-format on */
 static const struct argp numbers = {.options = digits, .parser = parse_number};
+
+/* Options of every command. */
+enum { KEY_COLOR = 8192 };
+/* clang-format off */
+const struct argp_option command_common[] = {
+    {"color", KEY_COLOR, "WHEN", OPTION_ARG_OPTIONAL, "Colour: auto (default: on a terminal, unless NO_COLOR is set), always or never", -1},
+    {0},
+};
+/* clang-format on */
+
+static error_t parse_common(int key, char *arg, struct argp_state *state) {
+    if (key != KEY_COLOR) return ARGP_ERR_UNKNOWN;
+    console_choose_color(arg_choice("color", arg ? arg : "always", console_colors, state));
+    return 0;
+}
+static const struct argp common = {.options = command_common, .parser = parse_common};
 
 char *command_option_help(const struct command *command, const struct argp_option *option) {
     const char *doc = option->doc ? option->doc : "";
@@ -95,7 +111,7 @@ static char *filter(int key, const char *text, void *input) {
 
 void command_parse(const struct command *command, int argc, char **argv, void *input) {
     struct parsing parsing = {command, input};
-    const struct argp_child children[] = {{&numbers, 0, NULL, 0}, {0}};
+    const struct argp_child children[] = {{&common, 0, NULL, 0}, {command->numbers ? &numbers : NULL, 0, NULL, 0}, {0}};
     char name[64], doc[512];
     snprintf(name, sizeof name, "glint %s", command->name);
     snprintf(doc, sizeof doc, "%s.\v-", command->summary); /* what follows \v is replaced by the filter */
@@ -104,7 +120,7 @@ void command_parse(const struct command *command, int argc, char **argv, void *i
                         .parser = command_parse_key,
                         .args_doc = command->arguments,
                         .doc = doc,
-                        .children = command->numbers ? children : NULL,
+                        .children = children,
                         .help_filter = filter};
     const unsigned flags = (command->one_dash ? ARGP_LONG_ONLY : 0) | (command->numbers ? ARGP_IN_ORDER : 0);
     char *first = argv[0];
@@ -118,8 +134,24 @@ void command_parse(const struct command *command, int argc, char **argv, void *i
     }
 }
 
+/* "glint COMMAND: message" on stderr, the name in colour. */
+__attribute__((format(printf, 3, 0))) static void say(const struct command *command, enum mark mark, const char *format,
+                                                      va_list args) {
+    char text[2048];
+    vsnprintf(text, sizeof text, format, args);
+    text_clean(text);
+    fprintf(stderr, "%sglint %s:%s %s\n", mark_begin(stderr, mark), command->name, mark_end(stderr, mark), text);
+}
+
+static void fail(const struct command *command, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    say(command, MARK_FAIL, format, args);
+    va_end(args);
+}
+
 enum status command_fail(const struct command *command, const struct glint_error *err) {
-    command_note(command, "%s", err->message[0] ? err->message : "failed without a message");
+    fail(command, "%s", err->message[0] ? err->message : "failed without a message");
     switch (err->code) {
     case GLINT_ERROR_USAGE:
         return STATUS_USAGE;
@@ -131,11 +163,8 @@ enum status command_fail(const struct command *command, const struct glint_error
 }
 
 void command_note(const struct command *command, const char *format, ...) {
-    char text[2048];
     va_list args;
     va_start(args, format);
-    vsnprintf(text, sizeof text, format, args);
+    say(command, MARK_WARN, format, args);
     va_end(args);
-    text_clean(text);
-    fprintf(stderr, "glint %s: %s\n", command->name, text);
 }
