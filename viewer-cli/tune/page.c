@@ -141,7 +141,7 @@ static void add_left(const struct tune *tune, json_t *document) {
         page_row(table, json_pack("[s, s]", tune->left[i].name, tune->left[i].why));
     for (size_t a = 0; a < tune->axis_count; a++)
         if (!tune->found.matters[a])
-            page_row(table, json_pack("[s, s]", tune->axes[a].name, "has no effect on these captures"));
+            page_row(table, json_pack("[s, s]", tune->axes[a].name, TUNE_NO_EFFECT));
 }
 
 static void add_facts(const struct tune *tune, json_t *document) {
