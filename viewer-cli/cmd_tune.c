@@ -186,8 +186,10 @@ static bool begin_tune(struct arguments *a, struct glint_error *err) {
     a->pipeline.without_fog = tune->against.truth && captures_have_fog(&tune->captures);
     if (!choose_metric(a, err) || !(tune->base = pipeline_args_create(&a->pipeline, err))) return false;
     if (tune->against.truth) pipeline_note_fog(&cmd_tune, tune->base, &tune->captures);
-    if (!(tune->device = pipeline_args_device(&a->pipeline, err)) || !glint_make_folder(tune->folder, err) ||
-        !tune_load(tune, err) || !tune_make_axes(tune, err))
+    /* What --vary names is checked before the reference is traced; without it, the axes depend on what ran. */
+    const bool named = tune->vary.count > 0;
+    if ((named && !tune_make_axes(tune, err)) || !(tune->device = pipeline_args_device(&a->pipeline, err)) ||
+        !glint_make_folder(tune->folder, err) || !tune_load(tune, err) || (!named && !tune_make_axes(tune, err)))
         return false;
     if (!tune->axis_count)
         return glint_fail(err, GLINT_ERROR_USAGE,

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "io/table.h"
+#include "nearest.h"
 #include "options/args.h"
 
 struct parsing {
@@ -109,6 +110,53 @@ static char *filter(int key, const char *text, void *input) {
     return option && text ? command_option_help(command, option) : (char *)text;
 }
 
+/* ---- Unknown options ---- */
+
+static const char *const from_argp[] = {"help", "usage", NULL};
+
+/* Offers the long options; whether one is `name`, which may be abbreviated. */
+static bool offer_options(const struct argp_option *options, const char *name, struct glint_nearest *near,
+                          bool *argument) {
+    bool known = false;
+    for (const struct argp_option *o = options; o->name || o->key || o->doc; o++) {
+        if (!o->name) continue;
+        glint_nearest_offer(near, o->name);
+        known |= !strncmp(o->name, name, strlen(name));
+        *argument |= !strcmp(o->name, name) && o->arg && !(o->flags & OPTION_ARG_OPTIONAL);
+    }
+    return known;
+}
+
+/* argp's message on an unknown long option, with the option that is meant. Whatever is in doubt is left to argp. */
+static void check_long_options(const struct command *command, int argc, char **argv) {
+    for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; i++) {
+        const bool one = command->one_dash && argv[i][0] == '-' && argv[i][1] != '-' &&
+                         isalpha((unsigned char)argv[i][1]) && argv[i][2];
+        char name[64];
+        bool known = false, argument = false;
+        if (!one && strncmp(argv[i], "--", 2) != 0) continue;
+        const char *text = argv[i] + (one ? 1 : 2);
+        snprintf(name, sizeof name, "%.*s", (int)strcspn(text, "="), text);
+        struct glint_nearest near = glint_nearest_to(name);
+        known = offer_options(command->options, name, &near, &argument);
+        known |= offer_options(command_common, name, &near, &argument);
+        for (size_t k = 0; from_argp[k]; k++) {
+            glint_nearest_offer(&near, from_argp[k]);
+            known |= !strncmp(from_argp[k], name, strlen(name));
+        }
+        if (known) {
+            i += argument && !strchr(argv[i], '='); /* what follows is its value */
+            continue;
+        }
+        if (one) continue; /* short options may be joined */
+        fprintf(stderr, "%sglint %s:%s unrecognized option '--%s'", mark_begin(stderr, MARK_FAIL), command->name,
+                mark_end(stderr, MARK_FAIL), name);
+        if (near.best) fprintf(stderr, " (did you mean --%s?)", near.best);
+        fprintf(stderr, "\nTry `glint %s --help' for more information.\n", command->name);
+        exit(argp_err_exit_status);
+    }
+}
+
 void command_parse(const struct command *command, int argc, char **argv, void *input) {
     struct parsing parsing = {command, input};
     const struct argp_child children[] = {{&common, 0, NULL, 0}, {command->numbers ? &numbers : NULL, 0, NULL, 0}, {0}};
@@ -126,6 +174,7 @@ void command_parse(const struct command *command, int argc, char **argv, void *i
     char *first = argv[0];
     argv[0] = name;
     if (command->usage_status) argp_err_exit_status = command->usage_status;
+    check_long_options(command, argc, argv);
     error_t failed = argp_parse(&argp, argc, argv, flags, NULL, &parsing);
     argv[0] = first;
     if (failed) {

@@ -12,7 +12,8 @@ static void value_or_dash_cell(struct table *table, double value) {
 
 static void percent_cell(struct table *table, double percent) {
     if (!isfinite(percent)) table_cell(table, "–");
-    else if (fabs(percent) >= 0.01) table_cell(table, "%.*f", fabs(percent) < 1 ? 2 : fabs(percent) < 100 ? 1 : 0, percent);
+    else if (fabs(percent) >= 0.01)
+        table_cell(table, "%.*f", fabs(percent) < 1 ? 2 : fabs(percent) < 100 ? 1 : 0, percent);
     else table_cell(table, percent == 0 ? "0" : "< 0.01");
 }
 
@@ -30,8 +31,12 @@ static size_t largest_share(const struct blame *blame, const struct blame_sum *s
 }
 
 static void print_players(const struct blame *blame, const struct blame_sum *sum, size_t answer) {
-    static const char *const titles[] = {"<slot",          ">share of the error",     ">%",
-                                         ">saved if ideal", ">fetches/px that costs", ">left if all others are ideal",
+    static const char *const titles[] = {"<slot",
+                                         ">share of the error",
+                                         ">%",
+                                         ">saved if ideal",
+                                         ">fetches/px that costs",
+                                         ">left if all others are ideal",
                                          NULL};
     struct table *table = table_create(titles);
     const size_t v = blame_value(answer, 0), most = largest_share(blame, sum, v);

@@ -77,7 +77,8 @@ static void describe(const struct progress *progress, const char *what, char tex
 static void draw_progress(struct progress *progress, const char *text, double seconds) {
     enum { BAR = 24, REST = 24 }; /* REST: of the bar, per cent, and the time that is left */
     const size_t columns = console_width(stderr);
-    const int width = columns && columns < PROGRESS_TEXT + 1 + BAR + REST ? (int)(columns > 60 ? columns - REST - 37 : 0) : BAR;
+    const int width =
+        columns && columns < PROGRESS_TEXT + 1 + BAR + REST ? (int)(columns > 60 ? columns - REST - 37 : 0) : BAR;
     const int room = columns && columns < PROGRESS_TEXT + REST ? (int)columns - REST : PROGRESS_TEXT;
     const int full = (int)(progress->done * width + 0.5);
     char left[32];

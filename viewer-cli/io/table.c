@@ -183,10 +183,12 @@ static void print_rows(FILE *out, const struct table *t, const bool *shown, cons
         marks[c] = MARK_TITLE;
         titled |= shown[c] && *line[c];
     }
-    while (titled && print_line(out, t, shown, widths, line, marks)) {}
+    while (titled && print_line(out, t, shown, widths, line, marks)) {
+    }
     for (size_t i = 0; i + t->columns <= t->count; i += t->columns) {
         for (size_t c = 0; c < t->columns; c++) line[c] = t->cells[i + c].text, marks[c] = t->cells[i + c].mark;
-        while (print_line(out, t, shown, widths, line, marks)) {}
+        while (print_line(out, t, shown, widths, line, marks)) {
+        }
     }
 }
 
@@ -232,7 +234,7 @@ bool table_print(const struct table *t, FILE *out) {
     enum mark *marks = calloc(n, sizeof *marks);
     bool *shown = calloc(n, sizeof *shown);
     const bool ok = layout.widths && layout.least && widths && line && marks && shown;
-    if (ok) {
+    if (ok && t->count) {
         measure(t, &layout);
         print_parts(out, t, &layout, shown, widths, line, marks);
     }

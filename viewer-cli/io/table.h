@@ -23,7 +23,7 @@ __attribute__((format(printf, 2, 3)))
 void table_cell(struct table *table, const char *format, ...);
 /* Colours the last cell. */
 void table_mark(struct table *table, enum mark mark);
-/* `out` is stdout or stderr. Titles that are all empty are not printed. */
+/* `out` is stdout or stderr. Nothing is printed of an empty table, nor titles that are all empty. */
 bool table_print(const struct table *table, FILE *out);
 bool table_print_markdown(const struct table *table, FILE *out);
 bool table_is_empty(const struct table *table);

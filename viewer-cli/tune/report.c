@@ -61,12 +61,11 @@ static void print_contenders(const struct tune *tune, size_t s) {
         else table_cell(table, "%s", tune_contenders[k]);
         interval_cell(table, 5, all.value, all.low, all.high);
         for (size_t r = 1; r < 4 && r < rows->count; r++)
-            if (rows->rows[r].pixels)
-                number_cell(table, "%.5f", measured[k].errors.rows[r].of[tune->metric].value);
+            if (rows->rows[r].pixels) number_cell(table, "%.5f", measured[k].errors.rows[r].of[tune->metric].value);
         number_cell(table, "%.2f", measured[k].fetches_px);
         if (!tune->repeat) continue;
         const struct tune_median ms = measured[k].ms, part = measured[k].part;
-        const bool less = part.high < 1, more = part.low > 1;
+        const bool less = part.high<1, more = part.low> 1;
         interval_cell(table, 3, ms.value, ms.low, ms.high);
         interval_cell(table, 3, k == TUNE_TUNED ? NAN : part.value, part.low, part.high);
         table_cell(table, "%s", k == TUNE_TUNED ? "" : less ? "faster" : more ? "slower" : "equal");
