@@ -78,7 +78,7 @@ static bool open_file(struct glint_exr *exr, struct glint_error *err) {
     if (info.kind != GLINT_FILE_REGULAR)
         return glint_fail(err, GLINT_ERROR_IO, "%s: expected an EXR file, found %s", exr->path,
                           info.kind == GLINT_FILE_FOLDER
-                              ? "a folder (of a run? glint view, diff, probe and report read runs)"
+                              ? "a folder (of a run? glint view, diff and report read runs)"
                               : "another kind of file");
     exr->stream.bytes = info.bytes;
     if (exr->stream.bytes > exr->limits.file_bytes)

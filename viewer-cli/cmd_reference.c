@@ -224,6 +224,7 @@ static enum status trace_reference(const struct arguments *a, const struct opene
     enum status status = STATUS_DONE;
     progress_begin(&progress);
     progress.lines = a->progress;
+    progress_phase(&progress, "reference");
     struct glint_reference *reference = glint_replay_load(replay, capture, err)
                                             ? glint_reference_create(replay, capture, pipeline, &options, err)
                                             : NULL;

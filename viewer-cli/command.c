@@ -61,14 +61,14 @@ static const struct argp numbers = {.options = digits, .parser = parse_number};
 enum { KEY_COLOR = 8192 };
 /* clang-format off */
 const struct argp_option command_common[] = {
-    {"color", KEY_COLOR, "WHEN", OPTION_ARG_OPTIONAL, "Colour: auto (default: on a terminal, unless NO_COLOR is set), always or never", -1},
+    {"color", KEY_COLOR, "WHEN", 0, "Colour: auto (default: on a terminal, unless NO_COLOR is set), always or never", -1},
     {0},
 };
 /* clang-format on */
 
 static error_t parse_common(int key, char *arg, struct argp_state *state) {
     if (key != KEY_COLOR) return ARGP_ERR_UNKNOWN;
-    console_choose_color(arg_choice("color", arg ? arg : "always", console_colors, state));
+    console_choose_color(arg_choice("color", arg, console_colors, state));
     return 0;
 }
 static const struct argp common = {.options = command_common, .parser = parse_common};

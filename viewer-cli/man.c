@@ -99,7 +99,7 @@ void print_completion(void) {
         printf("    %s) options='", commands[i]->name);
         for (const struct argp_option *o = commands[i]->options; !ends(o); o++)
             if (o->name) printf("--%s%s ", o->name, o->arg ? "=" : "");
-        for (const struct argp_option *o = command_common; !ends(o); o++) printf("--%s ", o->name);
+        for (const struct argp_option *o = command_common; !ends(o); o++) printf("--%s= ", o->name);
         printf("--help' ;;\n");
     }
     printf("    esac\n    COMPREPLY=()\n    if [ \"$COMP_CWORD\" = 1 ]; then\n"

@@ -1,6 +1,7 @@
 /* Wraps lines at the width of the terminal, and colours. */
 #include "io/console.h"
 
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/ioctl.h>
@@ -160,4 +161,13 @@ const char *mark_begin(FILE *out, enum mark mark) {
 
 const char *mark_end(FILE *out, enum mark mark) {
     return mark && has_color(out) ? "\033[0m" : "";
+}
+
+void mark_print(enum mark mark, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    fputs(mark_begin(stdout, mark), stdout);
+    vprintf(format, args);
+    fputs(mark_end(stdout, mark), stdout);
+    va_end(args);
 }

@@ -18,6 +18,11 @@ enum mark { MARK_NONE, MARK_TITLE, MARK_GOOD, MARK_WARN, MARK_FAIL };
 /* The escape sequences around a marked text, or "" without colour. */
 const char *mark_begin(FILE *out, enum mark mark);
 const char *mark_end(FILE *out, enum mark mark);
+/* Prints a marked text to stdout; line breaks belong outside of it. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 2, 3)))
+#endif
+void mark_print(enum mark mark, const char *format, ...);
 
 /* The values of --color, NULL-terminated, and the choice. The default, auto, is colour on terminals unless $NO_COLOR is set. */
 extern const char *const console_colors[];

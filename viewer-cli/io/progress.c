@@ -49,6 +49,7 @@ void progress_phase(struct progress *progress, const char *format, ...) {
     vsnprintf(progress->phase, sizeof progress->phase, format, args);
     va_end(args);
     progress->told = false;
+    progress->fresh = true;
     begin_step(progress, 0);
 }
 
@@ -116,7 +117,9 @@ bool progress_report(void *user, const char *what, double done) {
     clock_gettime(CLOCK_MONOTONIC, &now);
     if (!(done >= 0)) done = 0;
     if (done > 1) done = 1;
-    if (done < progress->done - 1e-6) begin_step(progress, done);
+    if (progress->fresh) progress->begun = done; /* the phases of several captures share one scale */
+    else if (done < progress->done - 1e-6) begin_step(progress, done);
+    progress->fresh = false;
     progress->done = done;
     describe(progress, what ? what : "", text);
     const double elapsed = seconds_between(&progress->start, &now), since = seconds_between(&progress->shown, &now),

@@ -11,6 +11,7 @@ struct progress {
     double begun, done;   /* progress at the beginning of the step, and now */
     char phase[40];       /* what the command does at present, or "" */
     bool terminal, drawn; /* whether stderr is a terminal, and a bar is on it */
+    bool fresh;           /* whether the phase has not reported yet */
     bool told;            /* whether the duration of the phase was printed */
     bool lines;           /* requested: a line every ten seconds if stderr is not a terminal, instead of every 30 */
 };
