@@ -194,7 +194,13 @@ static bool begin_tune(struct arguments *a, struct glint_error *err) {
     if (!tune->axis_count)
         return glint_fail(err, GLINT_ERROR_USAGE,
                           "none of the parameters that may be tuned changes the reflection of these captures");
-    if (!tune->tries) tune->tries = 150 + 3 * (uint32_t)tune->axis_count;
+    const uint32_t usual = 150 + 3 * (uint32_t)tune->axis_count;
+    if (!tune->tries) tune->tries = usual;
+    if (tune->tries < 3 * tune->axis_count)
+        command_note(&cmd_tune,
+                     "%u tries are few for %zu parameters, and may find little; without --tries it is %u, and --vary "
+                     "tunes fewer",
+                     tune->tries, tune->axis_count, usual);
     return tune_open(tune, err);
 }
 

@@ -108,11 +108,12 @@ static ssize_t write_wrapped(void *user, const char *text, size_t size) {
     return write_out(w) ? (ssize_t)size : -1;
 }
 
-static void wrap(struct wrapping *w, FILE **stream) {
+/* `mode` as of setvbuf: a bar on stderr shows at once. */
+static void wrap(struct wrapping *w, FILE **stream, int mode) {
     if (!isatty(w->file)) return;
     FILE *wrapped = fopencookie(w, "w", (cookie_io_functions_t){.write = write_wrapped});
     if (!wrapped) return;
-    setvbuf(wrapped, NULL, _IOLBF, BUFSIZ);
+    setvbuf(wrapped, NULL, mode, mode == _IOLBF ? BUFSIZ : 0);
     fflush(*stream);
     *stream = w->stream = wrapped;
 }
@@ -129,8 +130,8 @@ static void narrow_help(void) {
 
 void console_begin(void) {
     narrow_help();
-    wrap(&wrappings[0], &stdout);
-    wrap(&wrappings[1], &stderr);
+    wrap(&wrappings[0], &stdout, _IOLBF);
+    wrap(&wrappings[1], &stderr, _IONBF);
 }
 
 void console_plain(void) {
