@@ -78,9 +78,11 @@ size_t text_width(const char *text) {
 /* The part of `text` that fits into `width` columns, in bytes, broken at a space if there is one; *next: where the rest begins. */
 static size_t fitting(const char *text, size_t width, const char **next) {
     size_t columns = 0, space = 0, bytes = 0;
+    bool word = false;
     for (; text[bytes]; bytes++) {
         const bool begins = ((unsigned char)text[bytes] & 0xC0) != 0x80;
-        if (text[bytes] == ' ') space = bytes;
+        if (text[bytes] == ' ' && word) space = bytes; /* not an indent */
+        word |= text[bytes] != ' ';
         if (begins && columns == width) break;
         columns += begins;
     }
