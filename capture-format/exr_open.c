@@ -77,9 +77,8 @@ static bool open_file(struct glint_exr *exr, struct glint_error *err) {
         return glint_fail(err, GLINT_ERROR_IO, "%s: %s", exr->path, strerror(errno));
     if (info.kind != GLINT_FILE_REGULAR)
         return glint_fail(err, GLINT_ERROR_IO, "%s: expected an EXR file, found %s", exr->path,
-                          info.kind == GLINT_FILE_FOLDER
-                              ? "a folder (of a run? glint view, diff and report read runs)"
-                              : "another kind of file");
+                          info.kind == GLINT_FILE_FOLDER ? "a folder (of a run? glint view, diff and report read runs)"
+                                                         : "another kind of file");
     exr->stream.bytes = info.bytes;
     if (exr->stream.bytes > exr->limits.file_bytes)
         return glint_fail(err, GLINT_ERROR_LIMIT, "%s: file of %llu bytes, the limit is %llu", exr->path,
