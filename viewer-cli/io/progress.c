@@ -41,6 +41,7 @@ void progress_begin(struct progress *progress) {
 static void begin_step(struct progress *progress, double done) {
     clock_gettime(CLOCK_MONOTONIC, &progress->start);
     progress->begun = progress->done = done;
+    for (int k = 0; k < 2; k++) progress->halves[k] = (struct progress_mark){progress->start, done};
 }
 
 void progress_phase(struct progress *progress, const char *format, ...) {
@@ -53,11 +54,18 @@ void progress_phase(struct progress *progress, const char *format, ...) {
     begin_step(progress, 0);
 }
 
-/* Seconds that a step takes from here on, from its rate so far; negative until that is usable. */
-static double seconds_left(const struct progress *progress, double elapsed) {
+/* Seconds that a step takes from here on, negative until that is usable. The rate is that of about the second half of what is done:
+   the first runs of each pass take longer, because drivers compile then. */
+static double seconds_left(struct progress *progress, const struct timespec *now, double elapsed) {
     const double share = progress->done - progress->begun;
-    const bool usable = elapsed > 0.5 && (share > 0.02 || (elapsed > 10 && share > 0.0005));
-    return usable ? elapsed * (1 - progress->done) / share : -1;
+    struct progress_mark *half = progress->halves;
+    if (share > 0 && share >= 2 * (half[1].done - progress->begun)) {
+        half[0] = half[1];
+        half[1] = (struct progress_mark){*now, progress->done};
+    }
+    const double part = progress->done - half[0].done;
+    const bool usable = elapsed > 0.5 && part > 0 && (share > 0.02 || (elapsed > 10 && share > 0.0005));
+    return usable ? seconds_between(&half[0].time, now) * (1 - progress->done) / part : -1;
 }
 
 /* " 4:10 left", or "". */
@@ -99,7 +107,8 @@ static void print_line(const struct progress *progress, const char *text, double
 /* Says how long a step takes that takes long, as soon as its first part is timed. */
 static void tell_duration(struct progress *progress, double elapsed, double seconds) {
     const double all = elapsed + seconds;
-    if (progress->told || seconds < 0 || elapsed < 3) return;
+    const bool sure = progress->done - progress->begun > 0.03 ? elapsed > 3 : elapsed > 60;
+    if (progress->told || seconds < 0 || !sure) return;
     progress->told = true;
     if (all < PROGRESS_LONG_SECONDS) return;
     fprintf(stderr, "%s%s takes about ", progress->drawn ? "\r\033[K" : "",
@@ -107,7 +116,7 @@ static void tell_duration(struct progress *progress, double elapsed, double seco
     if (all < 90) fprintf(stderr, "%.0f s", all);
     else if (all < 5400) fprintf(stderr, "%.0f min", all / 60);
     else fprintf(stderr, "%.1f h", all / 3600);
-    fprintf(stderr, ", estimated from its first %.0f s; Ctrl-C stops it\n", elapsed);
+    fprintf(stderr, ", going by the first %.0f s; Ctrl-C stops it\n", elapsed);
 }
 
 bool progress_report(void *user, const char *what, double done) {
@@ -117,13 +126,15 @@ bool progress_report(void *user, const char *what, double done) {
     clock_gettime(CLOCK_MONOTONIC, &now);
     if (!(done >= 0)) done = 0;
     if (done > 1) done = 1;
-    if (progress->fresh) progress->begun = done; /* the phases of several captures share one scale */
+    if (progress->fresh)
+        progress->begun = progress->halves[0].done = progress->halves[1].done =
+            done; /* the phases of several captures share one scale */
     else if (done < progress->done - 1e-6) begin_step(progress, done);
     progress->fresh = false;
     progress->done = done;
     describe(progress, what ? what : "", text);
     const double elapsed = seconds_between(&progress->start, &now), since = seconds_between(&progress->shown, &now),
-                 left = seconds_left(progress, elapsed);
+                 left = seconds_left(progress, &now, elapsed);
     const bool first = progress->shown.tv_sec == 0 && progress->shown.tv_nsec == 0;
     tell_duration(progress, elapsed, left);
     /* Without a terminal, the first line comes at once where lines are asked for, else when it takes long. */

@@ -6,14 +6,19 @@
 #include <time.h>
 
 enum { PROGRESS_TEXT = 60, PROGRESS_LINES_SECONDS = 10, PROGRESS_LONG_SECONDS = 30 };
+struct progress_mark {
+    struct timespec time;
+    double done;
+};
 struct progress {
     struct timespec start, shown;
-    double begun, done;   /* progress at the beginning of the step, and now */
-    char phase[40];       /* what the command does at present, or "" */
-    bool terminal, drawn; /* whether stderr is a terminal, and a bar is on it */
-    bool fresh;           /* whether the phase has not reported yet */
-    bool told;            /* whether the duration of the phase was printed */
-    bool lines;           /* requested: a line every ten seconds if stderr is not a terminal, instead of every 30 */
+    double begun, done;             /* progress at the beginning of the step, and now */
+    struct progress_mark halves[2]; /* where the step was at a quarter to a half of what is done, and at half to all */
+    char phase[40];                 /* what the command does at present, or "" */
+    bool terminal, drawn;           /* whether stderr is a terminal, and a bar is on it */
+    bool fresh;                     /* whether the phase has not reported yet */
+    bool told;                      /* whether the duration of the phase was printed */
+    bool lines; /* requested: a line every ten seconds if stderr is not a terminal, instead of every 30 */
 };
 
 /* For commands that may take long; sets `lines`. */
