@@ -141,8 +141,10 @@ def run(line, prints, most):
 
 
 def tree_key(lines):
-    """A key of the tree and the machine: another tree begins again."""
-    parts = [subprocess.run(["git", *words], cwd=ROOT, check=True, capture_output=True).stdout for words in (("rev-parse", "HEAD"), ("diff", "HEAD"))]
+    """A key of the tree and the machine: another tree begins again. A tree without git is taken to stay as it is."""
+    parts = []
+    if os.path.exists(os.path.join(ROOT, ".git")):
+        parts = [subprocess.run(["git", *words], cwd=ROOT, check=True, capture_output=True).stdout for words in (("rev-parse", "HEAD"), ("diff", "HEAD"))]
     return hashlib.sha256(b"".join(parts) + json.dumps(lines).encode()).hexdigest()
 
 

@@ -21,7 +21,8 @@ static void print_moved(const struct tune *tune) {
         table_cell(table, "%s", tune->axes[a].name);
         table_cell(table, "%s", from);
         table_cell(table, "%s", to);
-        table_cell(table, "%s", tune->axes[a].row && !tune->axes[a].texts ? tune->axes[a].row->unit : "");
+        const char *unit = tune->axes[a].row && !tune->axes[a].texts ? tune->axes[a].row->unit : "";
+        table_cell(table, "%s", strcmp(unit, "1") ? unit : "");
     }
     if (table_is_empty(table)) printf("no parameter changed: no better point than the start was found\n");
     else table_print(table, stdout);
