@@ -1,6 +1,7 @@
 #!/bin/sh
 # The first commands of README.md on a machine that has nothing yet: a new minimal Debian 12 in a folder of its own, into which the
-# committed tree comes, and .ci/run, or what GLINT_FRESH_RUN names (`dev readme`: all of README.md's commands). Speaks TAP on stdout; what the commands say goes to stderr. ./dev fresh calls this.
+# committed tree comes, and .ci/run, or what GLINT_FRESH_RUN names (`dev readme`: all of README.md's commands). Speaks TAP on stdout; what
+# the commands say goes to stderr. ./dev fresh calls this.
 #
 # Needs root, debootstrap, git, and 10 GB in $TMPDIR (/var/tmp when unset). Mirrors, proxies and keys are those of this machine's apt.
 # GLINT_FRESH_KEEP=1 leaves the folder behind when something fails.
