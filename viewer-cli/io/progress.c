@@ -107,16 +107,15 @@ static void print_line(const struct progress *progress, const char *text, double
 /* Says how long a step takes that takes long, as soon as its first part is timed. */
 static void tell_duration(struct progress *progress, double elapsed, double seconds) {
     const double all = elapsed + seconds;
-    const bool sure = progress->done - progress->begun > 0.03 ? elapsed > 3 : elapsed > 60;
+    const bool sure = progress->done - progress->begun > 0.15 ? elapsed > 10 : elapsed > 60;
     if (progress->told || seconds < 0 || !sure) return;
     progress->told = true;
     if (all < PROGRESS_LONG_SECONDS) return;
-    fprintf(stderr, "%s%s takes about ", progress->drawn ? "\r\033[K" : "",
-            progress->phase[0] ? progress->phase : "this");
+    fprintf(stderr, "%s%s%sabout ", progress->drawn ? "\r\033[K" : "", progress->phase, progress->phase[0] ? ": " : "");
     if (all < 90) fprintf(stderr, "%.0f s", all);
     else if (all < 5400) fprintf(stderr, "%.0f min", all / 60);
     else fprintf(stderr, "%.1f h", all / 3600);
-    fprintf(stderr, ", going by the first %.0f s; Ctrl-C stops it\n", elapsed);
+    fprintf(stderr, " in all, going by the first %.0f s; Ctrl-C stops it\n", elapsed);
 }
 
 bool progress_report(void *user, const char *what, double done) {
