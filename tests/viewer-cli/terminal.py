@@ -123,7 +123,9 @@ class Tests:
         assert done.returncode == 1 and "VK_ICD_FILENAMES=/nowhere.json names none that works" in done.stderr and "-9" not in done.stderr, done.stderr
 
     def test_tune_groups_what_it_leaves_alone(self):
-        said = piped("tune s.exr -o t.json --budget-fetches 200% --tries 2 --repeat 0 --rays 1").stdout
+        done = piped("tune s.exr -o t.json --budget-fetches 200% --tries 2 --repeat 0 --rays 1")
+        said = done.stdout
+        assert "2 tries are few for " in done.stderr, done.stderr
         left = said[said.index("not tuned, because it"):].split("\n\n")[0].splitlines()[1:]
         reasons = [re.split(r"\s{2,}", line)[0] for line in left if not line.startswith("evaluations")]
         assert len(reasons) <= 10 and len(set(reasons)) == len(reasons), left
