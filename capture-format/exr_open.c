@@ -41,6 +41,35 @@ static void store_complaint(exr_const_context_t context, exr_result_t code, cons
     glint_mutex_unlock(&stream->lock);
 }
 
+/* Other files that are given in place of captures, by their first bytes, and what glint has for them. */
+static const struct {
+    const char *bytes, *what;
+} kinds[] = {
+    {"\x89PNG", "a PNG image; glint pack makes a capture of textures"},
+    {"\xFF\xD8\xFF", "a JPEG image; glint pack makes a capture of textures, which should be lossless"},
+    {"RDOC", "a RenderDoc capture; docs/engines/renderdoc.md makes a capture of one"},
+    {"#?", "a Radiance HDR image; glint pack makes a capture of textures"},
+    {"DDS ", "a DDS texture; glint pack makes a capture of textures"},
+    {"\xABKTX 20", "a KTX 2 texture; glint pack makes a capture of textures"},
+    {"\x93NUMPY", "a NumPy array; glint pack makes a capture of textures"},
+    {"glTF", "a glTF scene; glint sample renders a capture of one"},
+    {"PK\x03\x04", "a zip archive; glint pack makes a capture of the manifest in it, once it is unpacked"},
+    {"{",
+     "a JSON file; glint pack makes a capture of a manifest, --preset reads presets, and a run is named by its folder"},
+};
+
+/* What the file is instead of OpenEXR, or NULL. */
+static const char *other_kind(const struct glint_exr *exr) {
+    char first[16] = "";
+    size_t got = 0, blank = 0;
+    if (!glint_file_read(exr->stream.file, first, sizeof first - 1, 0, &got)) return NULL;
+    if (!got) return "an empty file";
+    while (first[blank] && strchr(" \t\r\n", first[blank])) blank++; /* before a JSON text */
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
+        if (!strncmp(first + blank, kinds[i].bytes, strlen(kinds[i].bytes))) return kinds[i].what;
+    return NULL;
+}
+
 static bool open_file(struct glint_exr *exr, struct glint_error *err) {
     struct glint_file_info info;
     exr->stream.file = glint_file_open(exr->path);
@@ -48,7 +77,8 @@ static bool open_file(struct glint_exr *exr, struct glint_error *err) {
         return glint_fail(err, GLINT_ERROR_IO, "%s: %s", exr->path, strerror(errno));
     if (info.kind != GLINT_FILE_REGULAR)
         return glint_fail(err, GLINT_ERROR_IO, "%s: expected an EXR file, found %s", exr->path,
-                          info.kind == GLINT_FILE_FOLDER ? "a folder" : "another kind of file");
+                          info.kind == GLINT_FILE_FOLDER ? "a folder (of a run? glint view, diff and report read runs)"
+                                                         : "another kind of file");
     exr->stream.bytes = info.bytes;
     if (exr->stream.bytes > exr->limits.file_bytes)
         return glint_fail(err, GLINT_ERROR_LIMIT, "%s: file of %llu bytes, the limit is %llu", exr->path,
@@ -72,6 +102,9 @@ static bool start_reading(struct glint_exr *exr, struct glint_error *err) {
         return glint_fail(err, GLINT_ERROR_LIMIT, "%s: headers of more than %llu bytes, which is the limit", exr->path,
                           (unsigned long long)allowance);
     if (rv == EXR_ERR_OUT_OF_MEMORY) return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", exr->path);
+    if (rv && other_kind(exr))
+        return glint_fail(err, GLINT_ERROR_FORMAT, "%s: expected an OpenEXR file, found %s", exr->path,
+                          other_kind(exr));
     if (rv)
         return glint_fail(err, GLINT_ERROR_FORMAT, "%s: expected an OpenEXR file, found: %s", exr->path,
                           exr->stream.complaint[0] ? exr->stream.complaint : exr_get_default_error_message(rv));

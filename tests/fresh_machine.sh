@@ -1,6 +1,7 @@
 #!/bin/sh
 # The first commands of README.md on a machine that has nothing yet: a new minimal Debian 12 in a folder of its own, into which the
-# committed tree comes, and .ci/run. Speaks TAP on stdout; what the commands say goes to stderr. ./dev fresh calls this.
+# committed tree comes, and .ci/run, or what GLINT_FRESH_RUN names (`dev readme`: all of README.md's commands). Speaks TAP on stdout; what
+# the commands say goes to stderr. ./dev fresh calls this.
 #
 # Needs root, debootstrap, git, and 10 GB in $TMPDIR (/var/tmp when unset). Mirrors, proxies and keys are those of this machine's apt.
 # GLINT_FRESH_KEEP=1 leaves the folder behind when something fails.
@@ -65,7 +66,7 @@ inside() {
     { env -i PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin HOME=/root TERM=dumb \
         ${http_proxy:+http_proxy="$http_proxy"} ${https_proxy:+https_proxy="$https_proxy"} ${no_proxy:+no_proxy="$no_proxy"} \
         ${GLINT_PATIENCE:+GLINT_PATIENCE="$GLINT_PATIENCE"} \
-        chroot "$root" /root/glint/.ci/run 2>&1 </dev/null && : >"$work/passed"; } | tee "$work/said" >&2
+        chroot "$root" /root/glint/${GLINT_FRESH_RUN:-.ci/run} 2>&1 </dev/null && : >"$work/passed"; } | tee "$work/said" >&2
     last=$(tail -n 1 "$work/said")
     if [ -e "$work/passed" ]; then
         printf 'ok 2 - the first commands of README.md\n# %s\n' "$last"
@@ -114,6 +115,7 @@ outside() {
 
 if [ "$(id -u)" != 0 ]; then
     command -v sudo >/dev/null || bail "needs root, and there is no sudo"
-    exec sudo env ${TMPDIR:+TMPDIR="$TMPDIR"} ${GLINT_FRESH_KEEP:+GLINT_FRESH_KEEP=1} ${GLINT_PATIENCE:+GLINT_PATIENCE="$GLINT_PATIENCE"} "$0"
+    exec sudo env ${TMPDIR:+TMPDIR="$TMPDIR"} ${GLINT_FRESH_KEEP:+GLINT_FRESH_KEEP=1} ${GLINT_PATIENCE:+GLINT_PATIENCE="$GLINT_PATIENCE"} \
+        ${GLINT_FRESH_RUN:+GLINT_FRESH_RUN="$GLINT_FRESH_RUN"} "$0"
 fi
 if [ "${1-}" = inside ]; then inside "$2"; else outside; fi

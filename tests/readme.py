@@ -3,11 +3,15 @@
 Command blocks are indented by four spaces; what follows a # is a remark. `./dev` runs in the clone, all else in FOLDER, with the
 program that `./dev install` has put there; lines under a command that begins with $ are what it prints. GLINT only makes the
 files that a reader has before. After an interruption or a failure the next call continues, unless the tree has changed.
+
+Prints each command's seconds beside those of the README, which are for two cores without a GPU: "(3 min)" in the remark, else a minute.
+The seconds of the processors count where there are fewer of them: what else runs on a machine only lengthens the others.
 `./dev readme` calls this."""
 import hashlib
 import json
 import os
 import re
+import resource
 import shutil
 import signal
 import struct
@@ -20,18 +24,22 @@ FOLDER = os.path.join(ROOT, "build-release/readme")
 LEFT = {"./dev test": "the suite runs by itself"}
 # Exit statuses that report a finding, where the README states that there is one.
 TELLING = {"diff": (0, 2), "lint": (0, 1)}
+USUAL = 60  # seconds
 
 
 def commands(text):
-    """Each command, and its output according to the README."""
+    """Each command, its output according to the README, and the seconds that it may take; None: the README does not say."""
     found = []
     for line in text.splitlines():
         if not line.startswith("    "):
             continue
         line = line[4:]
-        bare = line.removeprefix("$ ").split("  #")[0].split(" # ")[0].strip()
+        bare, _, remark = re.sub(r" +# ", "  # ", line.removeprefix("$ ")).partition("  #")
+        bare = bare.strip()
         if re.match(r"(glint|\./dev|cp) ", bare):
-            found.append((bare, [] if line.startswith("$ ") else None))
+            says = re.search(r"\((\d+) min\)", remark)
+            most = 60 * int(says[1]) if says else None if bare.startswith("./dev") else USUAL
+            found.append((bare, [] if line.startswith("$ ") else None, most))
         elif found and found[-1][1] is not None:
             found[-1][1].append(line.rstrip())
     return found
@@ -104,9 +112,14 @@ def prepare(glint):
         file.write(data.replace(b"glint.normalSpace\0", b"glint.normalSpacE\0"))
 
 
-def run(line, prints):
-    """Whether the result is as expected: comparisons may report differences, and a watch ends with Ctrl-C."""
-    start = time.monotonic()
+def processor_seconds():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
+def run(line, prints, most):
+    """The seconds, if the result is as expected: comparisons may report differences, and a watch ends with Ctrl-C. Else None."""
+    start, used = time.monotonic(), processor_seconds()
     words = line.split()
     prefix = os.path.join(FOLDER, "installed")
     process = subprocess.Popen(["bash", "-c", "exec " + line], cwd=ROOT if words[0] == "./dev" else FOLDER, text=True, stdout=subprocess.PIPE,
@@ -119,14 +132,19 @@ def run(line, prints):
     said = "".join(said)
     missing = [text for text in prints or [] if text not in said]
     ok = process.wait() in TELLING.get(words[1], (0,)) and not missing
+    seconds, used = time.monotonic() - start, processor_seconds() - used
+    late = ok and most is not None and min(seconds, used) > most
     why = "" if ok else f"\nexit {process.returncode}\n{said[-1500:]}" + "".join(f"\nnot printed: {text}" for text in missing)
-    print(f"{'ok    ' if ok else 'FAILED'} {time.monotonic() - start:7.1f} s  {line}{why}", flush=True)
-    return ok
+    print(f"{'LONGER' if late else 'ok    ' if ok else 'FAILED'} {seconds:7.1f} s, {used:7.1f} s of the processors; README: "
+          f"{most if most is not None else '–':>3} s  {line}{why}", flush=True)
+    return seconds if ok and not late else None
 
 
 def tree_key(lines):
-    """A key of the tree and the machine: another tree begins again."""
-    parts = [subprocess.run(["git", *words], cwd=ROOT, check=True, capture_output=True).stdout for words in (("rev-parse", "HEAD"), ("diff", "HEAD"))]
+    """A key of the tree and the machine: another tree begins again. A tree without git is taken to stay as it is."""
+    parts = []
+    if os.path.exists(os.path.join(ROOT, ".git")):
+        parts = [subprocess.run(["git", *words], cwd=ROOT, check=True, capture_output=True).stdout for words in (("rev-parse", "HEAD"), ("diff", "HEAD"))]
     return hashlib.sha256(b"".join(parts) + json.dumps(lines).encode()).hexdigest()
 
 
@@ -135,7 +153,7 @@ class Record:
 
     def __init__(self, key, make):
         self.path = os.path.join(FOLDER, "done.json")
-        self.state = {"key": key, "done": []}
+        self.state = {"key": key, "done": {}}  # seconds by the number of the command
         try:
             with open(self.path, encoding="utf-8") as file:
                 kept = json.load(file)
@@ -154,8 +172,8 @@ class Record:
             json.dump(self.state, file)
         os.rename(self.path + ".new", self.path)
 
-    def add(self, i):
-        self.state["done"].append(i)
+    def add(self, i, seconds):
+        self.state["done"][str(i)] = seconds
         self.write()
 
 
@@ -165,16 +183,17 @@ def main():
         lines = commands(file.read())
     record = Record(tree_key(lines), lambda: prepare(glint))
     failed = 0
-    for i, (line, prints) in enumerate(lines):
+    for i, (line, prints, most) in enumerate(lines):
         if line in LEFT:
             print(f"left             {line}: {LEFT[line]}")
-        elif i in record.state["done"]:
-            print(f"done before      {line}")
-        elif run(line, prints):
-            record.add(i)
+        elif str(i) in record.state["done"]:
+            print(f"before {record.state['done'][str(i)]:7.1f} s  {line}")
+        elif (seconds := run(line, prints, most)) is not None:
+            record.add(i, seconds)
         else:
             failed += 1
-    print(f"{failed} of {len(lines)} commands of README.md failed" if failed else f"{len(lines)} commands of README.md did what they are printed for")
+    print(f"{failed} of {len(lines)} commands of README.md failed, or took longer than it says" if failed else
+          f"{len(lines)} commands of README.md did what they are printed for, in the time that it says")
     if not failed:
         os.remove(record.path)
     return failed > 0

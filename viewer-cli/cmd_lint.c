@@ -126,13 +126,17 @@ static void print_findings(const char *path, const struct lint_findings *finding
     print_depth(capture);
     for (size_t i = 0; i < findings->count; i++) {
         const struct lint_finding *f = &findings->items[i];
-        printf("\n%s%s", f->either[0] ? "either " : "", f->what);
-        if (f->either[0]) printf(", or %s", f->either);
+        putchar('\n');
+        mark_print(strcmp(f->likelihood, "certain") ? MARK_WARN : MARK_FAIL, "%s%s%s%s", f->either[0] ? "either " : "",
+                   f->what, f->either[0] ? ", or " : "", f->either);
         printf("  [%s, %s]\n    %s\n    fix: %s\n", f->id, f->likelihood, f->evidence, f->remedy);
     }
     printf("\nCannot be decided from the data:\n");
     for (size_t i = 0; i < findings->undecided_count; i++) printf("  - %s\n", findings->undecided[i]);
-    printf("\n%s: %zu finding%s\n", path, findings->count, findings->count == 1 ? "" : "s");
+    putchar('\n');
+    mark_print(findings->count ? MARK_FAIL : MARK_GOOD, "%s: %zu finding%s", path, findings->count,
+               findings->count == 1 ? "" : "s");
+    putchar('\n');
 }
 
 static bool write_fixed_copy(const struct arguments *a, const char *path, struct lint_findings *findings,

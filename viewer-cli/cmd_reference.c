@@ -109,7 +109,8 @@ static void print_noise(const struct glint_reference_state *state, const struct 
     table_destroy(&table);
     puts("noise: standard error of the mean, from the difference between two halves of the rays; relative: divided by "
          "the mean");
-    if (missing->known) puts("missing information: RMSE against the truth in the capture, without the noise of both");
+    if (missing->known)
+        puts("missing information: RMSE against the truth in the capture, less what the noise of both adds");
     if (missing->known && missing->fog)
         puts("the truth has no fog, but this reference has; use --set pipeline.fog=false to compare them");
 }
@@ -137,8 +138,8 @@ static void print_sensitivity(const struct glint_reference_sensitivity *s) {
     table_destroy(&table);
     if (s->count == 0) puts("the passes declare no assumptions");
     else
-        puts("RMSE: between the references with both values, traced with the same random numbers, without the noise of "
-             "their difference");
+        puts("RMSE: between the references with both values, traced with the same random numbers, less what the "
+             "noise of their difference adds");
 }
 
 static json_t *missing_json(const struct missing *missing) {
@@ -226,6 +227,7 @@ static enum status trace_reference(const struct arguments *a, const struct opene
     enum status status = STATUS_DONE;
     progress_begin(&progress);
     progress.lines = a->progress;
+    progress_phase(&progress, "reference");
     struct glint_reference *reference = glint_replay_load(replay, capture, err)
                                             ? glint_reference_create(replay, capture, pipeline, &options, err)
                                             : NULL;

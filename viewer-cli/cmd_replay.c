@@ -171,8 +171,10 @@ static void print_bad_values(const struct glint_bad_values *bad, size_t count) {
     for (size_t i = 0; i < count; i++) not_finite += bad[i].not_finite, clamped += bad[i].clamped;
     if (!count) return;
     while (made < count && !bad[made].pass) made++;
-    printf("\n%llu values are NaN or infinite, %llu were clamped to the range of half; images: %zu\n",
-           (unsigned long long)not_finite, (unsigned long long)clamped, count);
+    putchar('\n');
+    mark_print(MARK_WARN, "%llu values are NaN or infinite, %llu were clamped to the range of half; images: %zu",
+               (unsigned long long)not_finite, (unsigned long long)clamped, count);
+    putchar('\n');
     for (size_t i = 0; i < count; i++) {
         if (i != 0 && i != made) continue;
         if (bad[i].pass) printf("first written by the pass %s: ", bad[i].pass->slot);
@@ -302,6 +304,7 @@ static bool replay_one(struct job *job, const char *path, const char *folder, co
     }
     note_gap(job, capture, history);
     progress_begin(&progress);
+    progress_phase(&progress, "replay");
     job->against->progress = progress_report;
     job->against->user = &progress;
     job->against->all = options.all;

@@ -306,6 +306,7 @@ static enum status cmd_sample_run(int argc, char **argv) {
     struct progress progress;
     struct pipe pipe;
     progress_begin(&progress);
+    progress_phase(&progress, "capture");
     const char *out = pipe_output(&pipe, a.out, &err);
     bool ok = out && glint_sample_write(a.scene, out, &a.sample, progress_report, &progress, &err) &&
               pipe_output_flush(&pipe, &err);

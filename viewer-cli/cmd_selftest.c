@@ -74,7 +74,9 @@ static void result_row(struct table *table, const struct glint_selftest_case *c,
     table_cell(table, "%s", number_text(finding->worst));
     table_cell(table, "%s", number_text(c->bound));
     table_cell(table, "%s", unit_of(c));
-    table_cell(table, "%s", glint_selftest_passes(c, finding) ? "pass" : "FAIL");
+    const bool passes = glint_selftest_passes(c, finding);
+    table_cell(table, "%s", passes ? "pass" : "FAIL");
+    table_mark(table, passes ? MARK_GOOD : MARK_FAIL);
     table_cell(table, finding->ties ? "%zu" : "%.0zu", finding->ties);
     table_cell(table, "%s", finding->values == 0 ? "no value was compared" : finding->worst > 0 ? finding->at : "");
 }
@@ -221,6 +223,7 @@ static bool run_cases(struct glint_selftest *selftest, const struct arguments *a
     const struct glint_selftest_options run_options = {a->device, a->passes, a->quick};
     struct progress progress = {0};
     progress_begin(&progress);
+    progress_phase(&progress, "cases");
     const bool ok = glint_selftest_run(selftest, &run_options, progress_report, &progress, err);
     progress_end(&progress);
     return ok;

@@ -113,6 +113,7 @@ static enum status measure_stability(struct arguments *a, struct opened *opened,
     a->options.all = a->pipeline.replay.all;
     a->options.skip = list_or_null(&a->pipeline.skip);
     progress_begin(&progress);
+    progress_phase(&progress, "replays");
     const bool ok = glint_stability_measure(opened->replay, opened->capture, opened->pipeline, &a->options,
                                             progress_report, &progress, &stability, err);
     progress_end(&progress);

@@ -187,13 +187,21 @@ static bool begin_tune(struct arguments *a, struct glint_error *err) {
     a->pipeline.without_fog = fogged != NULL;
     if (!choose_metric(a, err) || !(tune->base = pipeline_args_create(&a->pipeline, err))) return false;
     pipeline_note_fog(&cmd_tune, tune->base, fogged);
-    if (!(tune->device = pipeline_args_device(&a->pipeline, err)) || !glint_make_folder(tune->folder, err) ||
-        !tune_load(tune, err) || !tune_make_axes(tune, err))
+    /* What --vary names is checked before the reference is traced; without it, the axes depend on what ran. */
+    const bool named = tune->vary.count > 0;
+    if ((named && !tune_make_axes(tune, err)) || !(tune->device = pipeline_args_device(&a->pipeline, err)) ||
+        !glint_make_folder(tune->folder, err) || !tune_load(tune, err) || (!named && !tune_make_axes(tune, err)))
         return false;
     if (!tune->axis_count)
         return glint_fail(err, GLINT_ERROR_USAGE,
                           "none of the parameters that may be tuned changes the reflection of these captures");
-    if (!tune->tries) tune->tries = 150 + 3 * (uint32_t)tune->axis_count;
+    const uint32_t usual = 150 + 3 * (uint32_t)tune->axis_count;
+    if (!tune->tries) tune->tries = usual;
+    if (tune->tries < 3 * tune->axis_count)
+        command_note(&cmd_tune,
+                     "%u tries are few for %zu parameters, and may find little; without --tries it is %u, and --vary "
+                     "tunes fewer",
+                     tune->tries, tune->axis_count, usual);
     return tune_open(tune, err);
 }
 

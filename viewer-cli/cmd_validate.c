@@ -2,6 +2,7 @@
 #include <stdlib.h>
 
 #include "command.h"
+#include "io/console.h"
 #include "options/args.h"
 #include "capture/camera_facts.h"
 #include "glint/capture.h"
@@ -70,8 +71,11 @@ static enum status validate(const char *path, json_t *files) {
         return command_fail(&cmd_validate, &err);
     }
     if (files) json_array_append_new(files, record);
-    else if (violations) printf("%s: %zu violation%s\n", path, violations, violations == 1 ? "" : "s");
-    else printf("%s: valid\n", path);
+    else {
+        if (violations) mark_print(MARK_FAIL, "%s: %zu violation%s", path, violations, violations == 1 ? "" : "s");
+        else mark_print(MARK_GOOD, "%s: valid", path);
+        putchar('\n');
+    }
     return violations ? STATUS_CHECK : STATUS_DONE;
 }
 

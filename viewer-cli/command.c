@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "io/table.h"
+#include "nearest.h"
 #include "options/args.h"
 
 struct parsing {
@@ -20,7 +21,7 @@ static error_t command_parse_key(int key, char *arg, struct argp_state *state) {
     const struct arg_table table = {parsing->command->targets, parsing->command->options, parsing->command->operand};
     switch (key) {
     case ARGP_KEY_INIT:
-        if (parsing->command->numbers) state->child_inputs[0] = state->input;
+        state->child_inputs[0] = state->child_inputs[parsing->command->numbers] = state->input;
         return 0;
     case ARGP_KEY_FINI:
         return 0;
@@ -55,6 +56,22 @@ static const struct argp_option digits[] = {
 };
 /* clang-format on */
 static const struct argp numbers = {.options = digits, .parser = parse_number};
+
+/* Options of every command. */
+enum { KEY_COLOR = 8192 };
+/* clang-format off */
+const struct argp_option command_common[] = {
+    {"color", KEY_COLOR, "WHEN", 0, "Colour: auto (default: on a terminal, unless NO_COLOR is set), always or never", -1},
+    {0},
+};
+/* clang-format on */
+
+static error_t parse_common(int key, char *arg, struct argp_state *state) {
+    if (key != KEY_COLOR) return ARGP_ERR_UNKNOWN;
+    console_choose_color(arg_choice("color", arg, console_colors, state));
+    return 0;
+}
+static const struct argp common = {.options = command_common, .parser = parse_common};
 
 char *command_option_help(const struct command *command, const struct argp_option *option) {
     const char *doc = option->doc ? option->doc : "";
@@ -93,9 +110,56 @@ static char *filter(int key, const char *text, void *input) {
     return option && text ? command_option_help(command, option) : (char *)text;
 }
 
+/* ---- Unknown options ---- */
+
+static const char *const from_argp[] = {"help", "usage", NULL};
+
+/* Offers the long options; whether one is `name`, which may be abbreviated. */
+static bool offer_options(const struct argp_option *options, const char *name, struct glint_nearest *near,
+                          bool *argument) {
+    bool known = false;
+    for (const struct argp_option *o = options; o->name || o->key || o->doc; o++) {
+        if (!o->name) continue;
+        glint_nearest_offer(near, o->name);
+        known |= !strncmp(o->name, name, strlen(name));
+        *argument |= !strcmp(o->name, name) && o->arg && !(o->flags & OPTION_ARG_OPTIONAL);
+    }
+    return known;
+}
+
+/* argp's message on an unknown long option, with the option that is meant. Whatever is in doubt is left to argp. */
+static void check_long_options(const struct command *command, int argc, char **argv) {
+    for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; i++) {
+        const bool one = command->one_dash && argv[i][0] == '-' && argv[i][1] != '-' &&
+                         isalpha((unsigned char)argv[i][1]) && argv[i][2];
+        char name[64];
+        bool known = false, argument = false;
+        if (!one && strncmp(argv[i], "--", 2) != 0) continue;
+        const char *text = argv[i] + (one ? 1 : 2);
+        snprintf(name, sizeof name, "%.*s", (int)strcspn(text, "="), text);
+        struct glint_nearest near = glint_nearest_to(name);
+        known = offer_options(command->options, name, &near, &argument);
+        known |= offer_options(command_common, name, &near, &argument);
+        for (size_t k = 0; from_argp[k]; k++) {
+            glint_nearest_offer(&near, from_argp[k]);
+            known |= !strncmp(from_argp[k], name, strlen(name));
+        }
+        if (known) {
+            i += argument && !strchr(argv[i], '='); /* what follows is its value */
+            continue;
+        }
+        if (one) continue; /* short options may be joined */
+        fprintf(stderr, "%sglint %s:%s unrecognized option '--%s'", mark_begin(stderr, MARK_FAIL), command->name,
+                mark_end(stderr, MARK_FAIL), name);
+        if (near.best) fprintf(stderr, " (did you mean --%s?)", near.best);
+        fprintf(stderr, "\nTry `glint %s --help' for more information.\n", command->name);
+        exit(argp_err_exit_status);
+    }
+}
+
 void command_parse(const struct command *command, int argc, char **argv, void *input) {
     struct parsing parsing = {command, input};
-    const struct argp_child children[] = {{&numbers, 0, NULL, 0}, {0}};
+    const struct argp_child children[] = {{&common, 0, NULL, 0}, {command->numbers ? &numbers : NULL, 0, NULL, 0}, {0}};
     char name[64], doc[512];
     snprintf(name, sizeof name, "glint %s", command->name);
     snprintf(doc, sizeof doc, "%s.\v-", command->summary); /* what follows \v is replaced by the filter */
@@ -104,12 +168,13 @@ void command_parse(const struct command *command, int argc, char **argv, void *i
                         .parser = command_parse_key,
                         .args_doc = command->arguments,
                         .doc = doc,
-                        .children = command->numbers ? children : NULL,
+                        .children = children,
                         .help_filter = filter};
     const unsigned flags = (command->one_dash ? ARGP_LONG_ONLY : 0) | (command->numbers ? ARGP_IN_ORDER : 0);
     char *first = argv[0];
     argv[0] = name;
     if (command->usage_status) argp_err_exit_status = command->usage_status;
+    check_long_options(command, argc, argv);
     error_t failed = argp_parse(&argp, argc, argv, flags, NULL, &parsing);
     argv[0] = first;
     if (failed) {
@@ -118,8 +183,24 @@ void command_parse(const struct command *command, int argc, char **argv, void *i
     }
 }
 
+/* "glint COMMAND: message" on stderr, the name in colour. */
+__attribute__((format(printf, 3, 0))) static void say(const struct command *command, enum mark mark, const char *format,
+                                                      va_list args) {
+    char text[2048];
+    vsnprintf(text, sizeof text, format, args);
+    text_clean(text);
+    fprintf(stderr, "%sglint %s:%s %s\n", mark_begin(stderr, mark), command->name, mark_end(stderr, mark), text);
+}
+
+static void fail(const struct command *command, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    say(command, MARK_FAIL, format, args);
+    va_end(args);
+}
+
 enum status command_fail(const struct command *command, const struct glint_error *err) {
-    command_note(command, "%s", err->message[0] ? err->message : "failed without a message");
+    fail(command, "%s", err->message[0] ? err->message : "failed without a message");
     switch (err->code) {
     case GLINT_ERROR_USAGE:
         return STATUS_USAGE;
@@ -131,11 +212,8 @@ enum status command_fail(const struct command *command, const struct glint_error
 }
 
 void command_note(const struct command *command, const char *format, ...) {
-    char text[2048];
     va_list args;
     va_start(args, format);
-    vsnprintf(text, sizeof text, format, args);
+    say(command, MARK_WARN, format, args);
     va_end(args);
-    text_clean(text);
-    fprintf(stderr, "glint %s: %s\n", command->name, text);
 }

@@ -69,6 +69,8 @@ const struct command *command_find(const char *name);
    A usage error prints a message and exits with 2, --help exits with 0. */
 void command_parse(const struct command *command, int argc, char **argv, void *input);
 
+/* The options that every command has besides its own. */
+extern const struct argp_option command_common[];
 /* The option of this key, or NULL. */
 const struct argp_option *command_option(const struct command *command, int key);
 /* An option's help with its run-time values, malloc'd. */

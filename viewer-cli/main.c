@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "io/table.h"
 #include "nearest.h"
 
 static void print_help(FILE *out) {
@@ -13,7 +14,13 @@ static void print_help(FILE *out) {
         "Usage: glint COMMAND [OPTION...] [ARGUMENT...]\n"
         "Replays the reflection passes of captured frames offline, and shows every intermediate image.\n\nCommands:\n",
         out);
-    for (size_t i = 0; i < command_count; i++) fprintf(out, "  %-10s %s\n", commands[i]->name, commands[i]->summary);
+    struct table *table = table_create((const char *const[]){"<", "<", NULL});
+    for (size_t i = 0; i < command_count; i++) {
+        table_cell(table, "  %s", commands[i]->name);
+        table_cell(table, "%s", commands[i]->summary);
+    }
+    table_print(table, out);
+    table_destroy(&table);
     fputs("\nglint COMMAND --help explains a command, with examples. glint --version prints the version.\n"
           "Start with:\n"
           "  glint sample street -o street.exr\n"
@@ -67,6 +74,7 @@ static enum status dispatch(int argc, char **argv) {
 
 int main(int argc, char **argv) {
     setlocale(LC_CTYPE, "");
+    console_begin();
     argp_err_exit_status = STATUS_USAGE;
     enum status status = dispatch(argc, argv);
     errno = 0;

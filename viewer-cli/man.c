@@ -54,6 +54,7 @@ static void print_command(const struct command *command) {
     printf(".Bl -tag -width Ds\n");
     for (const struct argp_option *o = command->options; !ends(o); o++)
         if (o->name) print_option(command, o);
+    for (const struct argp_option *o = command_common; !ends(o); o++) print_option(command, o);
     printf(".El\n.Pp\n");
     for (const struct example *e = command->examples; e->line; e++) {
         print_text(e->what);
@@ -83,6 +84,7 @@ void print_man_page(void) {
            "that is being edited.\nFiles that it does not contain, and the declarations, stay built in.\n"
            ".It Ev GLINT_PRESETS\nA folder with presets, searched before the installed one.\n"
            ".It Ev GLINT_VALIDATION\n1 enables the Khronos validation layer.\n"
+           ".It Ev NO_COLOR\nIf set, no colour unless\n.Fl \\-color\nasks for it.\n"
            ".It Ev OCIO\nThe OpenColorIO configuration for\n.Nm glint view .\n.El\n"
            ".Sh EXIT STATUS\n.Bl -tag -width 130\n"
            ".It 0\nDone.\n.It 1\nA check failed, or the input is bad.\n.It 2\nWrong usage. Of\n.Nm glint selftest "
@@ -98,6 +100,7 @@ void print_completion(void) {
         printf("    %s) options='", commands[i]->name);
         for (const struct argp_option *o = commands[i]->options; !ends(o); o++)
             if (o->name) printf("--%s%s ", o->name, o->arg ? "=" : "");
+        for (const struct argp_option *o = command_common; !ends(o); o++) printf("--%s= ", o->name);
         printf("--help' ;;\n");
     }
     printf("    esac\n    COMPREPLY=()\n    if [ \"$COMP_CWORD\" = 1 ]; then\n"

@@ -20,9 +20,7 @@ static size_t choose_device(const struct glint_device_info *infos, size_t count,
         size_t used = strlen(why);
         snprintf(why + used, sizeof why - used, "; device %zu, %.120s, %.120s", i, infos[i].name, infos[i].reason);
     }
-    if (count == 0)
-        glint_fail(err, GLINT_ERROR_UNSUPPORTED,
-                   "no Vulkan device found (Debian: mesa-vulkan-drivers, which needs no GPU)");
+    if (count == 0) vk_fail_no_driver(err);
     else if (why[0]) glint_fail(err, GLINT_ERROR_UNSUPPORTED, "no usable Vulkan device%s", why);
     else
         glint_fail(err, GLINT_ERROR_USAGE, "no device matches '%s' among %zu; `glint devices` lists them", select,

@@ -54,6 +54,7 @@ bool instance_devices(VkInstance instance, VkPhysicalDevice **physical, struct g
 uint32_t device_family(VkPhysicalDevice physical, uint32_t *timestamp_bits);
 
 /* Fails with a message that names the operation and the result. */
+bool vk_fail_no_driver(struct glint_error *err);
 bool vk_fail(struct glint_error *err, const char *what, VkResult result);
 bool vk_ok(VkResult result, const char *what,
            struct glint_error *err); /* fails alike unless the result is VK_SUCCESS */

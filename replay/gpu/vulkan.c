@@ -1,7 +1,26 @@
 /* Messages for Vulkan results, and Vulkan's formats. */
 #include "gpu.h"
 
+#include <stdlib.h>
+
+/* The drivers are those that the loader finds, or those that a variable of the environment names. */
+bool vk_fail_no_driver(struct glint_error *err) {
+    static const char *const variables[] = {"VK_DRIVER_FILES", "VK_ICD_FILENAMES"};
+    for (size_t i = 0; i < sizeof variables / sizeof *variables; i++) {
+        const char *set = getenv(variables[i]);
+        if (set && *set)
+            return glint_fail(err, GLINT_ERROR_DEVICE,
+                              "no Vulkan driver found: %s=%s names none that works; unset it, or let it name the .json "
+                              "file of a driver",
+                              variables[i], set);
+    }
+    return glint_fail(err, GLINT_ERROR_DEVICE,
+                      "no Vulkan driver found: install one (Debian: apt install mesa-vulkan-drivers, which needs no "
+                      "GPU), or set VK_DRIVER_FILES to the .json file of an installed one");
+}
+
 bool vk_fail(struct glint_error *err, const char *what, VkResult result) {
+    if (result == VK_ERROR_INCOMPATIBLE_DRIVER) return vk_fail_no_driver(err);
     static const struct {
         VkResult result;
         const char *word;
@@ -10,7 +29,6 @@ bool vk_fail(struct glint_error *err, const char *what, VkResult result) {
         {VK_ERROR_OUT_OF_DEVICE_MEMORY, "out of device memory"},
         {VK_ERROR_DEVICE_LOST, "the device was lost"},
         {VK_ERROR_INITIALIZATION_FAILED, "initialisation failed"},
-        {VK_ERROR_INCOMPATIBLE_DRIVER, "no Vulkan driver (Debian: mesa-vulkan-drivers, which needs no GPU)"},
         {VK_ERROR_LAYER_NOT_PRESENT, "layer not installed"},
         {VK_ERROR_FEATURE_NOT_PRESENT, "feature not present"},
         {VK_ERROR_EXTENSION_NOT_PRESENT, "extension not present"},

@@ -99,12 +99,19 @@ static bool set_everywhere(struct glint_pipeline *pipeline, const char *paramete
     size_t count;
     const struct glint_pass *all = glint_passes(&count);
     bool known = false;
+    struct glint_nearest near = glint_nearest_to(parameter);
     if (!strcmp(parameter, "rays") || !strcmp(parameter, "first_ray")) return set_rays(pipeline, parameter, text, err);
-    for (size_t i = 0; i < count && !known; i++) known = glint_pass_parameter(&all[i], parameter) != NULL;
+    glint_nearest_offer(&near, "rays");
+    glint_nearest_offer(&near, "first_ray");
+    for (size_t i = 0; i < count && !known; i++) {
+        known = glint_pass_parameter(&all[i], parameter) != NULL;
+        for (size_t r = 0; r < all[i].row_count; r++)
+            if (glint_row_is_parameter(&all[i].rows[r])) glint_nearest_offer(&near, all[i].rows[r].name);
+    }
     if (!known)
         return glint_fail(err, GLINT_ERROR_USAGE,
-                          "pipeline has no parameter '%s'; known: rays, first_ray, and those that any pass has",
-                          parameter);
+                          "pipeline has no parameter '%s'%s; known: rays, first_ray, and those that any pass has",
+                          parameter, glint_nearest_text(&near));
     for (size_t i = 0; i < pipeline->count; i++) {
         const struct glint_pass *pass = pipeline->passes[i].pass;
         const struct glint_row *row = glint_pass_parameter(pass, parameter);

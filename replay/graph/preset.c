@@ -27,7 +27,7 @@ static char *preset_text(const char *preset, char where[PATH_SIZE], struct glint
     enum { LIMIT = 1 << 20 };
     const size_t length = strlen(preset);
     const char *folder = getenv("GLINT_PRESETS");
-    char known[512] = "";
+    struct glint_nearest near = glint_nearest_to(preset);
     const bool is_path = strchr(preset, '/') || (length > 5 && strcmp(preset + length - 5, ".json") == 0);
     if (!is_path && folder && folder[0] && snprintf(where, PATH_SIZE, "%s/%s.json", folder, preset) < PATH_SIZE &&
         access(where, F_OK) == 0)
@@ -40,10 +40,10 @@ static char *preset_text(const char *preset, char where[PATH_SIZE], struct glint
             if (!text) glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
             return text;
         }
-        text_list(known, sizeof known, builtin_presets[i].name);
+        glint_nearest_offer(&near, builtin_presets[i].name);
     }
-    glint_fail(err, GLINT_ERROR_USAGE, "unknown preset '%s'; built in: %s; others by path or in $GLINT_PRESETS", preset,
-               known);
+    glint_fail(err, GLINT_ERROR_USAGE, "unknown preset '%s'%s; built in: %s; others by path or in $GLINT_PRESETS",
+               preset, glint_nearest_text(&near), near.known);
     return NULL;
 }
 

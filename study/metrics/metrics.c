@@ -1,8 +1,11 @@
 /* The metrics by name, and errors by class of surface. */
 #include "glint/metrics.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "nearest.h"
 
 static const struct glint_metric_info metrics[GLINT_METRIC_COUNT] = {
     [GLINT_METRIC_MEAN] = {"mean_error", "mean error", "mean of found - truth", false},
@@ -11,8 +14,8 @@ static const struct glint_metric_info metrics[GLINT_METRIC_COUNT] = {
                                    "mean of the squared difference over truth² + epsilon", false},
     [GLINT_METRIC_SYMMETRIC] = {"symmetric", "symmetric", "mean of |difference| over the sum of both and 0.05", false},
     [GLINT_METRIC_PSNR] = {"psnr", "PSNR dB", "peak over RMSE, in dB", true},
-    [GLINT_METRIC_CLEAN_RMSE] = {"clean_rmse", "RMSE w/o noise", "RMSE without the truth's noise", false},
-    [GLINT_METRIC_CLEAN_RELATIVE_MSE] = {"clean_relative_mse", "relative MSE w/o noise",
+    [GLINT_METRIC_CLEAN_RMSE] = {"clean_rmse", "noise-free RMSE", "RMSE less what the noise of the truth adds", false},
+    [GLINT_METRIC_CLEAN_RELATIVE_MSE] = {"clean_relative_mse", "noise-free relative MSE",
                                          "relative MSE without the truth's noise", false},
     [GLINT_METRIC_SSIM] = {"ssim", "SSIM", "structural similarity of the tone-mapped luminance", true},
     [GLINT_METRIC_FLIP] = {"flip", "ꟻLIP", "perceived difference when alternating, at one exposure", false},
@@ -38,12 +41,13 @@ bool glint_metrics_parse(const char *names, uint32_t *chosen, struct glint_error
         size_t length = strcspn(at, ",");
         uint32_t bits = bits_of(at, length);
         if (!bits) {
-            char all[512] = "all";
-            for (size_t i = 0; i < GLINT_METRIC_COUNT; i++) {
-                strcat(all, ", ");
-                strcat(all, metrics[i].name);
-            }
-            return glint_fail(err, GLINT_ERROR_USAGE, "metric '%.*s': expected one of %s", (int)length, at, all);
+            char name[64];
+            snprintf(name, sizeof name, "%.*s", (int)length, at);
+            struct glint_nearest near = glint_nearest_to(name);
+            glint_nearest_offer(&near, "all");
+            for (size_t i = 0; i < GLINT_METRIC_COUNT; i++) glint_nearest_offer(&near, metrics[i].name);
+            return glint_fail(err, GLINT_ERROR_USAGE, "metric '%s'%s: expected one of %s", name,
+                              glint_nearest_text(&near), near.known);
         }
         *chosen |= bits;
         at += length;

@@ -78,6 +78,10 @@ static void shares_add_up_to_the_error(UNUSED void **state) {
     assert_contains(text, "against the reference");
     assert_contains(text, "against the truth");
     assert_contains(text, "exact, from all");
+    assert_contains(text, "left if all others are ideal");
+    const char *times = strstr(text, "% of the error saved per ms");
+    assert_non_null(times);
+    assert_null(strstr(times, "e-0")); /* shares of the error, which is a number that can be read */
     free(text);
     json_t *found = load_json("blame/shares.json");
     const json_t *capture = json_array_get(json_object_get(found, "captures"), 0),

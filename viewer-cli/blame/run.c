@@ -22,6 +22,11 @@ static bool report(void *user, const char *what, double done) {
                            ((double)work->done + done) / (double)(work->total ? work->total : 1));
 }
 
+/* "scene.exr, times" */
+static void name_phase(const struct work *work, const char *phase) {
+    progress_phase(work->blame->progress, "%.24s, %s", base_name(work->blame->captures.items[work->capture]), phase);
+}
+
 static bool place_line(const struct work *work, uint32_t coalition, json_t *line, struct glint_error *err) {
     if (!line) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     json_object_set_new(line, "capture", json_integer((json_int_t)work->capture));
@@ -94,8 +99,7 @@ static const json_t *found(const struct blame *blame, size_t capture, uint32_t c
 static bool play(void *user, uint32_t coalition, double *values, struct glint_error *err) {
     struct work *work = user;
     if (!found(work->blame, work->capture, coalition)) {
-        snprintf(work->label, sizeof work->label, "%.20s: %zu of %zu",
-                 base_name(work->blame->captures.items[work->capture]), work->done + 1, work->total);
+        snprintf(work->label, sizeof work->label, "%zu of %zu", work->done + 1, work->total);
         if (!replay_coalition(work, coalition, err)) return false;
     }
     work->done++;
@@ -123,10 +127,10 @@ static bool take_turns(struct work *work, struct glint_error *err) {
     const size_t count = blame_timed(blame, timed);
     work->done = 0;
     work->total = count * blame->rounds;
+    name_phase(work, "times");
     for (uint32_t round = 0; round < blame->rounds; round++) {
         glint_judge_next_round(work->judge);
-        snprintf(work->label, sizeof work->label, "%.20s: times, round %u",
-                 base_name(blame->captures.items[work->capture]), round + 1);
+        snprintf(work->label, sizeof work->label, "round %u of %u", round + 1, blame->rounds);
         for (size_t i = 0; i < count; i++, work->done++) {
             char key[64];
             blame_time_key(work->capture, timed[i], round, key);
@@ -141,6 +145,7 @@ static bool take_turns(struct work *work, struct glint_error *err) {
 /* Makes the reference before the coalitions, because it can take longer than they do. */
 static bool find_answer(struct work *work, struct glint_error *err) {
     const float *error;
+    name_phase(work, "reference");
     return work->blame->against.truth || glint_judge_target(work->judge, GLINT_TARGET_REFERENCE, work->blame->base,
                                                             &error, progress_report, work->blame->progress, err);
 }
@@ -158,8 +163,9 @@ static bool find_shares(struct work *work, struct glint_error *err) {
                  drawn = 2 * blame->count + 2 + blame->options.permutations * blame->count;
     work->done = 0;
     work->total = blame->count <= blame->options.exact || drawn > whole ? whole : drawn;
-    return find_answer(work, err) &&
-           glint_shapley(&game, &blame->options, &blame->captured[work->capture].shapley, err);
+    if (!find_answer(work, err)) return false;
+    name_phase(work, "pipelines");
+    return glint_shapley(&game, &blame->options, &blame->captured[work->capture].shapley, err);
 }
 
 /* Frames that are not consecutive, or that follow a cut, have no history. */

@@ -10,34 +10,52 @@ static void value_or_dash_cell(struct table *table, double value) {
     else table_cell(table, "–");
 }
 
+static void percent_cell(struct table *table, double percent) {
+    if (!isfinite(percent)) table_cell(table, "–");
+    else if (fabs(percent) >= 0.01)
+        table_cell(table, "%.*f", fabs(percent) < 1 ? 2 : fabs(percent) < 100 ? 1 : 0, percent);
+    else table_cell(table, percent == 0 ? "0" : "< 0.01");
+}
+
 static void share_cell(struct table *table, double share, double half) {
     if (half > 0) table_cell(table, "%s ± %s", number_text(share), number_text(half));
     else value_or_dash_cell(table, share);
 }
 
+/* The player with the largest share of the error. */
+static size_t largest_share(const struct blame *blame, const struct blame_sum *sum, size_t value) {
+    size_t most = 0;
+    for (size_t p = 1; p < blame->count; p++)
+        if (blame_share(sum, p, value) > blame_share(sum, most, value)) most = p;
+    return most;
+}
+
 static void print_players(const struct blame *blame, const struct blame_sum *sum, size_t answer) {
-    static const char *const titles[] = {"<player", ">share", ">%", ">removes", ">adds fetches/px", ">makes", NULL};
+    static const char *const titles[] = {"<slot",
+                                         ">share of the error",
+                                         ">%",
+                                         ">saved if ideal",
+                                         ">fetches/px that costs",
+                                         ">left if all others are ideal",
+                                         NULL};
     struct table *table = table_create(titles);
-    const size_t v = blame_value(answer, 0);
-    double shares = 0, removed = 0, made = 0;
+    const size_t v = blame_value(answer, 0), most = largest_share(blame, sum, v);
+    double shares = 0;
     for (size_t p = blame->count; p-- > 0;) {
         const double share = blame_share(sum, p, v);
         shares += share;
-        removed += blame_removed(sum, p, v);
-        made += blame_made(sum, p, v);
         table_cell(table, "%s", glint_player_name(blame->players, p));
+        table_mark(table, p == most && share > 0 ? MARK_WARN : MARK_NONE);
         share_cell(table, share, blame_half(sum, p, v));
-        value_or_dash_cell(table, 100 * share / blame_total(sum, v));
+        percent_cell(table, 100 * share / blame_total(sum, v));
         value_or_dash_cell(table, blame_removed(sum, p, v));
         value_or_dash_cell(table, sum->shapley.first[p * BLAME_VALUES + BLAME_FETCHES]);
         value_or_dash_cell(table, blame_made(sum, p, v));
     }
     table_cell(table, "sum");
     value_or_dash_cell(table, shares);
-    value_or_dash_cell(table, 100 * shares / blame_total(sum, v));
-    value_or_dash_cell(table, removed);
-    table_cell(table, "%s", "");
-    value_or_dash_cell(table, made);
+    percent_cell(table, 100 * shares / blame_total(sum, v));
+    for (int k = 0; k < 3; k++) table_cell(table, "%s", "");
     table_print(table, stdout);
     table_destroy(&table);
 }
@@ -48,10 +66,11 @@ static void print_sum(const struct blame *blame, const char *title, const struct
         char how[96];
         if (!blame_is_known(sum) || !isfinite(sum->shapley.none[v])) continue;
         blame_how(sum, how);
-        printf("%s: the %s of %s against the %s is %s, that of its reference %s; shares of the difference %s (%s):\n\n",
-               title, glint_metric(blame->metric)->title, glint_pipeline_name(blame->base),
-               glint_target_name(blame_answer(blame, a)), number_text(sum->shapley.none[v]),
-               number_text(sum->shapley.all[v]), number_text(blame_total(sum, v)), how);
+        printf("%s: the error of %s against the %s is %s (%s). With every slot replaced by its ideal, it is %s. "
+               "Each slot's share of the difference, %s, %s:\n\n",
+               title, glint_pipeline_name(blame->base), glint_target_name(blame_answer(blame, a)),
+               number_text(sum->shapley.none[v]), glint_metric(blame->metric)->title, number_text(sum->shapley.all[v]),
+               number_text(blame_total(sum, v)), how);
         print_players(blame, sum, a);
         putchar('\n');
     }
@@ -65,14 +84,12 @@ static void each_sum(const struct blame *blame,
 
 void blame_print_shares(const struct blame *blame) {
     each_sum(blame, print_sum);
-    puts("share: mean change of the error by a player (a slot or group of slots) over all orders of replacement; "
-         "removes, adds:\n"
-         "change of error and fetches when only this player is replaced by its reference; makes: error when only this "
-         "player is\n"
-         "kept and all others are replaced. Replacement of each player:");
+    puts("share: the mean over all orders in which slots can be replaced by their ideals. saved if ideal: the error "
+         "that disappears if only this slot is replaced, and the fetches that adds. left if all others are ideal: the "
+         "error that this slot makes alone. The ideals:");
     for (size_t p = blame->count; p-- > 0;) {
         const char *why = glint_player_why(blame->players, p);
-        printf("  %s: %s%s%s%s\n", glint_player_name(blame->players, p), glint_player_change(blame->players, p),
+        printf("  - %s: %s%s%s%s\n", glint_player_name(blame->players, p), glint_player_change(blame->players, p),
                why[0] ? " (" : "", why, why[0] ? ")" : "");
     }
     if (blame->out) printf("page with charts and tables: %s/index.html\n", blame->out);
@@ -81,7 +98,9 @@ void blame_print_shares(const struct blame *blame) {
 
 /* Error per millisecond uses the first of the two kinds of error. */
 static void print_time(const struct blame *blame, const char *title, const struct blame_sum *sum) {
-    static const char *const titles[] = {"<player", ">adds ms", ">buys per ms", ">saves ms", NULL};
+    static const char *const titles[] = {"<slot", ">ms added if ideal", ">% of the error saved per ms",
+                                         ">ms saved if only it stays", NULL};
+    const double error = sum->shapley.none[blame_value(0, 0)];
     if (!blame_is_known(sum)) return;
     struct table *table = table_create(titles);
     for (size_t p = blame->count; p-- > 0;) {
@@ -89,13 +108,11 @@ static void print_time(const struct blame *blame, const char *title, const struc
         const double bought = blame_bought(sum, p, blame_value(0, 0), &already);
         table_cell(table, "%s", glint_player_name(blame->players, p));
         value_or_dash_cell(table, sum->time.added[p]);
-        if (already && isfinite(bought)) table_cell(table, "%s already", number_text(bought));
-        else value_or_dash_cell(table, bought);
+        percent_cell(table, already ? (double)NAN : 100 * bought / error);
         value_or_dash_cell(table, sum->time.saved[p]);
     }
-    printf("\n%s: %s takes ", title, glint_pipeline_name(blame->base));
-    printf("%s ms, ", number_text(sum->time.preset));
-    printf("and its reference %s ms:\n\n", number_text(sum->time.reference));
+    printf("\n%s: %s takes %s ms, and with every slot ideal %s ms:\n\n", title, glint_pipeline_name(blame->base),
+           number_text(sum->time.preset), number_text(sum->time.reference));
     table_print(table, stdout);
     table_destroy(&table);
 }
@@ -104,10 +121,8 @@ void blame_print_times(const struct blame *blame) {
     const struct glint_device_info *device = glint_device_get_info(blame->device);
     if (!blame->rounds) return;
     each_sum(blame, print_time);
-    printf("buys: error against the %s that disappears per added ms (already: error that the player itself avoids per "
-           "ms); saves:\n"
-           "time saved when only this player is kept and all others are replaced\ntimes: median of %u alternating "
-           "rounds on %s%s\n",
+    printf("%% of the error: against the %s, per millisecond that the ideal adds; – where it adds none. ms saved if "
+           "only it stays: against every slot ideal. Times: median of %u alternating rounds on %s%s\n",
            glint_target_name(blame_answer(blame, 0)), blame->rounds, device->name,
            device->is_cpu ? " (a CPU device: times do not represent a GPU)" : "");
 }

@@ -155,6 +155,7 @@ static bool measure_contestant(const struct contest *contest, size_t i, struct s
                                struct glint_error *err) {
     const struct glint_pipeline *pipeline = contest->contestants[i].pipeline;
     const uint8_t *surfaces = glint_judge_surfaces(contest->judge);
+    progress_phase(contest->progress, "%.32s", contest->contestants[i].label);
     if (!glint_judge_evaluate(contest->judge, pipeline, (uint32_t)i, &a->verdict, progress_report, contest->progress,
                               err))
         return false;
@@ -173,6 +174,7 @@ static bool measure_contestant(const struct contest *contest, size_t i, struct s
 static bool time_round(const struct contest *contest, size_t i, struct showing *s, uint32_t round,
                        struct glint_error *err) {
     struct glint_cost cost;
+    progress_phase(contest->progress, "%.24s, times", contest->contestants[i].label);
     if (!glint_judge_time(contest->judge, contest->contestants[i].pipeline, (uint32_t)i, true, &cost, progress_report,
                           contest->progress, err))
         return false;

@@ -23,11 +23,17 @@ static void time_cell(struct table *table, const struct contest_time *time) {
     else table_cell(table, "%.3f", time->median);
 }
 
-static void print_showing(struct table *table, const struct showing *s) {
+static double shared_error(const struct showing *s) {
+    return s->compared && s->shared.of[0].pixels ? s->shared.of[0].symmetric : (double)INFINITY;
+}
+
+/* `best`: the least error over the pixels that all presets cover. */
+static void print_showing(struct table *table, const struct showing *s, double best) {
     for (int k = GLINT_SURFACE_MIRROR; k < GLINT_SURFACE_COUNT; k++) error_cell(table, s, k);
     error_cell(table, s, 0);
-    if (s->compared && s->shared.of[0].pixels) table_cell(table, "%.3f", s->shared.of[0].symmetric);
+    if (isfinite(shared_error(s))) table_cell(table, "%.3f", shared_error(s));
     else table_cell(table, "–");
+    if (isfinite(best) && shared_error(s) <= best) table_mark(table, MARK_GOOD);
     if (s->ends.rays) {
         table_cell(table, "%.1f", s->ends.steps);
         table_cell(table, "%.1f", s->ends.fetches);
@@ -45,18 +51,18 @@ static void print_errors(const struct contest_table *t) {
     static const char *const titles[] = {"<capture", "<preset", ">mirror-like", ">glossy", ">rough",         ">all",
                                          ">shared",  ">steps",  ">fetches",     ">ms",     ">cube maps, ms", NULL};
     struct table *table = table_create(titles);
-    for (size_t c = 0; c < t->capture_count; c++)
+    for (size_t c = 0; c < t->capture_count; c++) {
+        double best = INFINITY;
+        for (size_t p = 0; p < t->contest->count; p++) best = fmin(best, shared_error(showing_of(t, c, p)));
         for (size_t p = 0; p < t->contest->count; p++) {
             table_cell(table, "%s", base_name(t->captures[c]));
             table_cell(table, "%s", t->contest->contestants[p].label);
-            print_showing(table, showing_of(t, c, p));
+            print_showing(table, showing_of(t, c, p), best);
         }
+    }
     puts("Error of the reflection against the truth (mean of |found - truth| / (found + truth), 0 to 1) over the "
-         "covered pixels,\n"
-         "with the coverage in parentheses: the share of reflecting pixels for which the preset finds a reflection. "
-         "shared: error "
-         "over the\n"
-         "pixels that all presets cover; steps and fetches per ray:\n");
+         "covered pixels, with the coverage in parentheses: the share of reflecting pixels for which the preset finds "
+         "a reflection. shared: error over the pixels that all presets cover; steps and fetches per ray:\n");
     table_print(table, stdout);
     table_destroy(&table);
 }

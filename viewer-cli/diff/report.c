@@ -128,12 +128,17 @@ static void print_settings(const json_t *settings) {
     table_destroy(&t);
 }
 
+static enum mark diff_mark(enum diff_status status) {
+    return status == DIFF_SAME ? MARK_GOOD : status == DIFF_WARN ? MARK_WARN : MARK_FAIL;
+}
+
 static void pair_row(struct table *t, const struct diff_pair *pair, bool runs) {
     const struct diff_image *image = diff_pair_image(pair);
     const struct glint_difference *d = &pair->difference;
     if (runs) table_cell(t, "%s", image->slot);
     table_cell(t, "%s", image->name[0] ? image->name : "–");
     table_cell(t, "%s", diff_words[pair->status]);
+    table_mark(t, diff_mark(pair->status));
     if (!d->marks) {
         for (int i = 0; i < 5; i++) table_cell(t, "–");
         table_cell(t, "%s", pair->note);
@@ -269,5 +274,6 @@ void diff_print(const struct diff *diff, bool verbose) {
         putchar('\n');
         if (diff->options.metrics.metrics) print_metrics(diff, verbose);
     }
-    puts(verdicts[diff->status]);
+    mark_print(diff_mark(diff->status), "%s", verdicts[diff->status]);
+    putchar('\n');
 }

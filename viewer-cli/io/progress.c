@@ -2,8 +2,11 @@
 #include "io/progress.h"
 
 #include <signal.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <unistd.h>
+
+#include "io/console.h"
 
 static volatile sig_atomic_t interrupted, asked;
 
@@ -34,52 +37,114 @@ void progress_begin(struct progress *progress) {
     clock_gettime(CLOCK_MONOTONIC, &progress->start);
 }
 
-/* " 4:10 left", estimated from the rate since the step began; "" until the estimate is usable. */
-static const char *time_left(const struct progress *progress, double done, double elapsed, char text[32]) {
-    const double share = done - progress->begun;
-    *text = '\0';
-    if (elapsed > 0.5 && (share > 0.02 || (elapsed > 10 && share > 0.0005))) {
-        const long s = (long)(elapsed * (1 - done) / share + 0.5);
-        if (s >= 3600) snprintf(text, 32, " %ld:%02ld:%02ld left", s / 3600, s / 60 % 60, s % 60);
-        else snprintf(text, 32, " %ld:%02ld left", s / 60, s % 60);
+/* Each phase, and each step that begins again at 0, has its own estimate of the remaining time. */
+static void begin_step(struct progress *progress, double done) {
+    clock_gettime(CLOCK_MONOTONIC, &progress->start);
+    progress->begun = progress->done = done;
+    for (int k = 0; k < 2; k++) progress->halves[k] = (struct progress_mark){progress->start, done};
+}
+
+void progress_phase(struct progress *progress, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    vsnprintf(progress->phase, sizeof progress->phase, format, args);
+    va_end(args);
+    progress->told = false;
+    progress->fresh = true;
+    begin_step(progress, 0);
+}
+
+/* Seconds that a step takes from here on, negative until that is usable. The rate is that of about the second half of what is done:
+   the first runs of each pass take longer, because drivers compile then. */
+static double seconds_left(struct progress *progress, const struct timespec *now, double elapsed) {
+    const double share = progress->done - progress->begun;
+    struct progress_mark *half = progress->halves;
+    if (share > 0 && share >= 2 * (half[1].done - progress->begun)) {
+        half[0] = half[1];
+        half[1] = (struct progress_mark){*now, progress->done};
     }
+    const double part = progress->done - half[0].done;
+    const bool usable = elapsed > 0.5 && part > 0 && (share > 0.02 || (elapsed > 10 && share > 0.0005));
+    return usable ? seconds_between(&half[0].time, now) * (1 - progress->done) / part : -1;
+}
+
+/* " 4:10 left", or "". */
+static const char *time_left(double seconds, char text[32]) {
+    const long s = (long)(seconds + 0.5);
+    if (seconds < 0) *text = '\0';
+    else if (s >= 3600) snprintf(text, 32, " %ld:%02ld:%02ld left", s / 3600, s / 60 % 60, s % 60);
+    else snprintf(text, 32, " %ld:%02ld left", s / 60, s % 60);
     return text;
 }
 
-static void draw_progress(struct progress *progress, const char *what, double done, double elapsed) {
-    enum { WIDTH = 30 };
-    int full = (int)(done * WIDTH + 0.5);
+/* "search: point 12 of 150" */
+static void describe(const struct progress *progress, const char *what, char text[PROGRESS_TEXT + 1]) {
+    const char *phase = progress->phase;
+    snprintf(text, PROGRESS_TEXT + 1, "%s%s%s", phase, *phase && *what ? ": " : "", what);
+}
+
+static void draw_progress(struct progress *progress, const char *text, double seconds) {
+    enum { BAR = 24, REST = 24 }; /* REST: of the bar, per cent, and the time that is left */
+    const size_t columns = console_width(stderr);
+    const int width =
+        columns && columns < PROGRESS_TEXT + 1 + BAR + REST ? (int)(columns > 60 ? columns - REST - 37 : 0) : BAR;
+    const int room = columns && columns < PROGRESS_TEXT + REST ? (int)columns - REST : PROGRESS_TEXT;
+    const int full = (int)(progress->done * width + 0.5);
     char left[32];
-    fprintf(stderr, "\r\033[K%-*.*s ", PROGRESS_TEXT, PROGRESS_TEXT, what);
-    for (int i = 0; i < WIDTH; i++) fputs(i < full ? "█" : "░", stderr);
-    fprintf(stderr, " %3.0f %%%s", done * 100, time_left(progress, done, elapsed, left));
+    fprintf(stderr, "\r\033[K%-*.*s ", width ? 36 : 0, room > 36 && width ? 36 : room, text);
+    for (int i = 0; i < width; i++) fputs(i < full ? "█" : "░", stderr);
+    fprintf(stderr, " %3.0f %%%s", progress->done * 100, time_left(seconds, left));
     fflush(stderr);
     progress->drawn = true;
 }
 
-static void print_line(const struct progress *progress, const char *what, double done, double elapsed) {
+static void print_line(const struct progress *progress, const char *text, double seconds) {
     char left[32];
-    fprintf(stderr, "%s%s: %.1f %%%s\n", progress->drawn ? "\r\033[K" : "", what, done * 100,
-            time_left(progress, done, elapsed, left));
+    fprintf(stderr, "%s%s: %.1f %%%s\n", progress->drawn ? "\r\033[K" : "", text, progress->done * 100,
+            time_left(seconds, left));
+}
+
+/* Says how long a step takes that takes long, as soon as its first part is timed. */
+static void tell_duration(struct progress *progress, double elapsed, double seconds) {
+    const double all = elapsed + seconds;
+    const bool sure = progress->done - progress->begun > 0.15 ? elapsed > 10 : elapsed > 60;
+    if (progress->told || seconds < 0 || !sure) return;
+    progress->told = true;
+    if (all < PROGRESS_LONG_SECONDS) return;
+    fprintf(stderr, "%s%s%sabout ", progress->drawn ? "\r\033[K" : "", progress->phase, progress->phase[0] ? ": " : "");
+    if (all < 90) fprintf(stderr, "%.0f s", all);
+    else if (all < 5400) fprintf(stderr, "%.0f min", all / 60);
+    else fprintf(stderr, "%.1f h", all / 3600);
+    fprintf(stderr, " in all, going by the first %.0f s; Ctrl-C stops it\n", elapsed);
 }
 
 bool progress_report(void *user, const char *what, double done) {
     struct progress *progress = user;
     struct timespec now;
+    char text[PROGRESS_TEXT + 1];
     clock_gettime(CLOCK_MONOTONIC, &now);
     if (!(done >= 0)) done = 0;
     if (done > 1) done = 1;
-    if (!what) what = "";
-    /* Each step has its own estimate of the remaining time. */
-    if (done < progress->done - 1e-6) progress->start = now, progress->begun = done;
+    if (progress->fresh)
+        progress->begun = progress->halves[0].done = progress->halves[1].done =
+            done; /* the phases of several captures share one scale */
+    else if (done < progress->done - 1e-6) begin_step(progress, done);
+    progress->fresh = false;
     progress->done = done;
-    const double elapsed = seconds_between(&progress->start, &now), since = seconds_between(&progress->shown, &now);
+    describe(progress, what ? what : "", text);
+    const double elapsed = seconds_between(&progress->start, &now), since = seconds_between(&progress->shown, &now),
+                 left = seconds_left(progress, &now, elapsed);
     const bool first = progress->shown.tv_sec == 0 && progress->shown.tv_nsec == 0;
-    const bool line = asked || (progress->lines && !progress->terminal && (first || since > PROGRESS_LINES_SECONDS));
+    tell_duration(progress, elapsed, left);
+    /* Without a terminal, the first line comes at once where lines are asked for, else when it takes long. */
+    if (first && !progress->lines) progress->shown = now;
+    const double every = progress->lines ? PROGRESS_LINES_SECONDS : PROGRESS_LONG_SECONDS;
+    const bool line = asked || (!progress->terminal && ((first && progress->lines) || (!first && since > every))),
+               draw = progress->terminal && (first || line || since > 0.1);
     asked = 0;
-    if (line) print_line(progress, what, done, elapsed);
-    if (progress->terminal && (first || line || since > 0.1)) draw_progress(progress, what, done, elapsed);
-    if (line || (progress->terminal && (first || since > 0.1))) progress->shown = now;
+    if (line) print_line(progress, text, left);
+    if (draw) draw_progress(progress, text, left);
+    if (line || draw) progress->shown = now;
     return !interrupted;
 }
 

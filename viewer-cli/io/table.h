@@ -1,4 +1,5 @@
-/* Tables in the terminal: aligned columns, the last one wrapped at the terminal's width. */
+/* Tables in the terminal: aligned columns. Where the terminal is too narrow, texts are wrapped, and if that is not enough, the columns are
+   printed in several parts. */
 #ifndef GLINT_VIEWER_TABLE_H
 #define GLINT_VIEWER_TABLE_H
 
@@ -6,6 +7,8 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
+
+#include "io/console.h"
 
 struct table;
 
@@ -18,12 +21,13 @@ void table_destroy(struct table **table);
 __attribute__((format(printf, 2, 3)))
 #endif
 void table_cell(struct table *table, const char *format, ...);
+/* Colours the last cell. */
+void table_mark(struct table *table, enum mark mark);
+/* `out` is stdout or stderr. Nothing is printed of an empty table, nor titles that are all empty. */
 bool table_print(const struct table *table, FILE *out);
 bool table_print_markdown(const struct table *table, FILE *out);
 bool table_is_empty(const struct table *table);
 
-/* The number of columns of the terminal on stdout; 0 if it is not one. */
-int terminal_width(void);
 /* The number of columns of a UTF-8 text. */
 size_t text_width(const char *text);
 /* Replaces control characters, which a terminal would interpret. Names in files may come from untrusted sources. */

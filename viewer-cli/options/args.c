@@ -8,6 +8,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "io/console.h"
 #include "nearest.h"
 
 void list_add(struct list *list, const char *item, struct argp_state *state) {
@@ -200,6 +201,7 @@ bool fail_memory(struct glint_error *err) {
 }
 
 enum status print_json(json_t *json) {
+    console_plain();
     int failed = !json || json_dumpf(json, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(9));
     json_decref(json);
     if (!failed) putchar('\n');

@@ -92,7 +92,8 @@ static void print_once(const struct probe_side *side, const struct glint_probe_r
         const bool shown = strcmp(unit, "m") == 0 || strcmp(unit, "px") == 0 || strcmp(unit, "radiance") == 0;
         probe_group_text(side, record, &groups[g], text, sizeof text);
         if (!is_void(record, &groups[g], text))
-            printf("%s%s %s%s%s", g ? ", " : "    ", groups[g].name, text, shown ? " " : "", shown ? unit : "");
+            printf("%s%s%s %s%s%s", g ? ", " : "    ", groups[g].name, strcmp(unit, "end reason") ? "" : ":", text,
+                   shown ? " " : "", shown ? unit : "");
     }
     putchar('\n');
 }

@@ -28,8 +28,12 @@ static void print_rays(const struct comparison *c) {
         if (isfinite(r->radiance_error)) table_cell(table, "%.4f", r->radiance_error);
         else table_cell(table, "-");
     }
-    printf("\nrays of surfaces up to roughness %g, travelled distance against that of the true mirror ray:\n",
-           GLINT_MIRROR_ROUGHNESS);
+    if (table_is_empty(table))
+        printf("\nno ray is of a surface up to roughness %g, so that none is compared with the true mirror ray\n",
+               GLINT_MIRROR_ROUGHNESS);
+    else
+        printf("\nrays of surfaces up to roughness %g, travelled distance against that of the true mirror ray:\n",
+               GLINT_MIRROR_ROUGHNESS);
     table_print(table, stdout);
     table_destroy(&table);
 }
@@ -55,9 +59,9 @@ static void print_distances(const struct glint_trace_table *rays) {
 }
 
 static void print_missing(const struct glint_image_errors *image) {
-    static const char *const titles[] = {"<surfaces",       ">pixels",       ">mean",      ">mean error",
-                                         ">RMSE",           ">relative MSE", ">symmetric", ">noise of it",
-                                         ">RMSE w/o noise", ">invalid",      NULL};
+    static const char *const titles[] = {
+        "<surfaces",    ">pixels",          ">mean",    ">mean error", ">RMSE", ">relative MSE", ">symmetric",
+        ">noise of it", ">noise-free RMSE", ">invalid", NULL};
     struct table *table = table_create(titles);
     for (int k = 0; k < GLINT_SURFACE_COUNT; k++) {
         const struct glint_image_error *e = &image->of[k];
@@ -95,7 +99,7 @@ static void print_parts(const struct comparison *c) {
         table_cell(table, "%.5f", clean_rmse(&c->to_truth, (size_t)k));
     }
     if (!table_is_empty(table)) {
-        puts("\nRMSE without the noise of truth and reference:");
+        puts("\nNoise-free RMSE, which is the RMSE less what the noise of truth and reference adds:");
         table_print(table, stdout);
     }
     table_destroy(&table);

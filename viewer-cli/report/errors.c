@@ -59,7 +59,7 @@ static const struct report_column class_columns[] = {
     {"by", "set", "", 1, false},
     {"class", "class", "", 1, false},
     {"pixels", "pixels", "", 1, false},
-    {"RMSE without noise", "clean_rmse", "radiance", 1, true},
+    {"noise-free RMSE", "clean_rmse", "radiance", 1, true},
     {"symmetric", "symmetric", "0 to 1", 1, true},
     {"FLIP", "flip", "0 to 1", 1, true},
     {0},

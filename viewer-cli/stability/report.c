@@ -158,7 +158,7 @@ void stability_print(const struct stability_report *report) {
     print_inputs(s);
     printf(
         "\nAmplification (relative change divided by that of the inputs) of reflecting pixels. above: pixels over "
-        "%g; first above:\n"
+        "%g; first above: "
         "pixels that exceed it here and in no earlier pass; flips: pixels with a different decision in some replay\n",
         s->bound);
     print_passes(s);

@@ -24,9 +24,13 @@ static bool report(void *user, const char *what, double done) {
                            work->total ? ((double)work->done + done) / (double)work->total : 0);
 }
 
+/* "scene.exr, points" */
+static void name_phase(const struct work *work, const char *phase) {
+    progress_phase(work->sweep->progress, "%.24s, %s", base_name(work->sweep->captures.items[work->capture]), phase);
+}
+
 static void label(struct work *work, const char *what, size_t i) {
-    snprintf(work->label, sizeof work->label, "%.20s: %s %zu", base_name(work->sweep->captures.items[work->capture]),
-             what, i);
+    snprintf(work->label, sizeof work->label, "%s %zu", what, i);
 }
 
 void sweep_picture_name(const char *what, size_t capture, size_t point, char name[96]) {
@@ -162,9 +166,11 @@ static bool find_answer(struct work *work, struct glint_error *err) {
     const float *error;
     const enum glint_target answer = answer_args_kind(&sweep->against);
     struct glint_pipeline *pipeline = glint_space_pipeline(sweep->space, 0, err);
+    if (answer == GLINT_TARGET_REFERENCE) name_phase(work, "reference");
     const bool ok =
         pipeline && glint_judge_target(work->judge, answer, pipeline, &error, progress_report, sweep->progress, err);
     if (pipeline) glint_pipeline_destroy(&pipeline);
+    name_phase(work, "points");
     return ok;
 }
 
@@ -266,6 +272,7 @@ static bool draw_errors(struct work *work, struct glint_pixels *reflections, str
 static bool draw_front(struct work *work, struct glint_error *err) {
     const size_t points = work->sweep->points;
     struct glint_pixels *reflections = calloc(points + 1, sizeof *reflections);
+    name_phase(work, "pictures");
     const bool ok = (reflections || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory")) &&
                     draw_errors(work, reflections, err) && draw_changes(work, reflections, err);
     for (size_t p = 0; reflections && p < points; p++) glint_pixels_finish(&reflections[p]);

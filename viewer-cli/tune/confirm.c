@@ -112,7 +112,7 @@ static bool look_at(struct tune *tune, size_t s, int k, struct glint_error *err)
     const enum glint_target answer = answer_args_kind(&tune->against);
     struct tune_measured *measured = &tune->measured[s * TUNE_CONTENDERS + (size_t)k];
     struct glint_verdict verdict;
-    snprintf(tune->label, sizeof tune->label, "%s, final timing", tune_contenders[k]);
+    snprintf(tune->label, sizeof tune->label, "%s", tune_contenders[k]);
     if (!glint_judge_evaluate(tune->subjects[s].judge, tune->contenders[k], 0, &verdict, tune_report, tune, err))
         return false;
     measured->errors = verdict.errors[answer];
@@ -148,11 +148,13 @@ bool tune_confirm(struct tune *tune, struct glint_error *err) {
     tune->measured = calloc(tune->subject_count * TUNE_CONTENDERS + 1, sizeof *tune->measured);
     if (!tune->measured) return fail_memory(err);
     if (!make_contenders(tune, err)) return false;
+    tune->done = 0;
+    progress_phase(tune->progress, "final comparison");
     for (size_t s = 0; s < tune->subject_count; s++) {
         tune_unload_subject(tune, s);
         if (!tune_load_subject(tune, s, GLINT_RESAMPLES, err) || !measure_subject(tune, s, err)) return false;
         tune_unload_subject(tune, s);
-        tune->done = 0.9 + 0.1 * (double)(s + 1) / (double)tune->subject_count;
+        tune->done = (double)(s + 1) / (double)tune->subject_count;
     }
     return tune->confirmed = true;
 }

@@ -140,8 +140,7 @@ static void add_left(const struct tune *tune, json_t *document) {
     for (size_t i = 0; i < tune->left_count; i++)
         page_row(table, json_pack("[s, s]", tune->left[i].name, tune->left[i].why));
     for (size_t a = 0; a < tune->axis_count; a++)
-        if (!tune->found.matters[a])
-            page_row(table, json_pack("[s, s]", tune->axes[a].name, "has no effect on these captures"));
+        if (!tune->found.matters[a]) page_row(table, json_pack("[s, s]", tune->axes[a].name, TUNE_NO_EFFECT));
 }
 
 static void add_facts(const struct tune *tune, json_t *document) {

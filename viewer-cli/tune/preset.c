@@ -171,8 +171,7 @@ static json_t *left_json(const struct tune *tune) {
         json_array_append_new(left, json_pack("{s:s, s:s}", "name", tune->left[i].name, "why", tune->left[i].why));
     for (size_t a = 0; a < tune->axis_count; a++)
         if (!tune->found.matters[a])
-            json_array_append_new(
-                left, json_pack("{s:s, s:s}", "name", tune->axes[a].name, "why", "has no effect on these captures"));
+            json_array_append_new(left, json_pack("{s:s, s:s}", "name", tune->axes[a].name, "why", TUNE_NO_EFFECT));
     return left;
 }
 

@@ -49,6 +49,7 @@ static bool search(struct tune *tune, uint32_t tries, const double *known, size_
 }
 
 bool tune_search(struct tune *tune, struct glint_error *err) {
+    progress_phase(tune->progress, "search");
     double *start = calloc(tune->axis_count + 1, sizeof *start);
     for (size_t a = 0; start && a < tune->axis_count; a++) start[a] = tune->axes[a].axis.start;
     const bool ok =

@@ -28,6 +28,7 @@ bool tune_load_subject(struct tune *tune, size_t s, uint32_t resamples, struct g
     options.seed = 1;
     const enum glint_target answer = answer_args_kind(&tune->against);
     const float *error;
+    if (answer == GLINT_TARGET_REFERENCE) progress_phase(tune->progress, "reference, %.24s", base_name(subject->path));
     return (subject->capture = glint_capture_open(subject->path, NULL, err)) &&
            (subject->judge = glint_judge_create(tune->device, &options, err)) &&
            glint_judge_load(subject->judge, subject->capture, err) &&
@@ -44,6 +45,7 @@ bool tune_load(struct tune *tune, struct glint_error *err) {
         subject->path = subject->held_out ? tune->held_out.items[s - tune->captures.count] : tune->captures.items[s];
         if (subject->held_out) continue;
         struct glint_verdict verdict;
+        progress_phase(tune->progress, "start");
         snprintf(tune->label, sizeof tune->label, "%s", glint_pipeline_name(tune->base));
         if (!tune_load_subject(tune, s, 0, err) ||
             !glint_judge_evaluate(subject->judge, tune->base, 0, &verdict, tune_report, tune, err))
@@ -89,7 +91,7 @@ bool tune_time_in_turns(struct tune *tune, struct tune_subject *subject, struct 
            *parts = values + TUNE_CONTENDERS * rounds;
     bool ok = values || fail_memory(err);
     for (uint32_t r = 0; ok && r < rounds; r++) {
-        snprintf(tune->label, sizeof tune->label, "final timing, round %u", r + 1);
+        snprintf(tune->label, sizeof tune->label, "round %u of %zu", r + 1, rounds);
         glint_judge_next_round(subject->judge);
         for (size_t turn = 0; ok && turn < TUNE_CONTENDERS; turn++) {
             const size_t k = (turn + r) % TUNE_CONTENDERS;

@@ -185,11 +185,11 @@ bool tune_evaluate(struct tune *tune, const double *values, struct tune_figures 
     bool ok = true;
     if (!find_line(tune, list)) {
         struct glint_pipeline *pipeline = tune_pipeline(tune, values, err);
-        snprintf(tune->label, sizeof tune->label, "point %zu", number);
+        snprintf(tune->label, sizeof tune->label, "point %zu of %u", number, tune->tries);
         ok = pipeline && add_line(tune, pipeline, json_incref(list), err) && tune_report(tune, NULL, 0);
         if (pipeline) glint_pipeline_destroy(&pipeline);
     }
-    tune->done = 0.9 * fmin(1, (double)number / tune->tries);
+    tune->done = fmin(1, (double)number / tune->tries);
     if (ok) *figures = sum_up(tune, find_line(tune, list));
     json_decref(list);
     return ok || glint_fail(err, err->code ? err->code : GLINT_ERROR_INTERRUPTED, "%s",

@@ -22,8 +22,9 @@ struct tune_axis {
 };
 /* A declared parameter that is not tuned, and the reason. */
 struct tune_left {
-    char name[128], why[224];
+    char name[128], why[224]; /* "cocoon.size", "is used for cube maps, …" */
 };
+#define TUNE_NO_EFFECT "has no effect on these captures"
 /* Error and cost of a pipeline on one capture, or over all captures that are tuned on. */
 struct tune_figures {
     double error, cost;

@@ -6,6 +6,8 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "io/console.h"
+
 const char *const terminal_mode_names[] = {"auto", "kitty", "sixel", "iterm2", "blocks", NULL};
 
 enum { COLUMNS = 80, ROWS = 24, CELL_WIDTH_PX = 8, CELL_HEIGHT_PX = 16 };
@@ -77,6 +79,7 @@ bool terminal_draw(const struct picture *picture, enum terminal_mode mode, struc
     chafa_term_info_supplement(info, rest);
     chafa_canvas_draw_all_pixels(canvas, CHAFA_PIXEL_RGBA8_UNASSOCIATED, picture->rgba, (gint)picture->width,
                                  (gint)picture->height, (gint)picture->width * 4);
+    console_plain();
     GString *text = chafa_canvas_print(canvas, info);
     const bool ok =
         fwrite(text->str, 1, text->len, stdout) == text->len && fputc('\n', stdout) != EOF && fflush(stdout) == 0;
