@@ -55,6 +55,7 @@ extern const struct command
     cmd_check,
     cmd_view,
     cmd_report,
+    cmd_export,
     cmd_selftest,
     cmd_passes,
     cmd_devices;

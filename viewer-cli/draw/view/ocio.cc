@@ -16,9 +16,37 @@ namespace OCIO = OCIO_NAMESPACE;
 
 namespace {
 
+// "1.0 and 2.0 to 2.1": the versions of configurations that this library reads, by its own word.
+std::string known_versions() {
+    std::string text;
+    for (unsigned major = 1; major < 100; major++) {
+        try {
+            OCIO::ConfigRcPtr config = OCIO::Config::Create();
+            config->setMajorVersion(major); // also sets the newest minor version of it
+            const std::string start = std::to_string(major), newest = std::to_string(config->getMinorVersion());
+            text += (major > 1 ? " and " : "") + start + ".0" + (newest != "0" ? " to " + start + "." + newest : "");
+        } catch (const OCIO::Exception &) {
+            break;
+        }
+    }
+    return text;
+}
+
+OCIO::ConstConfigRcPtr open_file(const char *path) {
+    try {
+        return OCIO::Config::CreateFromFile(path);
+    } catch (const OCIO::Exception &e) {
+        std::string text = std::string(path) + ": " + e.what();
+        while (!text.empty() && (text.back() == '\n' || text.back() == '.')) text.pop_back();
+        throw OCIO::Exception((text + "; OpenColorIO " + OCIO::GetVersion() +
+                               ", which glint is built with, reads files of version " + known_versions())
+                                  .c_str());
+    }
+}
+
 OCIO::ConstConfigRcPtr open_config(const char *path) {
     if (!path) path = std::getenv("OCIO");
-    if (path && *path) return OCIO::Config::CreateFromFile(path);
+    if (path && *path) return open_file(path);
     std::istringstream text(std::string(reinterpret_cast<const char *>(blob_ocio), size_t(blob_ocio_end - blob_ocio)));
     return OCIO::Config::CreateFromStream(text);
 }
