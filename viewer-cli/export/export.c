@@ -2,6 +2,7 @@
    composed one, and channels are IMAGE.CHANNEL. */
 #include "export/export.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -92,6 +93,7 @@ static bool is_picture(const struct job *job, const struct glint_run_image *imag
     const struct glint_pass *pass = glint_pass_find(image->slot, image->variant);
     const char *level = strstr(image->name, ".level");
     char name[NAME_SIZE];
+    if (image->width > job->full[0] || image->height > job->full[1]) return false;
     snprintf(name, sizeof name, "%.*s", level ? (int)(level - image->name) : NAME_SIZE - 1, image->name);
     const struct glint_row *row = pass ? glint_pass_output(pass, name) : NULL;
     if (!row) return !image->cube && image->width == job->full[0] && image->height == job->full[1];
@@ -161,11 +163,17 @@ static bool choose_images(struct job *job, struct export_counts *counts, struct 
 
 /* ---- Texels ---- */
 
+/* Which texel covers a pixel. Sizes are halved again and again, rounded up or down: a texel covers a power of two of pixels, but for the last one. */
+static uint32_t texel_of(uint32_t pixel, uint32_t texels, uint32_t pixels) {
+    const uint32_t at = pixel >> lround(log2((double)pixels / texels));
+    return at < texels ? at : texels - 1;
+}
+
 static void enlarge(const struct exported *e, const char *from, size_t texel, char *to) {
     for (uint32_t y = 0; y < e->height; y++) {
-        const char *line = from + (size_t)((uint64_t)y * e->image->height / e->height) * e->image->width * texel;
+        const char *line = from + (size_t)texel_of(y, e->image->height, e->height) * e->image->width * texel;
         for (uint32_t x = 0; x < e->width; x++, to += texel)
-            memcpy(to, line + (size_t)((uint64_t)x * e->image->width / e->width) * texel, texel);
+            memcpy(to, line + texel_of(x, e->image->width, e->width) * texel, texel);
     }
 }
 
