@@ -3,9 +3,12 @@
 
 #include <OpenColorIO/OpenColorIO.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -32,21 +35,44 @@ std::string known_versions() {
     return text;
 }
 
-OCIO::ConstConfigRcPtr open_file(const char *path) {
+bool is_known(unsigned major, unsigned minor) {
     try {
-        return OCIO::Config::CreateFromFile(path);
-    } catch (const OCIO::Exception &e) {
-        std::string text = std::string(path) + ": " + e.what();
-        while (!text.empty() && (text.back() == '\n' || text.back() == '.')) text.pop_back();
-        throw OCIO::Exception((text + "; OpenColorIO " + OCIO::GetVersion() +
-                               ", which glint is built with, reads files of version " + known_versions())
-                                  .c_str());
+        OCIO::Config::Create()->setVersion(major, minor);
+        return true;
+    } catch (const OCIO::Exception &) {
+        return false;
     }
+}
+
+// Throws if the configuration was made for a newer library, with what works here.
+void check_version(const std::string &path) {
+    std::ifstream file(path);
+    std::string line;
+    unsigned major = 0, minor = 0;
+    bool archive = false;
+    for (int lines = 0; lines < 100 && std::getline(file, line); lines++) {
+        archive |= lines == 0 && line.compare(0, 2, "PK") == 0;
+        if (std::sscanf(line.c_str(), "ocio_profile_version: %u.%u", &major, &minor) > 0) break;
+    }
+    const std::string have = std::string("this is OpenColorIO ") + OCIO::GetVersion();
+    if (path.compare(0, 7, "ocio://") == 0 || archive) {
+        if (OCIO::GetVersionHex() < 0x02020000)
+            throw std::runtime_error(path + (archive ? ": archives" : ": built-in configurations") +
+                                     " need OpenColorIO 2.2 or newer, and " + have +
+                                     ", which reads files (.ocio) of version " + known_versions());
+    } else if (major && !is_known(major, minor))
+        throw std::runtime_error(path + ": a configuration of version " + std::to_string(major) + "." +
+                                 std::to_string(minor) + "; " + have + ", which reads versions " + known_versions() +
+                                 ". The ACES configurations are published for several: the end of a name such as "
+                                 "…_ocio-v2.1.ocio says for which");
 }
 
 OCIO::ConstConfigRcPtr open_config(const char *path) {
     if (!path) path = std::getenv("OCIO");
-    if (path && *path) return open_file(path);
+    if (path && *path) {
+        check_version(path);
+        return OCIO::Config::CreateFromFile(path);
+    }
     std::istringstream text(std::string(reinterpret_cast<const char *>(blob_ocio), size_t(blob_ocio_end - blob_ocio)));
     return OCIO::Config::CreateFromStream(text);
 }
