@@ -82,8 +82,8 @@ __attribute__((format(printf, 2, 3)))
 #endif
 void command_note(const struct command *command, const char *format, ...);
 
-/* The man page (mdoc) and bash's completion, written to stdout from the same tables. */
-void print_man_page(void);
-void print_completion(void);
+/* The man pages (mdoc) of the program and of a command, written to stdout from the same tables. */
+void man_print_program(void);
+void man_print_command(const struct command *command);
 
 #endif
