@@ -129,7 +129,7 @@ static void variants(struct completion *c) {
     complete_offer(c, GLINT_NO_VARIANT, "leaves the slot out");
 }
 
-static void offer_values(struct completion *c, const struct glint_row *row) {
+static void offer_values(struct completion *c, const struct glint_pass *pass, const struct glint_row *row) {
     char about[TEXT];
     if (row->choices)
         for (size_t i = 0; row->choices[i]; i++)
@@ -138,7 +138,7 @@ static void offer_values(struct completion *c, const struct glint_row *row) {
         complete_offer(c, "true", row->initial != 0 ? "default" : NULL);
         complete_offer(c, "false", row->initial == 0 ? "default" : NULL);
     } else {
-        snprintf(about, sizeof about, "default, of %s to %s", value_text(row, row->lowest),
+        snprintf(about, sizeof about, "default of %s, %s to %s", pass->variant, value_text(row, row->lowest),
                  value_text(row, row->highest));
         complete_offer(c, value_text(row, row->initial), about);
     }
@@ -162,7 +162,7 @@ static void parameters(struct completion *c) {
             const struct glint_row *row = &all[i].rows[r];
             if (!glint_row_is_parameter(row)) continue;
             if (!valued) offer_before(c, row->name, '=', row->help);
-            else if (is_slot(row->name, name, '=')) offer_values(c, row);
+            else if (is_slot(row->name, name, '=')) offer_values(c, &all[i], row);
         }
     if (is_slot("pipeline", slot, '.') && !valued) complete_offer(c, "rays=", "rays a pixel");
 }
