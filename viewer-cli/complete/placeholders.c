@@ -74,12 +74,17 @@ static void offer_slot(struct completion *c, const struct glint_pass *pass) {
     complete_offer(c, pass->slot, pass->effect);
 }
 
+/* Passes of the survey are in no pipeline. */
+static void offer_slot_before(struct completion *c, const struct glint_pass *pass, char end) {
+    if (strcmp(pass->effect, "survey") != 0) offer_before(c, pass->slot, end, pass->effect);
+}
+
 static void offer_slot_equals(struct completion *c, const struct glint_pass *pass) {
-    offer_before(c, pass->slot, '=', pass->effect);
+    offer_slot_before(c, pass, '=');
 }
 
 static void offer_slot_dot(struct completion *c, const struct glint_pass *pass) {
-    offer_before(c, pass->slot, '.', pass->effect);
+    offer_slot_before(c, pass, '.');
 }
 
 static void offer_effect(struct completion *c, const struct glint_pass *pass) {
