@@ -22,6 +22,9 @@ bool glint_attributes_encode(struct glint_arena *arena, struct glint_attribute_l
 /* Fills `to` (zeroed) from the part's attributes and checks them: types, ranges, matrices, volumes. */
 bool glint_attributes_decode(struct glint_check *check, const struct glint_exr_part_info *part, enum glint_scope scope,
                              void *to);
+/* Sets OpenEXR's standard attributes worldToCamera and worldToNDC from a decoded frame. False if memory is exhausted. */
+bool glint_attributes_set_standard(struct glint_arena *arena, struct glint_attribute_list *list,
+                                   const struct glint_frame *frame);
 /* Replaces a rotation that is not precise to double by the nearest rotation, keeping the position. Sets rotation_error. */
 void glint_camera_make_rigid(struct glint_camera *camera);
 /* Whether the name is glint's: it begins with `glint.` */

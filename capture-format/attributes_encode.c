@@ -139,3 +139,27 @@ bool glint_attributes_encode(struct glint_arena *arena, struct glint_attribute_l
     }
     return true;
 }
+
+static bool set_m44f(struct glint_arena *arena, struct glint_attribute_list *list, const char *name,
+                     const double matrix[16]) {
+    float narrow[16];
+    struct glint_exr_attribute *to = NULL;
+    for (int i = 0; i < 16; i++) narrow[i] = (float)matrix[i];
+    for (size_t a = 0; a < list->count && !to; a++)
+        if (!strcmp(list->all[a].name, name)) to = &list->all[a];
+    if (!to) to = glint_attribute_push(arena, list);
+    if (!to) return false;
+    *to = (struct glint_exr_attribute){.name = name,
+                                       .type = GLINT_EXR_OPAQUE,
+                                       .type_name = "m44f",
+                                       .bytes = glint_arena_copy(arena, narrow, sizeof narrow),
+                                       .count = sizeof narrow};
+    return to->bytes != NULL;
+}
+
+bool glint_attributes_set_standard(struct glint_arena *arena, struct glint_attribute_list *list,
+                                   const struct glint_frame *frame) {
+    double to_camera[16], to_ndc[16];
+    glint_camera_standard(&frame->camera, frame->clip_y, to_camera, to_ndc);
+    return set_m44f(arena, list, "worldToCamera", to_camera) && set_m44f(arena, list, "worldToNDC", to_ndc);
+}

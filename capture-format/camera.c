@@ -17,6 +17,37 @@ void glint_camera_position(const struct glint_camera *camera, double position[3]
     }
 }
 
+static void multiply(const double left[16], const double right[16], double out[16]) {
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++) {
+            out[4 * i + j] = 0;
+            for (int k = 0; k < 4; k++) out[4 * i + j] += left[4 * i + k] * right[4 * k + j];
+        }
+}
+
+static void transpose(double m[16]) {
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < i; j++) {
+            const double above = m[4 * j + i];
+            m[4 * j + i] = m[4 * i + j];
+            m[4 * i + j] = above;
+        }
+}
+
+void glint_camera_standard(const struct glint_camera *camera, enum glint_clip_y clip_y, double world_to_camera[16],
+                           double world_to_ndc[16]) {
+    const double *clip = camera->view_to_clip, y_up = clip_y == GLINT_CLIP_Y_DOWN ? -1 : 1;
+    /* w of clip space is the depth, and the signs of x and y say which way the picture's axes run in view space. */
+    const double axes[16] = {[0] = copysign(1, clip[0]), [5] = y_up * copysign(1, clip[5]), [10] = clip[14], [15] = 1};
+    const double window[16] = {0.5, 0, 0, 0.5, 0, -y_up / 2, 0, 0.5, 0, 0, 1, 0, 0, 0, 0, 1};
+    double to_clip[16];
+    multiply(axes, camera->world_to_view, world_to_camera);
+    transpose(world_to_camera);
+    multiply(clip, camera->world_to_view, to_clip);
+    multiply(window, to_clip, world_to_ndc);
+    transpose(world_to_ndc);
+}
+
 /* R·Rᵀ, and its largest difference from the identity. */
 static double product_with_transpose(const double *m, double out[3][3]) {
     double largest = 0;

@@ -424,6 +424,20 @@ static bool check_headers(const struct glint_edit *edit, const char *path, struc
     return ok;
 }
 
+/* The camera for other programs follows from glint's attributes, which may have changed. */
+static bool renew_standard(struct glint_edit *edit, const char *path, struct glint_error *err) {
+    const size_t i = glint_edit_find(edit, "gbuffer");
+    if (i == edit->count) return true;
+    struct glint_edit_part *part = &edit->parts[i];
+    struct glint_frame frame = {0};
+    struct glint_check check = {.file = path, .err = err};
+    if (!glint_attributes_decode(&check, &part->info, GLINT_SCOPE_FRAME, &frame)) return false;
+    if (!glint_attributes_set_standard(&edit->arena, &part->attributes, &frame)) return fail_memory(edit, err);
+    part->info.attributes = part->attributes.all;
+    part->info.attribute_count = part->attributes.count;
+    return true;
+}
+
 static bool fill_part(struct glint_edit *edit, size_t i, struct glint_exr_part *to, struct glint_error *err) {
     struct glint_edit_part *part = &edit->parts[i];
     struct glint_exr_channel *channels =
@@ -450,7 +464,7 @@ static bool fill_part(struct glint_edit *edit, size_t i, struct glint_exr_part *
 
 bool glint_edit_write(struct glint_edit *edit, const char *path, struct glint_error *err) {
     if (!check_target(edit, path, err) || (!in_same_folder(edit, path) && !resolve_all(edit, err)) ||
-        !check_headers(edit, path, err))
+        !check_headers(edit, path, err) || !renew_standard(edit, path, err))
         return false;
     struct glint_exr_part *parts = calloc(edit->count + 1, sizeof *parts);
     bool ok = parts || fail_memory(edit, err);

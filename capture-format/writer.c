@@ -14,7 +14,7 @@ struct glint_writer {
     struct glint_writer_part **parts;
     size_t count, capacity;
     bool has_frame, finished, started;
-    struct glint_frame frame;
+    struct glint_frame frame, as_read;
     struct glint_thread worker;
     bool result;
     struct glint_error error;
@@ -49,12 +49,12 @@ bool glint_writer_set_frame(struct glint_writer *writer, const struct glint_fram
     struct glint_arena arena = {0};
     struct glint_attribute_list list = {0};
     struct glint_check check = {.file = writer->path, .err = err};
-    struct glint_frame back = {0};
     bool ok = glint_attributes_encode(&arena, &list, GLINT_SCOPE_FRAME, frame) ||
               glint_fail(err, GLINT_ERROR_USAGE, "%s: part gbuffer: expected enums and counts in range, found others",
                          writer->path);
     const struct glint_exr_part_info part = {.name = "gbuffer", .attributes = list.all, .attribute_count = list.count};
-    ok = ok && glint_attributes_decode(&check, &part, GLINT_SCOPE_FRAME, &back);
+    writer->as_read = (struct glint_frame){0};
+    ok = ok && glint_attributes_decode(&check, &part, GLINT_SCOPE_FRAME, &writer->as_read);
     glint_arena_finish(&arena);
     if (!ok) return false;
     writer->frame = *frame;
@@ -137,7 +137,8 @@ static bool attach_frame(struct glint_writer *writer, struct glint_error *err) {
     if (!writer->has_frame)
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: part gbuffer: expected glint_writer_set_frame before finish",
                           writer->path);
-    if (!glint_attributes_encode(&gbuffer->arena, &gbuffer->attributes, GLINT_SCOPE_FRAME, &writer->frame))
+    if (!glint_attributes_encode(&gbuffer->arena, &gbuffer->attributes, GLINT_SCOPE_FRAME, &writer->frame) ||
+        !glint_attributes_set_standard(&gbuffer->arena, &gbuffer->attributes, &writer->as_read))
         return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", writer->path);
     gbuffer->file.attributes = gbuffer->as_read.attributes = gbuffer->attributes.all;
     gbuffer->file.attribute_count = gbuffer->as_read.attribute_count = gbuffer->attributes.count;

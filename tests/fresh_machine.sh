@@ -3,6 +3,8 @@
 # committed tree comes, and .ci/run, or what GLINT_FRESH_RUN names (`dev readme`: all of README.md's commands). Speaks TAP on stdout; what
 # the commands say goes to stderr. ./dev fresh calls this.
 #
+# fresh_machine.sh FILE.deb, which ./dev package calls, installs that package there instead, by apt alone, and runs what it holds.
+#
 # Needs root, debootstrap, git, and 10 GB in $TMPDIR (/var/tmp when unset). Mirrors, proxies and keys are those of this machine's apt.
 # GLINT_FRESH_KEEP=1 leaves the folder behind when something fails.
 set -eu
@@ -51,6 +53,37 @@ configure_apt() {
     done
 }
 
+put_tree() {
+    tar -x -C "$root/root/glint" -f "$work/tree.tar"
+    what="the first commands of README.md" run="/root/glint/${GLINT_FRESH_RUN:-.ci/run}"
+}
+
+# Nothing but the package and what it depends on and recommends comes in. Man pages are among what a minimal Debian keeps from its disk.
+put_package() {
+    what="the package installs, runs, and is removed without a trace" run="sh -e /root/glint/use"
+    cp "$work/glint.deb" "$root/root/glint/"
+    cat >"$root/root/glint/use" <<'END'
+cd /root/glint
+apt-get update -q
+DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 apt-get install -y -q ./glint.deb
+dpkg --verify glint
+glint --version
+glint devices
+glint sample room --size 96x54 --cube-size 16 -o room.exr
+glint validate room.exr
+glint replay room.exr -o run
+glint view run -o run.png
+glint extract room.exr -o textures
+glint pack textures/manifest.json -o again.exr
+cmp room.exr again.exr
+glint export run -o run.exr --multilayer
+zcat /usr/share/man/man1/glint-replay.1.gz | grep -q '^.Dt GLINT-REPLAY 1'
+apt-get purge -y -q glint
+[ -z "$(find / -xdev -path /root -prune -o -path /proc -prune -o -name '*glint*' ! -path '/var/lib/apt/*' ! -path '/var/log/*' ! -path '/var/cache/*' -print)" ]
+echo "1 passed, 0 failed"
+END
+}
+
 # Runs in namespaces of its own: what it mounts and starts is gone when it ends, however that comes about.
 inside() {
     work=$1 root=$1/root
@@ -59,19 +92,19 @@ inside() {
     debootstrap --variant=minbase "$release" "$root" "$mirror" >&2 || bail "debootstrap $release from $mirror ended with $?"
     configure_apt
     mkdir "$root/root/glint"
-    tar -x -C "$root/root/glint" -f "$work/tree.tar"
+    if [ -e "$work/glint.deb" ]; then put_package; else put_tree; fi
     mount -t proc proc "$root/proc"
     for folder in dev sys; do mount --rbind /$folder "$root/$folder"; done
     echo "ok 1 - a new Debian ($release)"
     { env -i PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin HOME=/root TERM=dumb \
         ${http_proxy:+http_proxy="$http_proxy"} ${https_proxy:+https_proxy="$https_proxy"} ${no_proxy:+no_proxy="$no_proxy"} \
         ${GLINT_PATIENCE:+GLINT_PATIENCE="$GLINT_PATIENCE"} \
-        chroot "$root" /root/glint/${GLINT_FRESH_RUN:-.ci/run} 2>&1 </dev/null && : >"$work/passed"; } | tee "$work/said" >&2
+        chroot "$root" $run 2>&1 </dev/null && : >"$work/passed"; } | tee "$work/said" >&2
     last=$(tail -n 1 "$work/said")
     if [ -e "$work/passed" ]; then
-        printf 'ok 2 - the first commands of README.md\n# %s\n' "$last"
+        printf 'ok 2 - %s\n# %s\n' "$what" "$last"
     else
-        printf 'not ok 2 - the first commands of README.md\n'
+        printf 'not ok 2 - %s\n' "$what"
         tail -n 30 "$work/said" | sed 's/^/# /'
         exit 1
     fi
@@ -101,8 +134,12 @@ outside() {
     [ "$(df -k --output=avail "$work" | tail -n 1)" -gt 10000000 ] || bail "less than 10 GB are free in ${work%/*}: TMPDIR=ELSEWHERE"
     unshare --mount --pid --fork true 2>/dev/null || bail "this system does not let root mount (a container without privileges?)"
     # The tree may belong to somebody else than root.
-    git -c safe.directory='*' -C "$tree" archive HEAD >"$work/tree.tar" || bail "$tree is no clone"
-    [ -z "$(git -c safe.directory='*' -C "$tree" status --porcelain)" ] || echo "# what is not committed is left out"
+    if [ $# = 1 ]; then
+        cp "$1" "$work/glint.deb" || bail "cannot read the package $1"
+    else
+        git -c safe.directory='*' -C "$tree" archive HEAD >"$work/tree.tar" || bail "$tree is no clone"
+        [ -z "$(git -c safe.directory='*' -C "$tree" status --porcelain)" ] || echo "# what is not committed is left out"
+    fi
     sources >"$work/sources"
     grep -q " $release\$" "$work/sources" ||
         printf '%s\n' "http://deb.debian.org/debian $release" "http://deb.debian.org/debian-security $release-security" >"$work/sources"
@@ -116,6 +153,6 @@ outside() {
 if [ "$(id -u)" != 0 ]; then
     command -v sudo >/dev/null || bail "needs root, and there is no sudo"
     exec sudo env ${TMPDIR:+TMPDIR="$TMPDIR"} ${GLINT_FRESH_KEEP:+GLINT_FRESH_KEEP=1} ${GLINT_PATIENCE:+GLINT_PATIENCE="$GLINT_PATIENCE"} \
-        ${GLINT_FRESH_RUN:+GLINT_FRESH_RUN="$GLINT_FRESH_RUN"} "$0"
+        ${GLINT_FRESH_RUN:+GLINT_FRESH_RUN="$GLINT_FRESH_RUN"} "$0" "$@"
 fi
-if [ "${1-}" = inside ]; then inside "$2"; else outside; fi
+if [ "${1-}" = inside ]; then inside "$2"; else outside "$@"; fi

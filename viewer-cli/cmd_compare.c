@@ -22,7 +22,7 @@ enum { KEY_PRESETS = 256, KEY_REPEAT };
 /* clang-format off */
 static const struct argp_option options[] = {
     {"output",  'o',         "FOLDER",     0, "Folder for the table (table.json, table.csv), a sheet of pictures (sheet.png) and a page (index.html)", 0},
-    {"presets", KEY_PRESETS, "NAME|FILE,...", 0, "Presets to compare (default: all but reference), of ", 0},
+    {"presets", KEY_PRESETS, "PRESET|FILE,...", 0, "Presets to compare (default: all but reference), of ", 0},
     {"set",     KEY_SET,     "PRESET:SLOT.PARAM=VALUE", 0, "Set a parameter of one preset; glint passes SLOT lists them", 0},
     {"repeat",  KEY_REPEAT,  "N",          0, "Timed rounds; every round runs each preset once (default 3)", 0},
     {"device",  'd',         "INDEX|NAME", 0, "Vulkan device to use; glint devices lists them (default: $GLINT_DEVICE, else the first usable one in that list)", 0},

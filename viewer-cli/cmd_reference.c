@@ -27,7 +27,7 @@ static const struct argp_option options[] = {
     {"noise",       KEY_NOISE,       "E",    0, "Stop when the noise is at most this fraction of the mean reflection, such as 0.01 for 1 %", 0},
     {"sensitivity", KEY_SENSITIVITY, "RAYS", OPTION_ARG_OPTIONAL, "Also trace with each assumption that the capture cannot settle, such as the thickness of objects, halved and doubled, "
         "with this number of rays per pixel (default 32)", 0},
-    {"like",        KEY_LIKE,        "NAME|FILE", 0, "Make the reference for this preset: with the lobe that it samples and with its fog", 0},
+    {"like",        KEY_LIKE,        "PRESET|FILE", 0, "Make the reference for this preset: with the lobe that it samples and with its fog", 0},
     USE_OPTION,
     {"set",         KEY_SET,         "SLOT.PARAM=VALUE", 0, "Set a parameter, such as pipeline.fog=false to compare with the truth, which has no fog", 0},
     ALL_OPTION,

@@ -31,12 +31,12 @@ static const struct argp_option options[] = {
     PIPELINE_OPTIONS,
     {"repeat",      KEY_REPEAT,      "N",    0, "Timed rounds after the warm-up (default: one round without warm-up)", 0},
     {"warmup",      KEY_WARMUP,      "N",    0, "Warm-up rounds before the timed rounds of --repeat (default 1)", 0},
-    {"precision",   KEY_PRECISION,   "TYPE", 0, "Format of images that are declared as half: half (default) or float", 0},
+    {"precision",   KEY_PRECISION,   "half|float", 0, "Format of images that are declared as half: half (default) or float", 0},
     {"diagnostics", KEY_DIAGNOSTICS, NULL,   0, "Also write the end reason, steps and fetches of each ray for all passes that run. All other images keep their bits", 0},
     {"no-cache",    KEY_NO_CACHE,    NULL,   0, "Run every pass even if nothing changed, and every frame even if it is complete", 0},
     {"cache",       KEY_CACHE,       "DIR",  0, "Folder in which results for cube maps are kept for later calls, up to 4 GiB; none disables it. Not used with --no-cache "
         "and --repeat (default: $GLINT_CACHE, else $XDG_CACHE_HOME/glint, else ~/.cache/glint)", 0},
-    {"against",     KEY_AGAINST,     "WHAT", 0, "Compare with a better solution. truth: the path-traced reflection and mirror rays in the capture (truth.*); turns on "
+    {"against",     KEY_AGAINST,     "truth|reference|both", 0, "Compare with a better solution. truth: the path-traced reflection and mirror rays in the capture (truth.*); turns on "
         "--diagnostics; use downsample.jitter=false to compare rays. reference: the preset reference on the same capture; "
         "reference=RUN: a run of glint reference. both (or both=RUN): both, and the difference between truth and reference. The "
         "truth has no fog: with truth, both and a RUN without fog it is left out here, too. With -o the run gets images of the error, "

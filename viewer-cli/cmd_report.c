@@ -19,7 +19,7 @@ enum { KEY_IMAGES = 256, KEY_CHART };
 static const struct argp_option options[] = {
     {"output", 'o',        "FILE",     0, "File to write: FILE.html for the page, FILE.svg for one of its charts", 0},
     OVERWRITE_OPTION,
-    {"images", KEY_IMAGES, "NAME,...", 0, "Images of the runs to show (default: all of full or half resolution)", 0},
+    {"images", KEY_IMAGES, "IMAGE,...", 0, "Images of the runs to show (default: all of full or half resolution)", 0},
     {"chart",  KEY_CHART,  "N",        0, "Number of the chart that FILE.svg contains (default 1)", 0},
     {0},
 };

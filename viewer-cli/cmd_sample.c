@@ -60,7 +60,7 @@ static const struct argp_option options[] = {
     {"frames",      KEY_FRAMES,      "N",     0, "Number of frames; the captures share their cube maps (default 1)", 0},
     {"first-frame", KEY_FIRST_FRAME, "N",     0, "Number of the first frame (default 1)", 0},
     {"cut",         KEY_CUT,         NULL,    0, "Mark the first frame as the start of a shot, so that no history is used", 0},
-    {"probes",      KEY_PROBES,      "KIND",  0, "Contents of the cube maps. imperfect: as in games, only static objects, simplified, with metals as diffuse; perfect: "
+    {"probes",      KEY_PROBES,      "imperfect|perfect|auto",  0, "Contents of the cube maps. imperfect: as in games, only static objects, simplified, with metals as diffuse; perfect: "
         "the exact scene; auto: placed automatically, for glTF files", 0},
     {"truth",       KEY_TRUTH,       "N",     0, "Path trace the true reflection with N rays per pixel into truth.* (default 0: no truth)", 0},
     {"truth-of-pixels", KEY_TRUTH_OF_PIXELS, NULL, 0, "Average the truth over the area of each pixel, as over the jitter of a static camera, instead of at the frame's single "
@@ -317,7 +317,7 @@ static enum status cmd_sample_run(int argc, char **argv) {
 
 const struct command cmd_sample = {
     .name = "sample",
-    .arguments = "NAME|SCENE.glb -o FILE",
+    .arguments = "SCENE|FILE.glb -o FILE",
     .summary = "render a capture with the stand-in engine",
     .description =
         "Renders a built-in scene or a glTF file and dumps it as an engine would: G-buffer, lit colour, cube maps, "

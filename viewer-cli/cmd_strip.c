@@ -12,8 +12,8 @@ enum { KEY_KEEP = 256, KEY_DROP };
 
 /* clang-format off */
 static const struct argp_option options[] = {
-    {"keep",   KEY_KEEP, "LIST", 0, "Leave out everything else. Parts and channels that every capture must have stay all the same", 0},
-    {"drop",   KEY_DROP, "LIST", 0, "Leave out these", 0},
+    {"keep",   KEY_KEEP, "PART[:CHANNEL],...", 0, "Leave out everything else. Parts and channels that every capture must have stay all the same", 0},
+    {"drop",   KEY_DROP, "PART[:CHANNEL],...", 0, "Leave out these", 0},
     {"output", 'o',      "G",    0, "The copy, a new file", 0},
     OVERWRITE_OPTION,
     {0},

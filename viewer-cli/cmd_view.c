@@ -62,10 +62,10 @@ static const struct argp_option options[] = {
     {"bins",      KEY_BINS,      "N",        0, "Number of histogram bins (default 16)", 0},
     {"json",      'j',           NULL,       0, "Print --stats and --histogram as JSON", 0},
     {"to-tev",    KEY_TEV,       "HOST",     0, "Show the image in the viewer tev, which runs at HOST or HOST:PORT", 0},
-    {"image",     KEY_IMAGE,     "NAME,...", 0, "Image of a run (default: its last colour image); several with --sheet", 0},
+    {"image",     KEY_IMAGE,     "IMAGE,...", 0, "Image of a run (default: its last colour image); several with --sheet", 0},
     {"sheet",     KEY_SHEET,     NULL,       0, "Show the images of a run of full and half resolution by pass, or those of --image, in one picture; of several runs "
         "beside each other with a common range", 0},
-    {"part",      KEY_PART,      "NAME",     0, "Part of a file (default: lit, or the first with colour)", 0},
+    {"part",      KEY_PART,      "PART",     0, "Part of a file (default: lit, or the first with colour)", 0},
     {"layer",     KEY_LAYER,     "NAME",     0, "Layer or channel of the part, such as depth, normal, material.roughness", 0},
     {"as",        KEY_AS,        "KIND",     0, "Type of display (default: by unit and channels): ", 0},
     {"range",     KEY_RANGE,     "LOW,HIGH", 0, "Values at the ends of the colour scale", 0},
@@ -282,7 +282,7 @@ static enum status cmd_view_run(int argc, char **argv) {
 
 const struct command cmd_view = {
     .name = "view",
-    .arguments = "IMAGE|RUN... [-o P.png]",
+    .arguments = "FILE|RUN... [-o P.png]",
     .summary = "show an image, a part of a capture or a run as a picture",
     .description =
         "Writes a PNG of an EXR layer (FILE:PART:LAYER), a part of a capture or an image of a run (RUN:IMAGE). "

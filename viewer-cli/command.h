@@ -56,6 +56,7 @@ extern const struct command
     cmd_check,
     cmd_view,
     cmd_report,
+    cmd_export,
     cmd_selftest,
     cmd_passes,
     cmd_devices;
@@ -84,8 +85,8 @@ __attribute__((format(printf, 2, 3)))
 #endif
 void command_note(const struct command *command, const char *format, ...);
 
-/* The man page (mdoc) and bash's completion, written to stdout from the same tables. */
-void print_man_page(void);
-void print_completion(void);
+/* The man pages (mdoc) of the program and of a command, written to stdout from the same tables. */
+void man_print_program(void);
+void man_print_command(const struct command *command);
 
 #endif

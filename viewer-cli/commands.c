@@ -28,6 +28,7 @@ const struct command *const commands[] = {
     &cmd_check,
     &cmd_view,
     &cmd_report,
+    &cmd_export,
     &cmd_selftest,
     &cmd_passes,
     &cmd_devices,

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "complete/complete.h"
 #include "io/table.h"
 #include "nearest.h"
 
@@ -36,6 +37,14 @@ static enum status unknown_command(const char *name) {
     return STATUS_USAGE;
 }
 
+static enum status print_man_page(const char *name) {
+    const struct command *command = name ? command_find(name) : NULL;
+    if (name && !command) return unknown_command(name);
+    if (command) man_print_command(command);
+    else man_print_program();
+    return STATUS_DONE;
+}
+
 static enum status help_command(int argc, char **argv) {
     if (argc < 2) {
         print_help(stdout);
@@ -59,9 +68,10 @@ static enum status dispatch(int argc, char **argv) {
         puts("glint " GLINT_VERSION);
         return STATUS_DONE;
     }
-    /* Undocumented: the build generates the man page and the completion with these. */
-    if (!strcmp(first, "--man") || !strcmp(first, "--completion")) {
-        (first[2] == 'm' ? print_man_page : print_completion)();
+    /* Undocumented: the build makes the man pages with the one, and shells complete words with the other. */
+    if (!strcmp(first, "--man")) return print_man_page(argc > 2 ? argv[2] : NULL);
+    if (!strcmp(first, "--complete")) {
+        complete_print(argc - 2, argv + 2);
         return STATUS_DONE;
     }
     if (first[0] == '-') {

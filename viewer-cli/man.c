@@ -1,4 +1,4 @@
-/* Generates the man page and the completion of bash from the tables that --help prints. */
+/* Generates the man pages from the tables that --help prints. */
 #include "command.h"
 
 #include <ctype.h>
@@ -46,27 +46,41 @@ static void print_option(const struct command *command, const struct argp_option
     free(help);
 }
 
-static void print_command(const struct command *command) {
-    printf(".Ss glint %s\n.Nm glint %s\n.Op Ar option ...\n.Ar ", command->name, command->name);
+static void print_head(const char *title) {
+    printf(".\\\" Made by glint --man from the tables of --help.\n.Dd November 26, 2026\n.Dt %s 1\n.Os\n.Sh NAME\n",
+           title);
+}
+
+void man_print_command(const struct command *command) {
+    char title[64];
+    snprintf(title, sizeof title, "GLINT-%s", command->name);
+    for (char *p = title; *p; p++) *p = (char)toupper((unsigned char)*p);
+    print_head(title);
+    printf(".Nm glint\\-%s\n.Nd ", command->name);
+    print_text(command->summary);
+    printf(".Sh SYNOPSIS\n.Nm glint %s\n.Op Ar option ...\n.Ar ", command->name);
     print_text(command->arguments[0] ? command->arguments : "\\&");
-    printf(".Pp\n");
+    printf(".Sh DESCRIPTION\n");
     print_text(command->description);
-    printf(".Bl -tag -width Ds\n");
+    printf(".Pp\nThe options are:\n.Bl -tag -width Ds\n");
     for (const struct argp_option *o = command->options; !ends(o); o++)
         if (o->name) print_option(command, o);
     for (const struct argp_option *o = command_common; !ends(o); o++) print_option(command, o);
-    printf(".El\n.Pp\n");
+    printf(".El\n.Pp\nOptions may follow arguments.\nEnvironment variables and exit status are those of\n.Xr glint 1 "
+           ".\n.Sh EXAMPLES\n");
     for (const struct example *e = command->examples; e->line; e++) {
-        print_text(e->what);
+        if (e != command->examples) printf(".Pp\n");
         printf(".Dl ");
         print_text(e->line);
+        printf(".Pp\n");
+        print_text(e->what);
     }
+    printf(".Sh SEE ALSO\n.Xr glint 1\n");
 }
 
-void print_man_page(void) {
-    printf(".\\\" Made by glint --man from the tables of --help.\n"
-           ".Dd November 21, 2026\n.Dt GLINT 1\n.Os\n"
-           ".Sh NAME\n.Nm glint\n.Nd replay the reflection passes of captured frames offline\n"
+void man_print_program(void) {
+    print_head("GLINT");
+    printf(".Nm glint\n.Nd replay the reflection passes of captured frames offline\n"
            ".Sh SYNOPSIS\n.Nm\n.Ar command\n.Op Ar option ...\n.Op Ar argument ...\n"
            ".Nm\n.Fl \\-help | \\-version\n"
            ".Sh DESCRIPTION\n"
@@ -74,9 +88,13 @@ void print_man_page(void) {
            "capture.\n.Nm\n"
            "runs any subset of the reflection passes on it with Vulkan and writes every intermediate image back.\n"
            "Results go to standard output, messages to standard error; commands that report have\n.Fl \\-json .\n"
-           ".Sh COMMANDS\n");
-    for (size_t i = 0; i < command_count; i++) print_command(commands[i]);
-    printf(".Sh ENVIRONMENT\n.Bl -tag -width GLINT_VALIDATION\n"
+           ".Pp\nThe commands, each with a page of its own:\n.Bl -tag -width Ds\n");
+    for (size_t i = 0; i < command_count; i++) {
+        printf(".It Xr glint\\-%s 1\n", commands[i]->name);
+        print_text(commands[i]->summary);
+    }
+    printf(".El\n"
+           ".Sh ENVIRONMENT\n.Bl -tag -width GLINT_VALIDATION\n"
            ".It Ev GLINT_CACHE\nThe folder in which results for cube maps are kept; none disables it.\n"
            ".It Ev GLINT_DEVICE\nThe device to use: its index or a part of its name.\n"
            ".It Ev GLINT_PASSES\nA folder whose shaders replace the built-in ones, such as a source tree's\n.Pa "
@@ -91,23 +109,4 @@ void print_man_page(void) {
            ":\nthe cases could not be run.\n"
            ".It 130\nInterrupted; no incomplete files are left.\n.El\n"
            ".Sh SEE ALSO\n.Xr exrheader 1 ,\n.Xr oiiotool 1\n");
-}
-
-void print_completion(void) {
-    printf("# bash completion for glint, made by glint --completion from the tables of --help\n"
-           "_glint() {\n    local word=${COMP_WORDS[COMP_CWORD]} options=\n    case ${COMP_WORDS[1]-} in\n");
-    for (size_t i = 0; i < command_count; i++) {
-        printf("    %s) options='", commands[i]->name);
-        for (const struct argp_option *o = commands[i]->options; !ends(o); o++)
-            if (o->name) printf("--%s%s ", o->name, o->arg ? "=" : "");
-        for (const struct argp_option *o = command_common; !ends(o); o++) printf("--%s= ", o->name);
-        printf("--help' ;;\n");
-    }
-    printf("    esac\n    COMPREPLY=()\n    if [ \"$COMP_CWORD\" = 1 ]; then\n"
-           "        mapfile -t COMPREPLY < <(compgen -W 'help");
-    for (size_t i = 0; i < command_count; i++) printf(" %s", commands[i]->name);
-    printf("' -- \"$word\")\n    elif [[ $word == -* ]]; then\n"
-           "        mapfile -t COMPREPLY < <(compgen -W \"$options\" -- \"$word\")\n"
-           "        [[ ${COMPREPLY[0]-} == *= ]] && compopt -o nospace\n    fi\n}\n"
-           "complete -o default -F _glint glint\n");
 }

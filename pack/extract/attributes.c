@@ -216,12 +216,17 @@ static json_t *unknown_of(const struct glint_exr_attribute *a) {
     return bytes;
 }
 
+/* The standard attributes of OpenEXR that the writer makes from glint's. */
+static bool follows_from_camera(const struct glint_exr_part_info *part, const struct glint_exr_attribute *a) {
+    return !strcmp(part->name, "gbuffer") && (!strcmp(a->name, "worldToCamera") || !strcmp(a->name, "worldToNDC"));
+}
+
 static bool add_unknown(const struct glint_exr_part_info *part, json_t *out, struct glint_error *err) {
     json_t *unknown = json_object();
     bool ok = unknown != NULL;
     for (size_t i = 0; ok && i < part->attribute_count; i++) {
         const struct glint_exr_attribute *a = &part->attributes[i];
-        if (!strncmp(a->name, "glint.", 6)) continue;
+        if (!strncmp(a->name, "glint.", 6) || follows_from_camera(part, a)) continue;
         json_t *value = unknown_of(a);
         ok = value && !json_object_set_new(unknown, a->name, value);
         if (!ok)

@@ -130,10 +130,11 @@ json_t *run_record(const struct glint_replay *replay, const struct run *run) {
     for (size_t p = 0; p < run->graph->pass_count; p++)
         json_array_append_new(passes, pass_record(&replay->results, run, p));
     return json_pack(
-        "{si s{ssss} so sI s{so so} sI sI so s{s[ii]s[ii]} ss sb so so sI so sb so so so so}", "format", 1, "tool",
+        "{si s{ssss} so sI s{so so ss} sI sI so s{s[ii]s[ii]} ss sb so so sI so sb so so so so}", "format", 1, "tool",
         "name", "glint", "version", GLINT_VERSION, "device", device_record(&run->gpu->info), "frame",
         (json_int_t)frame->number, "camera", "world_to_view", matrix_record(frame->camera.world_to_view),
-        "view_to_clip", matrix_record(frame->camera.view_to_clip), "rays",
+        "view_to_clip", matrix_record(frame->camera.view_to_clip), "clip_y",
+        frame->clip_y == GLINT_CLIP_Y_DOWN ? "down" : "up", "rays",
         (json_int_t)glint_pipeline_rays(run->plan->pipeline), "first_ray", (json_int_t)run->plan->pipeline->first_ray,
         "preset", text_or_null(run->plan->pipeline->name), "resolution", "full", (int)full[0], (int)full[1], "half",
         (int)half[0], (int)half[1], "precision", options->float_precision ? "float" : "half", "diagnostics",

@@ -17,7 +17,7 @@ WRITERS = [
     ("png", "view run -o"), ("png", "diff run other -o"), ("png", "diff run other --side-by-side"), ("png", "diff run other --flicker"),
     ("html", "diff run other --html"), ("svg", "probe s.exr 20,20 -o"), ("html", "report run -o"),
     ("exr", "set s.exr frame=7 -o"), ("exr", "crop s.exr 0,0,32,16 -o"), ("exr", "strip s.exr --drop truth -o"),
-    ("exr", "pack extracted/manifest.json -o"), ("exr", "sample room --light 4 --size 32x18 --cube-size 8 -o"),
+    ("exr", "export run -o"), ("exr", "pack extracted/manifest.json -o"), ("exr", "sample room --light 4 --size 32x18 --cube-size 8 -o"),
     ("json", "tune s.exr --vary screen_trace.cells --tries 2 --repeat 0 --rays 1 --budget-fetches 200% --folder tuned -o"),
 ]
 
@@ -55,7 +55,7 @@ class Tests:
         os.link("s.exr", "hard.exr")
         for kind, command in WRITERS:
             for name in ("s.exr", "./s.exr", "symbolic.exr", "hard.exr"):
-                if command.startswith(("pack", "sample")):
+                if command.startswith(("pack", "sample", "export")):
                     continue  # they do not read it, so that it is any capture to them
                 self.refused(f"{command} {name}", f"{name} is an input, too" if kind == "exr" else f"{name}: expected FILE.")
 

@@ -181,6 +181,29 @@ colorspaces:
             assert len(ours) == len(other) == 96 * 54 and len(set(ours)) > 1000
             assert max(abs(x - y) for p, q in zip(ours, other) for x, y in zip(p, q)) <= 1, words
 
+    def test_a_configuration_of_a_newer_version_is_told_what_works(self):
+        """The versions that the message names do work, and the next one does not."""
+        exr, png = self.make("any.exr", "--pattern", "constant:color=0.5,0.5,0.5", "8x8", "3"), self.path("any.png")
+
+        def view(version):
+            with open(self.path("version.ocio"), "w", encoding="utf-8") as file:
+                file.write(f"ocio_profile_version: {version}\nroles: {{default: a, scene_linear: a}}\n" + (
+                    "file_rules:\n  - !<Rule> {name: Default, colorspace: default}\n" if version[0] != "1" else "") +
+                    "displays:\n  d:\n    - !<View> {name: v, colorspace: a}\ncolorspaces:\n  - !<ColorSpace> {name: a}\n")
+            return subprocess.run([GLINT, "view", exr, "--ocio", self.path("version.ocio"), "-o", png], capture_output=True, text=True)
+        newer = view("9.7")
+        found = re.search(r"version.ocio: a configuration of version 9.7; this is OpenColorIO [\d.]+, which reads versions 1.0 and 2.0(?: to 2\.(\d+))?\.",
+                          newer.stderr)
+        assert newer.returncode == 1 and found, newer.stderr
+        newest = int(found[1] or 0)
+        for version in ("1", "2", f"2.{newest}"):
+            done = view(version)
+            assert done.returncode == 0, (version, done.stderr)
+        assert f"a configuration of version 2.{newest + 1}; " in view(f"2.{newest + 1}").stderr
+        if newest < 2:
+            done = subprocess.run([GLINT, "view", exr, "--ocio", "ocio://default", "-o", png], capture_output=True, text=True)
+            assert done.returncode == 1 and "ocio://default: built-in configurations need OpenColorIO 2.2 or newer" in done.stderr, done.stderr
+
     def test_percentiles_choose_the_range(self):
         path = self.make("wide.exr", "--pattern", "fill:left=0:right=100", "256x1", "1")
         png = self.path("half.png")

@@ -38,7 +38,7 @@ enum {
     {"all",     KEY_ALL,     NULL,             0, "Run every pass on every pixel, without the survey, the plan and lists of tiles. The image is the same, bit for bit", 0}
 /* The pipeline, and its role in the command. */
 #define WHOLE_PIPELINE_OPTIONS(what) \
-    {"preset",  'p',         "NAME|FILE",      0, what ": a preset's name or a JSON file (default mafia3)", 0}, \
+    {"preset",  'p',         "PRESET|FILE",    0, what ": a preset's name or a JSON file (default mafia3)", 0}, \
     USE_OPTION, \
     {"set",     KEY_SET,     "SLOT.PARAM=VALUE", 0, "Set a parameter (glint passes SLOT lists them); pipeline.PARAM sets it in all passes that have it", 0}, \
     {"shader",  KEY_SHADER,  "SLOT=FILE",      0, "Compile the slot's shader from this file instead of the built-in one", 0}, \

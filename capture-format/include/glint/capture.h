@@ -86,6 +86,12 @@ struct glint_camera {
 /* The camera's world position in units. It is solved for, since -Rᵀ·t of a rotation that is orthonormal to a float's 1e-7 only is
    wrong by 12 mm at 1,000 km from the origin. */
 void glint_camera_position(const struct glint_camera *camera, double position[3]);
+/* The camera as the two standard attributes of OpenEXR give it, for other programs: row-major matrices for row vectors, p' = p · M. worldToCamera
+   leads to camera space in units, +x to the right of the picture, +y to its top, +z away from the camera. worldToNDC leads, after
+   division by the fourth component, to (0, 0) at the top left and (1, 1) at the bottom right corner of the display window, jitter included;
+   its third component is z of glint's clip space. */
+void glint_camera_standard(const struct glint_camera *camera, enum glint_clip_y clip_y, double world_to_camera[16],
+                           double world_to_ndc[16]);
 
 struct glint_fog {
     float color[3];      /* radiance far inside the fog */

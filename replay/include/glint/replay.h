@@ -334,7 +334,7 @@ void glint_run_close(struct glint_run **run);
    "survey" (null when none was needed), "active_cubemaps",
    "cube_faces" {uploaded, filtered}: each the number of faces and the number without culling,
    "bad_values" [{image, slot (null: the capture's), channel, x, y, value, not_finite, clamped}, …],
-   "camera" {world_to_view, view_to_clip}, "seconds" by phase, "peak_memory_bytes", "warnings",
+   "camera" {world_to_view, view_to_clip, clip_y}, "seconds" by phase, "peak_memory_bytes", "warnings",
    "passes" [{slot, variant, ran, reason, cached, cached_work, dispatches, work {texels, of, rays}, host, shader,
    parameters {name: value}, time_ns {n, min, median, max, cold},
    images [{name, file, part, channels, unit, meaning, width, height, format}, …]}, …].

@@ -3,9 +3,12 @@
 
 #include <OpenColorIO/OpenColorIO.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -16,9 +19,60 @@ namespace OCIO = OCIO_NAMESPACE;
 
 namespace {
 
+// "1.0 and 2.0 to 2.1": the versions of configurations that this library reads, by its own word.
+std::string known_versions() {
+    std::string text;
+    for (unsigned major = 1; major < 100; major++) {
+        try {
+            OCIO::ConfigRcPtr config = OCIO::Config::Create();
+            config->setMajorVersion(major); // also sets the newest minor version of it
+            const std::string start = std::to_string(major), newest = std::to_string(config->getMinorVersion());
+            text += (major > 1 ? " and " : "") + start + ".0" + (newest != "0" ? " to " + start + "." + newest : "");
+        } catch (const OCIO::Exception &) {
+            break;
+        }
+    }
+    return text;
+}
+
+bool is_known(unsigned major, unsigned minor) {
+    try {
+        OCIO::Config::Create()->setVersion(major, minor);
+        return true;
+    } catch (const OCIO::Exception &) {
+        return false;
+    }
+}
+
+// Throws if the configuration was made for a newer library, with what works here.
+void check_version(const std::string &path) {
+    std::ifstream file(path);
+    std::string line;
+    unsigned major = 0, minor = 0;
+    bool archive = false;
+    for (int lines = 0; lines < 100 && std::getline(file, line); lines++) {
+        archive |= lines == 0 && line.compare(0, 2, "PK") == 0;
+        if (std::sscanf(line.c_str(), "ocio_profile_version: %u.%u", &major, &minor) > 0) break;
+    }
+    const std::string have = std::string("this is OpenColorIO ") + OCIO::GetVersion();
+    if (path.compare(0, 7, "ocio://") == 0 || archive) {
+        if (OCIO::GetVersionHex() < 0x02020000)
+            throw std::runtime_error(path + (archive ? ": archives" : ": built-in configurations") +
+                                     " need OpenColorIO 2.2 or newer, and " + have +
+                                     ", which reads files (.ocio) of version " + known_versions());
+    } else if (major && !is_known(major, minor))
+        throw std::runtime_error(path + ": a configuration of version " + std::to_string(major) + "." +
+                                 std::to_string(minor) + "; " + have + ", which reads versions " + known_versions() +
+                                 ". The ACES configurations are published for several: the end of a name such as "
+                                 "…_ocio-v2.1.ocio says for which");
+}
+
 OCIO::ConstConfigRcPtr open_config(const char *path) {
     if (!path) path = std::getenv("OCIO");
-    if (path && *path) return OCIO::Config::CreateFromFile(path);
+    if (path && *path) {
+        check_version(path);
+        return OCIO::Config::CreateFromFile(path);
+    }
     std::istringstream text(std::string(reinterpret_cast<const char *>(blob_ocio), size_t(blob_ocio_end - blob_ocio)));
     return OCIO::Config::CreateFromStream(text);
 }
