@@ -10,7 +10,7 @@
 #include "io/table.h"
 #include "options/run_source.h"
 
-enum { TRIES = 64, LINE = 100 };
+enum { TRIES = 64 };
 
 struct arguments {
     const char *run, *capture, *device, *against, *out;
@@ -95,26 +95,17 @@ static bool load_truth(struct explain *e, const char *against, struct glint_erro
 
 /* ---- Output ---- */
 
-/* Sentences as a paragraph, wrapped at the terminal's width. */
+/* A sentence a line. */
 static void print_sentences(const json_t *sentences) {
-    const int width = terminal_width() > 20 ? terminal_width() : LINE;
-    int column = 0;
     size_t i;
     const json_t *sentence;
     json_array_foreach(sentences, i, sentence) {
-        for (const char *word = json_string_value(sentence); *word;) {
-            const size_t length = strcspn(word, " ");
-            char text[300];
-            snprintf(text, sizeof text, "%.*s", (int)length, word);
-            text_clean(text);
-            const int columns = (int)text_width(text);
-            if (column && column + 1 + columns > width) column = 0, putchar('\n');
-            printf("%s%s", column ? " " : "", text);
-            column += columns + (column > 0);
-            word += length + (word[length] == ' ');
-        }
+        char *text = strdup(json_string_value(sentence));
+        if (!text) continue;
+        text_clean(text);
+        puts(text);
+        free(text);
     }
-    putchar('\n');
 }
 
 static bool write_page(const struct explain *e, const char *path, const json_t *sentences, struct glint_error *err) {

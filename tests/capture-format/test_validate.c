@@ -141,7 +141,7 @@ static void previous_half_a_colour(struct rewrite *r) {
     keep_previous(r, (const char *const[]){"depth.Z", "albedo.G", NULL});
 }
 static void steep_ground(struct rewrite *r) {
-    set_numbers(r, "sky", "glint.ground", 0, 90.5);
+    broken_numbers(r, "sky", "glint.ground", 0, 90.5);
 }
 static void far_level(struct rewrite *r) {
     rename_part(r, "probe.002.level1", "probe.002.level2");
@@ -155,13 +155,13 @@ static void same_level(struct rewrite *r) {
     p->part.height /= 2;
 }
 static void smoother_level(struct rewrite *r) {
-    set_numbers(r, "probe.002.level1", "glint.levelRoughness", 0, 0);
+    broken_numbers(r, "probe.002.level1", "glint.levelRoughness", 0, 0);
 }
 static void one_corner(struct rewrite *r) {
     rewrite_remove_attribute(r, "probe.002", "glint.boxMax");
 }
 static void flat_box(struct rewrite *r) {
-    set_numbers(r, "probe.002", "glint.boxMax", 1, -2);
+    broken_numbers(r, "probe.002", "glint.boxMax", 1, -2);
 }
 static void probe_alpha(struct rewrite *r) {
     rewrite_find(r, "probe.002.level1")->channels[0].name = "A";

@@ -176,7 +176,7 @@ static void add_words(const struct sweep *sweep, const struct curve *curve, size
     page_text(blocks, "text", text);
 }
 
-bool sweep_add_curve(const struct sweep *sweep, json_t *document, struct glint_error *err) {
+bool sweep_add_curve(const struct sweep *sweep, struct page_charts *charts, json_t *document, struct glint_error *err) {
     static const char *const files[] = {"parameter-error.svg", "parameter-time.svg", "parameter-fetches.svg"};
     struct curve curve;
     bool ok = true;
@@ -188,7 +188,7 @@ bool sweep_add_curve(const struct sweep *sweep, json_t *document, struct glint_e
         for (enum what what = ERROR; ok && what <= FETCHES; what++) {
             if (what == TIME && !sweep->rounds) continue;
             json_t *chart = chart_of(sweep, &curve, knee, what);
-            ok = chart ? sweep_path(sweep, files[what], path, err) && page_chart_write(path, chart, err)
+            ok = chart ? sweep_path(sweep, files[what], path, err) && page_chart_write(charts, path, chart, err)
                        : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
             page_chart(blocks, chart);
         }

@@ -159,23 +159,22 @@ static void add_facts(const struct sweep *sweep, json_t *document) {
     if (sweep->rounds) page_fact(document, "times", text);
 }
 
-static bool write_charts(const struct sweep *sweep, struct glint_error *err) {
-    struct page_charts charts = {0};
+static bool write_charts(const struct sweep *sweep, struct page_charts *charts, struct glint_error *err) {
     bool ok = true;
     for (size_t f = 0; ok && f < sweep->front_count; f++) {
         char path[4096], name[64];
         snprintf(name, sizeof name, "front-%s.svg", sweep->fronts[f].name);
         json_t *chart = chart_of(sweep, &sweep->fronts[f], false);
-        ok = chart ? sweep_path(sweep, name, path, err) && page_chart_write(&charts, path, chart, err)
+        ok = chart ? sweep_path(sweep, name, path, err) && page_chart_write(charts, path, chart, err)
                    : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
         json_decref(chart);
     }
-    page_charts_finish(&charts);
     return ok;
 }
 
 bool sweep_write_page(const struct sweep *sweep, struct glint_error *err) {
     char title[300], path[4096];
+    struct page_charts charts = {0};
     size_t length = 0;
     for (size_t a = 0; a < glint_space_axis_count(sweep->space) && length < sizeof title; a++)
         length += (size_t)snprintf(title + length, sizeof title - length, "%s%s", a ? ", " : "Sweep of ",
@@ -183,7 +182,7 @@ bool sweep_write_page(const struct sweep *sweep, struct glint_error *err) {
     json_t *document = page_create(title);
     if (!document) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     add_facts(sweep, document);
-    bool ok = sweep_add_curve(sweep, document, err);
+    bool ok = sweep_add_curve(sweep, &charts, document, err);
     for (size_t f = 0; f < sweep->front_count; f++) {
         const struct sweep_front *front = &sweep->fronts[f];
         snprintf(title, sizeof title, "By %s", front->title);
@@ -193,7 +192,8 @@ bool sweep_write_page(const struct sweep *sweep, struct glint_error *err) {
         add_changes(sweep, front, blocks);
     }
     ok = ok && sweep_path(sweep, "index.html", path, err) && page_store(sweep->out, document, err) &&
-         page_write(path, document, sweep->out, err) && write_charts(sweep, err);
+         page_write(path, document, sweep->out, err) && write_charts(sweep, &charts, err);
+    page_charts_finish(&charts);
     json_decref(document);
     return ok;
 }

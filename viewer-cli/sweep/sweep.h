@@ -91,10 +91,11 @@ double sweep_error(const struct sweep_row *row, const char *answer, const char *
 double sweep_time(const struct sweep *sweep, const struct sweep_row *row, const char *key, double *low, double *high);
 
 /* curve.c: a sweep of one parameter. */
+struct page_charts;
 /* The point beyond which larger values of the parameter reduce the error less; sweep->points if there is none or several axes. */
 size_t sweep_knee(const struct sweep *sweep);
 /* Adds charts of error and costs against the parameter, with the knee, and writes them as parameter-….svg; else does nothing. */
-bool sweep_add_curve(const struct sweep *sweep, json_t *document, struct glint_error *err);
+bool sweep_add_curve(const struct sweep *sweep, struct page_charts *charts, json_t *document, struct glint_error *err);
 
 /* sweep_table.c */
 void sweep_print(const struct sweep *sweep);
