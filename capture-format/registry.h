@@ -46,7 +46,13 @@ enum glint_attribute_kind {
     GLINT_KIND_PLANES,
     GLINT_KIND_PLANE
 };
-enum glint_range { GLINT_RANGE_ANY, GLINT_RANGE_POSITIVE, GLINT_RANGE_NOT_NEGATIVE, GLINT_RANGE_UNIT, GLINT_RANGE_ELEVATION };
+enum glint_range {
+    GLINT_RANGE_ANY,
+    GLINT_RANGE_POSITIVE,
+    GLINT_RANGE_NOT_NEGATIVE,
+    GLINT_RANGE_UNIT,
+    GLINT_RANGE_ELEVATION
+};
 enum glint_scope {
 #define SCOPE(id, role, type, place) GLINT_SCOPE_##id,
 #define ATTRIBUTE(...)

@@ -85,9 +85,9 @@ static json_t *probe_json(const struct glint_capture *capture, const struct glin
     json_t *json = json_pack("{s:i, s:f}", "level", (int)part->level, "roughness", roughness[part->level]);
     if (probe->has_ground) json_object_set_new(json, "ground_deg", json_real(probe->ground));
     if (probe->has_box)
-        json_object_update_new(json, json_pack("{s:o, s:o, s:o}", "center", json_numbers(probe->box.center, 3),
-                                               "box_min", json_numbers(probe->box.min, 3), "box_max",
-                                               json_numbers(probe->box.max, 3)));
+        json_object_update_new(json,
+                               json_pack("{s:o, s:o, s:o}", "center", json_numbers(probe->box.center, 3), "box_min",
+                                         json_numbers(probe->box.min, 3), "box_max", json_numbers(probe->box.max, 3)));
     return json;
 }
 

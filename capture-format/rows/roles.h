@@ -39,7 +39,7 @@ ROLE(cubemap, "cubemap", CUBE, false, true, false, false, "a local cube map: six
     CHANNEL("G",          true,  "radiance", "color", "")
     CHANNEL("B",          true,  "radiance", "color", "")
     CHANNEL("A",          true,  "1",        "",      "0 where the direction sees sky, 1 elsewhere")
-    CHANNEL("distance.Z", false, "m",        "",      "Euclidean distance from the centre; +inf where sky")
+    CHANNEL("distance.Z", false, "m",        "",      "Euclidean distance from the centre; +inf where sky. Some cube maps may have it and others not: rays are traced in these alone, and the others are looked up by direction")
 END(cubemap)
 ROLE(sky, "sky", CUBE, false, false, false, false, "the sky alone, as a cube map around the camera")
     CHANNEL("R", true, "radiance", "color", "")

@@ -158,15 +158,15 @@ static bool read_probe_level(struct run *run, size_t i, uint32_t l, void *data, 
 }
 
 static bool upload_levels(struct run *run, size_t i,
-                          bool (*read_level)(struct run *run, size_t i, uint32_t l, void *data, struct glint_error *err),
+                          bool (*read_level)(struct run *run, size_t i, uint32_t l, void *data,
+                                             struct glint_error *err),
                           struct glint_error *err) {
     const struct image_desc *desc = &run->images[i]->image.desc;
     size_t values = 0;
     for (uint32_t l = 0; l < desc->levels; l++) values += image_values(desc, l);
     uint32_t *data = malloc(values * sizeof *data), *at = data;
     bool ok = data || glint_fail(err, GLINT_ERROR_MEMORY, "image %s: out of memory", run->images[i]->image.name);
-    for (uint32_t l = 0; ok && l < desc->levels; at += image_values(desc, l++))
-        ok = read_level(run, i, l, at, err);
+    for (uint32_t l = 0; ok && l < desc->levels; at += image_values(desc, l++)) ok = read_level(run, i, l, at, err);
     ok = ok && upload_values(run, i, data, err);
     free(data);
     return ok;

@@ -85,11 +85,11 @@ static json_t *cubemaps_record(const struct survey_state *state) {
 
 json_t *survey_record(const struct survey_state *state, const struct glint_frame *frame) {
     const struct glint_survey *survey = &state->figures;
-    json_t *json =
-        json_pack("{sIsIsosososIsIsbsbsb}", "pixels", (json_int_t)survey->pixels, "sky", (json_int_t)survey->sky,
-                  "surfaces", pixels_record(&survey->surfaces), "reflecting", pixels_record(&survey->reflecting),
-                  "depth_m", range_record(survey->depth_m), "cubemaps", (json_int_t)survey->cubemaps, "volumes",
-                  (json_int_t)survey->volumes, "probe", survey->has_probe, "planar", survey->has_planar, "previous", survey->has_previous);
+    json_t *json = json_pack("{sIsIsosososIsIsbsbsb}", "pixels", (json_int_t)survey->pixels, "sky",
+                             (json_int_t)survey->sky, "surfaces", pixels_record(&survey->surfaces), "reflecting",
+                             pixels_record(&survey->reflecting), "depth_m", range_record(survey->depth_m), "cubemaps",
+                             (json_int_t)survey->cubemaps, "volumes", (json_int_t)survey->volumes, "probe",
+                             survey->has_probe, "planar", survey->has_planar, "previous", survey->has_previous);
     json_object_set_new(json, "counted_on", json_string(survey->on_device ? "device" : "host"));
     if (json && survey->on_device) json_object_set_new(json, "time_ns", time_record(&state->time));
     if (json && survey->active_surveyed) json_object_set_new(json, "active_cubemaps", cubemaps_record(state));

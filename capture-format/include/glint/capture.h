@@ -176,16 +176,18 @@ struct glint_sky {
    the finest is probe.NNN, the next ones are probe.NNN.level1, probe.NNN.level2, …, each of half the face size. */
 #define GLINT_MAX_LEVELS 16
 struct glint_probe_box {
-    double center[3];      /* world position */
-    double min[3], max[3]; /* relative to the centre, in units: everything in the probe is taken to lie on these faces */
+    double center[3]; /* world position */
+    double min[3],
+        max[3]; /* relative to the centre, in units: everything in the probe is taken to lie on these faces */
 };
 struct glint_probe {
     bool has_roughness;
-    double roughness; /* perceptual roughness of the surfaces that look up this level; without: spread evenly over [0, 1] */
+    double
+        roughness; /* perceptual roughness of the surfaces that look up this level; without: spread evenly over [0, 1] */
     /* Of the finest level: */
     bool has_ground;
     double ground; /* as in struct glint_sky */
-    bool has_box; /* without: everything in the probe is infinitely far away */
+    bool has_box;  /* without: everything in the probe is infinitely far away */
     struct glint_probe_box box;
 };
 

@@ -55,7 +55,7 @@ enum glint_size_class {
     GLINT_SIZE_HALF_MIPS3, /* only its three finest levels */
     GLINT_SIZE_CUBEMAPS_MIPS,
     GLINT_SIZE_SKY_MIPS,
-    GLINT_SIZE_PROBE_MIPS, /* the levels of the capture's probe, however many it has */
+    GLINT_SIZE_PROBE_MIPS,       /* the levels of the capture's probe, however many it has */
     GLINT_SIZE_PARABOLOIDS_MIPS, /* 2D array of two hemispheres for each active cube map, as wide as its faces */
     /* A buffer of uints that is shown as an image 256 wide: a list of tiles of the picture (passes/shared/work_list.h). A DISPATCH over it
        starts a workgroup for each 64 × 64 pixels of the picture. It is never taken from a run folder, and no pass has to make it: its
