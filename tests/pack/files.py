@@ -50,7 +50,7 @@ class Tests:
             self.oiiotool("--pattern", "noise:type=gaussian:mean=1:stddev=0.5", "53x37", "3", "--origin", "+7-5", "-d", depth, "-o", plain)
             want = self.packed({"file": "plain.exr"}, {"RGB": "other.RGB"})
             assert len(set(want["R"])) > 50
-            for compression in ("none", "rle", "zips", "zip", "piz"):
+            for compression in ("none", "rle", "zips", "zip", "piz") if depth == "half" else ("none", "zip"):
                 self.oiiotool(plain, "--tile", "16", "24", "--compression", compression, "-o", self.path("tiles.exr"))
                 assert self.packed({"file": "tiles.exr"}, {"RGB": "other.RGB"}) == want, (depth, compression)
         self.oiiotool(plain, "--origin", "+0+0", "--fullpixels", "-otex:fileformatname=openexr:compression=zip", self.path("levels.exr"))
@@ -62,7 +62,7 @@ class Tests:
             whole = file.read()
         draw = random.Random(5)
         frame = self.manifest({"file": "tiles.exr"}, {"RGB": "other.RGB"})
-        for number in range(30):
+        for number in range(16):
             data = bytearray(whole[:draw.randrange(len(whole))] if number % 3 == 0 else whole)
             for _ in range(draw.randrange(1, 9) if number % 3 else 0):
                 data[draw.randrange(len(data))] = draw.randrange(256)
