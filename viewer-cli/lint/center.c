@@ -53,7 +53,7 @@ static double match_score(struct search *s, size_t c, const double offset[3]) {
         const float *texel = lint_texel(cube, s->tried.face[face], u, v);
         const size_t at = (size_t)(texel - cube->texels) / 5;
         const double factor = texel[4] > 0 && isfinite(texel[4])
-                                  ? lint_cube_distance(&s->tried, texel, d) / (double)texel[4]
+                                  ? lint_cube_distance(&s->tried, texel, d, away) / (double)texel[4]
                                   : s->tried.cube_scale;
         const double under = (double)s->nearest[at] * factor - away, over = away - (double)s->farthest[at] * factor;
         const double off = fmax(0, fmax(under, over));

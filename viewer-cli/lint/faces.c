@@ -20,7 +20,7 @@ static void count_votes(struct lint_votes *votes, const struct lint_data *data, 
         for (int turn = 0; turn < LINT_TURNS; turn++) {
             double tu = u, tv = v;
             lint_turn(turn, &tu, &tv);
-            const int shows = lint_shows(reading, cube, lint_texel(cube, stored, tu, tv), d);
+            const int shows = lint_shows(reading, cube, lint_texel(cube, stored, tu, tv), d, away);
             votes->agree[face][stored][turn] += shows > 0;
             votes->beyond[face][stored][turn] += shows < 0;
         }

@@ -281,28 +281,3 @@ void lint_motion(const struct lint_data *data, const struct lint_reading *readin
     out[0] += (before[2] * before[14] - now[2] * now[14]) / 2 * size[0];
     out[1] += (before[6] * before[14] - now[6] * now[14]) / 2 * size[1] * down;
 }
-
-void lint_turn(int turn, double *u, double *v) {
-    if (turn & 1) *u = 1 - *u;
-    if (turn & 2) *v = 1 - *v;
-    if (turn & 4) {
-        const double t = *u;
-        *u = *v;
-        *v = t;
-    }
-}
-
-const float *lint_texel(const struct lint_cube *cube, int face, double u, double v) {
-    const double n = cube->size;
-    const uint32_t x = u > 0 ? (uint32_t)fmin(u * n, n - 1) : 0, y = v > 0 ? (uint32_t)fmin(v * n, n - 1) : 0;
-    return cube->texels + 5 * (((size_t)face * cube->size + y) * cube->size + x);
-}
-
-double lint_cube_distance(const struct lint_reading *reading, const float *texel, const double d[3]) {
-    double distance = (double)texel[4] * reading->cube_scale;
-    if (reading->cube_planar) {
-        const double largest = fmax(fabs(d[0]), fmax(fabs(d[1]), fabs(d[2])));
-        distance *= sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) / largest;
-    }
-    return distance;
-}

@@ -4,6 +4,7 @@
 #ifndef GLINT_VIEWER_LINT_H
 #define GLINT_VIEWER_LINT_H
 
+#include <math.h>
 #include <stddef.h>
 
 #include "glint/capture.h"
@@ -123,11 +124,48 @@ void lint_from_center(const struct lint_data *data, const struct lint_reading *r
                       const double world[3], double out[3]);
 /* In pixels, y down. */
 void lint_motion(const struct lint_data *data, const struct lint_reading *reading, size_t pixel, double out[2]);
+
+/* ---- Cube maps. In the innermost loops, and so inline. ---- */
+
 /* Applies one of eight orientations to a texture coordinate: bit 0 mirrors u, bit 1 mirrors v, bit 2 swaps them afterwards. */
-void lint_turn(int turn, double *u, double *v);
+static inline void lint_turn(int turn, double *u, double *v) {
+    if (turn & 1) *u = 1 - *u;
+    if (turn & 2) *v = 1 - *v;
+    if (turn & 4) {
+        const double t = *u;
+        *u = *v;
+        *v = t;
+    }
+}
+
+static inline uint32_t lint_texel_along(double u, uint32_t size) {
+    const double at = u * size, last = size - 1;
+    return !(u > 0) ? 0 : at < last ? (uint32_t)at : size - 1;
+}
+
 /* R G B A and the distance as stored. */
-const float *lint_texel(const struct lint_cube *cube, int face, double u, double v);
-double lint_cube_distance(const struct lint_reading *reading, const float *texel, const double direction[3]);
+static inline const float *lint_texel(const struct lint_cube *cube, int face, double u, double v) {
+    const size_t row = (size_t)face * cube->size + lint_texel_along(v, cube->size);
+    return cube->texels + 5 * (row * cube->size + lint_texel_along(u, cube->size));
+}
+
+/* `away`: the length of the direction. */
+static inline double lint_cube_distance(const struct lint_reading *reading, const float *texel, const double d[3],
+                                        double away) {
+    const double distance = (double)texel[4] * reading->cube_scale;
+    return reading->cube_planar ? distance * (away / fmax(fabs(d[0]), fmax(fabs(d[1]), fabs(d[2])))) : distance;
+}
+
+/* Whether a texel shows the surface at the end of a vector from the centre, of length `away`. 1: it does; 0: the texel's surface is nearer; -1:
+   it is farther away. */
+static inline int lint_shows(const struct lint_reading *reading, const struct lint_cube *cube, const float *texel,
+                             const double direction[3], double away) {
+    const double slack = away * (0.02 + 3.0 / cube->size);
+    if (slack >= away) return 0; /* texels so large that everything nearer would match */
+    const double distance = lint_cube_distance(reading, texel, direction, away);
+    if (fabs(distance - away) <= slack) return 1;
+    return distance > away + 3 * slack ? -1 : 0;
+}
 
 /* ---- measures.c: how well independent images match ---- */
 
@@ -171,11 +209,7 @@ struct lint_agreement lint_agree(const struct lint_data *data, const struct lint
                                  const struct lint_agreement *known, unsigned which);
 /* The share of matches, reduced where far fewer samples were compared than under the other reading. */
 double lint_worth(const struct lint_agreement *a, const struct lint_agreement *other, int m);
-/* Whether a texel shows the surface at the end of a vector from the centre. 1: it does; 0: the texel's surface is nearer; -1: it is
-   farther away. */
-int lint_shows(const struct lint_reading *reading, const struct lint_cube *cube, const float *texel,
-               const double direction[3]);
-/* The same for the texel of a cube map that sees a world position. */
+/* lint_shows() for the texel of a cube map that sees a world position. */
 int lint_sees(const struct lint_data *data, const struct lint_reading *reading, size_t cube, const double world[3],
               const float **texel);
 /* The normal, in world space and towards the eye, of the surface through a pixel and its four neighbours in the depth buffer. */

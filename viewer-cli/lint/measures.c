@@ -144,15 +144,6 @@ bool lint_moved(const struct lint_data *data, const struct lint_reading *reading
     return true;
 }
 
-int lint_shows(const struct lint_reading *reading, const struct lint_cube *cube, const float *texel,
-               const double direction[3]) {
-    const double away = sqrt(dot(direction, direction)), slack = away * (0.02 + 3.0 / cube->size);
-    if (slack >= away) return 0; /* texels so large that everything nearer would match */
-    const double distance = lint_cube_distance(reading, texel, direction);
-    if (fabs(distance - away) <= slack) return 1;
-    return distance > away + 3 * slack ? -1 : 0;
-}
-
 int lint_sees(const struct lint_data *data, const struct lint_reading *reading, size_t c, const double world[3],
               const float **texel) {
     const struct lint_cube *cube = &data->cubes[c];
@@ -163,7 +154,7 @@ int lint_sees(const struct lint_data *data, const struct lint_reading *reading, 
     const int face = cube_face_of(d, &u, &v);
     lint_turn(reading->turn[face], &u, &v);
     *texel = lint_texel(cube, reading->face[face], u, v);
-    return lint_shows(reading, cube, *texel, d);
+    return lint_shows(reading, cube, *texel, d, away);
 }
 
 static struct lint_tally compare_cubemaps(const struct lint_data *data, const struct lint_reading *reading) {
