@@ -20,10 +20,8 @@ struct glint_time glint_time_statistics(uint64_t *ns, size_t count) {
     if (!count) return (struct glint_time){0};
     qsort(ns, count, sizeof *ns, compare_ns);
     uint64_t low = ns[(count - 1) / 2], high = ns[count / 2];
-    return (struct glint_time){.n = (uint32_t)count,
-                               .min_ns = ns[0],
-                               .median_ns = low + (high - low) / 2,
-                               .max_ns = ns[count - 1]};
+    return (struct glint_time){
+        .n = (uint32_t)count, .min_ns = ns[0], .median_ns = low + (high - low) / 2, .max_ns = ns[count - 1]};
 }
 
 uint64_t peak_memory_bytes(void) {
