@@ -142,7 +142,7 @@ def main():
         path = f"{folder}/glint_{version}_{output('dpkg', '--print-architecture')}.deb"
         subprocess.run(["dpkg-deb", "--root-owner-group", "-Zxz", "--build", root, path], check=True, stdout=subprocess.DEVNULL)
     print(f"Depends: {found['Depends']}\nRecommends: {found['Recommends']}", file=sys.stderr)
-    subprocess.run(["lintian", "--allow-root", "--fail-on", "error,warning,info", "--display-info", path], check=True, stdout=sys.stderr)
+    subprocess.run(["lintian", "--allow-root", "--fail-on", "error,warning", path], check=True, stdout=sys.stderr)
     print(path)
 
 
