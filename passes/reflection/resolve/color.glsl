@@ -9,7 +9,8 @@
 #include "shared/probe/record.glsl"
 
 bool has_probe() { return engine_probe && fact_probe && frame.far_light.x > 0.0; }
-bool probe_is_sky() { return has_probe() && frame.far_light.y == 0.0; } // a box holds a place's surroundings
+// A box holds the surroundings of a place, which cube maps know better.
+bool probe_is_sky() { return has_probe() && (frame.far_light.y == 0.0 || frame.counts.x == 0u); }
 
 const float MIN_SHARE = 1.0 / 64.0; // a level with a smaller fraction of sky, or of surfaces, is mostly rounding error
 
@@ -115,7 +116,7 @@ vec3 picture(vec2 uv, ivec2 pixel, Ray ray, float depth_m) {
         float pixels_at_1m = abs(frame.uv_from_view.x) * float(frame.size.x);
         float level = cone_level_screen(ray.cone, ray.endless ? 1.0 : ray.travelled_m, depth_m, pixels_at_1m, texel_scale,
                                         float(findMSB(max(frame.size.x, frame.size.y))));
-        if (level > 0.0 && ray.endless && joint && (probe_is_sky() || (has_sky_mips && frame.counts.w > 0u))) return sky_color(ray);
+        if (level > 0.0 && ray.endless && joint && has_sky_mips && frame.counts.w > 0u) return sky_color(ray);
         vec4 color = level > 0.0 ? textureLod(sampler2D(lit_mips, linear_clamp), uv, level) : vec4(0.0);
         // A level without sky at this place has no colour for a ray that does not end.
         if (color.a > (ray.endless ? 1.0 - MIN_SHARE : MIN_SHARE)) return record_picture(IMAGE_lit_mips, uv, level, color.rgb / color.a);
@@ -199,7 +200,7 @@ vec4 color_at_end(Ray ray, bool finished, uint place) {
     vec4 color;
     if (finished) color = screen_color(ray);
     else if (place < frame.counts.x) color = cubemap_lookup(ray, place);
-    else if (ray.endless) color = vec4(has_probe() && frame.counts.x == 0u ? probe_color(ray) : sky_color(ray), 1.0);
+    else if (ray.endless) color = vec4(sky_color(ray), 1.0);
     else return vec4(0.0);
     if (fog && frame.fog_color.w > 0.0) color.rgb = through_fog(color.rgb, ray);
     return color;
