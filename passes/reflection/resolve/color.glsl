@@ -9,7 +9,8 @@
 #include "shared/probe/record.glsl"
 
 bool has_probe() { return engine_probe && fact_probe && frame.far_light.x > 0.0; }
-bool probe_is_sky() { return has_probe() && frame.far_light.y == 0.0; } // a box holds a place's surroundings
+// A box holds the surroundings of a place, which cube maps know better.
+bool probe_is_sky() { return has_probe() && (frame.far_light.y == 0.0 || frame.counts.x == 0u); }
 
 const float MIN_SHARE = 1.0 / 64.0; // a level with a smaller fraction of sky, or of surfaces, is mostly rounding error
 
@@ -124,7 +125,7 @@ Found picture(vec2 uv, ivec2 pixel, Ray ray, float depth_m) {
         float pixels_at_1m = abs(frame.uv_from_view.x) * float(frame.size.x);
         float level = cone_level_screen(ray.cone, ray.endless ? 1.0 : ray.travelled_m, depth_m, pixels_at_1m, texel_scale,
                                         float(findMSB(max(frame.size.x, frame.size.y))));
-        if (level > 0.0 && ray.endless && joint && (probe_is_sky() || (has_sky_mips && frame.counts.w > 0u))) return SKY;
+        if (level > 0.0 && ray.endless && joint && has_sky_mips && frame.counts.w > 0u) return SKY;
         vec4 color = level > 0.0 ? textureLod(sampler2D(lit_mips, linear_clamp), uv, level) : vec4(0.0);
         // A level without sky at this place has no colour for a ray that does not end.
         if (color.a > (ray.endless ? 1.0 - MIN_SHARE : MIN_SHARE))
@@ -210,6 +211,5 @@ vec4 color_at_end(Ray ray, bool finished, uint place) {
     if (finished) found = found_on_screen(ray);
     else if (place < frame.counts.x) found = found_in_cubemap(ray, place);
     else if (!ray.endless) return vec4(0.0);
-    else if (has_probe() && frame.counts.x == 0u) found = found_color(probe_color(ray));
     return through_fog(found, ray);
 }
