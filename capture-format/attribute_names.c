@@ -8,7 +8,8 @@
 
 /* A name of the format, and where it may be. */
 struct known {
-    char name[64];
+    const char *name; /* NULL: none */
+    char hull[64];    /* the name of some planes of a hull */
     bool here;
     const char *place;
 };
@@ -30,7 +31,7 @@ static bool has_encoding(const struct glint_role *role, const char *which) {
     return false;
 }
 
-/* The names of all parts, those of encodings, then those of the rows; a hull has a name for each four planes. Empty: none. */
+/* The names of all parts, those of encodings, then those of the rows; a hull has a name for each four planes. */
 static bool known_at(size_t i, const struct glint_part_info *part, struct known *known) {
     static const char *const common[] = {GLINT_VERSION_ATTRIBUTE, GLINT_STORAGE_ATTRIBUTE, GLINT_SIBLING_ATTRIBUTE,
                                          GLINT_SIBLING_HASH_ATTRIBUTE};
@@ -39,23 +40,25 @@ static bool known_at(size_t i, const struct glint_part_info *part, struct known 
     const struct glint_encoding_row *encoding = glint_encoding_rows(&encodings);
     const struct glint_attribute_row *row = glint_attribute_rows(&rows);
     if (i < COMMON) {
-        snprintf(known->name, sizeof known->name, "%s", common[i]);
+        known->name = common[i];
         known->here = i < 2 || is_on(part, GLINT_SCOPE_CUBEMAP);
         known->place = glint_scope_place(GLINT_SCOPE_CUBEMAP);
         return true;
     }
     if ((i -= COMMON) < encodings) {
-        snprintf(known->name, sizeof known->name, "%s", encoding[i].attribute);
+        known->name = encoding[i].attribute;
         known->here = has_encoding(part->role, encoding[i].which);
         known->place = "on parts with such channels";
         return true;
     }
     if ((i -= encodings) >= rows * HULLS) return false;
     row += i / HULLS;
-    const bool hull = row->kind == GLINT_KIND_PLANES;
-    known->name[0] = '\0';
-    if (hull) snprintf(known->name, sizeof known->name, "%s.%02zu", row->name, i % HULLS);
-    else if (i % HULLS == 0) snprintf(known->name, sizeof known->name, "%s", row->name);
+    known->name = i % HULLS ? NULL : row->name;
+    if (row->kind == GLINT_KIND_PLANES) {
+        snprintf(known->hull, sizeof known->hull, "%s.%02zu", row->name, i % HULLS);
+        known->name = known->hull;
+    }
+    if (!known->name) return true;
     known->here = is_on(part, row->scope);
     known->place = glint_scope_place(row->scope);
     return true;
@@ -66,7 +69,7 @@ static bool report_unknown(struct glint_check *check, const struct glint_part_in
     struct known candidates[64];
     size_t count = 0;
     for (size_t i = 0; count < sizeof candidates / sizeof *candidates && known_at(i, part, &candidates[count]); i++) {
-        if (!candidates[count].name[0] || !candidates[count].here) continue;
+        if (!candidates[count].name || !candidates[count].here) continue;
         glint_nearest_offer(&nearest, candidates[count++].name);
     }
     return glint_violation(check, GLINT_RULE_ATTRIBUTE, part->name, name, "expected an attribute of the format%s",
@@ -77,7 +80,7 @@ static bool check_name(struct glint_check *check, const struct glint_part_info *
     struct known known;
     const char *place = NULL;
     for (size_t i = 0; known_at(i, part, &known); i++) {
-        if (strcmp(known.name, name) != 0) continue;
+        if (!known.name || strcmp(known.name, name) != 0) continue;
         if (known.here) return true;
         if (!place) place = known.place;
     }

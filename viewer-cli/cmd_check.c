@@ -146,6 +146,7 @@ static enum status cmd_check_run(int argc, char **argv) {
     struct glint_error err = {0};
     struct check_pairs pairs;
     enum diff_status status = DIFF_SAME;
+    metric_args_complete(argc, argv);
     command_parse(&cmd_check, argc, argv, &a);
     json_t *list = a.diff.json ? json_array() : NULL;
     const bool ok = check_pairs_find(&pairs, a.run, a.baseline, &err) && check_all(&a, &pairs, list, &status, &err);

@@ -1,6 +1,4 @@
 /* glint diff: compares two images, two runs, or a run with the engine's own intermediate images. */
-#include <stdlib.h>
-
 #include "command.h"
 #include "diff/options.h"
 
@@ -49,14 +47,13 @@ static enum status cmd_diff_run(int argc, char **argv) {
     struct arguments a = {.diff = diff_args_default()};
     struct glint_error err = {0};
     struct diff diff;
-    char **arguments = metric_args_complete(argc, argv);
-    command_parse(&cmd_diff, argc, arguments ? arguments : argv, &a);
+    metric_args_complete(argc, argv);
+    command_parse(&cmd_diff, argc, argv, &a);
     const bool ok = diff_args_compare(&a.diff, a.paths, &diff, &err);
     const enum diff_status status = ok ? diff.status : diff_args_fail(&cmd_diff, &err);
     if (ok && a.diff.json) print_json(diff_json(&diff));
     else if (ok && !a.diff.quiet) diff_print(&diff, a.diff.verbose);
     diff_finish(&diff);
-    free(arguments);
     return (enum status)status;
 }
 

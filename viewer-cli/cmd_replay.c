@@ -394,6 +394,7 @@ static char *cache_folder(const char *asked) {
 
 static enum status cmd_replay_run(int argc, char **argv) {
     struct arguments a = {0};
+    metric_args_complete(argc, argv);
     command_parse(&cmd_replay, argc, argv, &a);
     char *cache = cache_folder(a.cache);
     a.pipeline.replay.cache = cache;

@@ -2,20 +2,17 @@
 #include "options/metric_args.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "options/args.h"
 #include "io/table.h"
 
-char **metric_args_complete(int argc, char **argv) {
+void metric_args_complete(int argc, char **argv) {
     static char written_out[] = "--metrics=default";
-    char **all = calloc((size_t)argc + 1, sizeof *all);
-    for (int i = 0; all && i < argc; i++) {
+    for (int i = 1; i < argc; i++) {
         const bool is = !strcmp(argv[i], "--metrics") || !strcmp(argv[i], "-metrics");
-        all[i] = is && (i + 1 == argc || argv[i + 1][0] == '-') ? written_out : argv[i];
+        if (is && (i + 1 == argc || argv[i + 1][0] == '-')) argv[i] = written_out;
     }
-    return all;
 }
 
 error_t metric_args_parse(int key, char *arg, struct argp_state *state, struct glint_metric_options *options) {

@@ -16,8 +16,8 @@ enum { KEY_METRICS = 640, KEY_PPD, KEY_PEAK };
     {"peak",    KEY_PEAK,    "N",        0, "Peak value for psnr (default: the highest value of the reference image)", 0}
 /* clang-format on */
 
-/* `--metrics` without names, at the end or before another option, chooses the default: returns the arguments with it written out, malloc'd. */
-char **metric_args_complete(int argc, char **argv);
+/* `--metrics` without names, at the end or before another option, chooses the default: writes that out before argp asks for names. */
+void metric_args_complete(int argc, char **argv);
 /* Reads one of METRIC_OPTIONS; ARGP_ERR_UNKNOWN for any other key. */
 error_t metric_args_parse(int key, char *arg, struct argp_state *state, struct glint_metric_options *options);
 /* The names of the metrics, for the help of KEY_METRICS; malloc'd, NULL for other keys. */
