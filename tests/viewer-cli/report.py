@@ -119,7 +119,7 @@ class Tests:
     def test_pictures_are_paired_by_name(self):
         """Run a has diagnostics, which b has not."""
         self.show("a", "b")
-        rows = self.browser.evaluate("[...document.querySelectorAll('main .pictures')].at(-1).textContent") and self.browser.evaluate(
+        rows = self.browser.evaluate(
             "[...[...document.querySelectorAll('main .pictures')].at(-1).children].map(e => [e.tagName, (e.querySelector('figcaption') || e).textContent])")
         assert [kind for kind, _ in rows] == ["H3", "FIGURE", "FIGURE"] * (len(rows) // 3), [kind for kind, _ in rows]
         absent = 0

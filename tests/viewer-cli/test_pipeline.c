@@ -321,6 +321,7 @@ static void sheet_shows_images_side_by_side(UNUSED void **state) {
     free(sheet.rgb);
     free(glint_ok("view", run, "--sheet", "--levels", "-o", in_folder("levels.png")));
     struct pixels levels = read_png(in_folder("levels.png"));
+    assert_true(levels.height < levels.width + levels.width / 4);
     assert_true((size_t)levels.width * levels.height > 3 * (size_t)sheet.width * sheet.height / 2);
     free(levels.rgb);
     glint_fails(2, "several images need --sheet", "view", run, "--image=composed,reflection", "-o", "x.png");

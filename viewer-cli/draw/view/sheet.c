@@ -12,7 +12,6 @@
 enum {
     CELL_PX = 480,
     CELL_HEIGHT_PX = 270,
-    LEGEND_HEIGHT_PX = 60, /* about */
     GAP_PX = 12,
     HEAD_PX = 24,
     HEAD_FONT_PX = 14,
@@ -237,22 +236,30 @@ static bool fill_rows(struct filling *filling, size_t count, struct glint_error 
     return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
 }
 
+static uint32_t sheet_height(const struct sheet *sheet) {
+    uint32_t height = 0;
+    for (uint32_t row = 0; row < sheet->rows; row++) height += row_height(sheet, row) + GAP_PX;
+    return height;
+}
+
 /* The least number of units in a row with which the sheet is at least as wide as it is high. */
-static uint32_t units_in_row(size_t count, size_t cells) {
-    size_t k = 1;
-    while (k < count &&
-           k * cells * (CELL_PX + GAP_PX) < (count + k - 1) / k * (CELL_HEIGHT_PX + LEGEND_HEIGHT_PX + GAP_PX))
-        k++;
-    return (uint32_t)k;
+static void choose_columns(struct sheet *sheet, uint32_t units) {
+    for (uint32_t k = 1; k <= units; k++) {
+        sheet->columns = k * sheet->unit;
+        sheet->rows = (units + k - 1) / k;
+        if (sheet->columns * (CELL_PX + GAP_PX) >= sheet_height(sheet)) return;
+    }
 }
 
 bool sheet_fill(struct sheet *sheet, const char *const *runs, size_t run_count, const struct shown *shown,
                 const struct render_options *options, struct glint_error *err) {
-    const uint32_t units = units_in_row(shown->count, run_count), rows = (uint32_t)((shown->count + units - 1) / units);
     struct filling filling = {sheet, runs, (uint32_t)run_count, shown, options, {{0}}};
-    if (!sheet_init(sheet, units * (uint32_t)run_count, rows, err)) return false;
+    /* twice the cells, as the last row may have empty ones */
+    if (!sheet_init(sheet, (uint32_t)(shown->count * run_count), 2, err)) return false;
     sheet->unit = (uint32_t)run_count;
-    return fill_rows(&filling, shown->count, err);
+    if (!fill_rows(&filling, shown->count, err)) return false;
+    choose_columns(sheet, (uint32_t)shown->count);
+    return true;
 }
 
 bool render_sheet(struct picture *picture, const char *const *runs, size_t run_count, const char *const *images,
