@@ -92,7 +92,7 @@ static void a_switch_is_set_in_every_pass_that_has_it(UNUSED void **state) {
     assert_true(value_of(pipeline, "resolve", "fog") == 0 && value_of(pipeline, "transparent_resolve", "fog") == 0);
     assert_true(glint_pipeline_set(without, "pipeline.fog=false", &err)); /* its passes have no fog */
     assert_false(glint_pipeline_set(without, "pipeline.fogs=false", &err));
-    assert_says(&err, "pipeline has no parameter 'fogs'; known: rays, first_ray");
+    assert_says(&err, "pipeline has no parameter 'fogs' (did you mean fog?); known: rays, first_ray");
     assert_false(glint_pipeline_set(pipeline, "pipeline.fog=perhaps", &err));
     assert_says(&err, "resolve.fog: expected true, false or a number");
     glint_pipeline_destroy(&pipeline);
