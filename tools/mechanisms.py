@@ -138,7 +138,7 @@ class Bench:
         command = [self.measure, "mafia3", *ONE_RAY, *settings, ",", *map(str, frames)]
         done = subprocess.run(command, capture_output=True, text=True)
         if done.returncode:
-            raise Unknown([line for line in done.stderr.splitlines() if line.startswith("glint ")][-1])
+            raise Unknown(done.stderr.strip().split("\n")[0])
         return json.loads(done.stdout)
 
     def time(self, scene, settings):
