@@ -71,7 +71,7 @@ static void print_sum(const struct blame *blame, const char *title, const struct
         if (!blame_is_known(sum) || !isfinite(sum->shapley.none[v])) continue;
         blame_how(sum, how);
         printf("%s: the error of %s against the %s is %s (%s). With every slot replaced by its ideal, it is %s. "
-               "Each slot's share of the difference, %s, %s:\n\n",
+               "Each slot's share of the difference, %s (%s):\n\n",
                title, glint_pipeline_name(blame->base), glint_target_name(blame_answer(blame, a)),
                number_text(sum->shapley.none[v]), glint_metric(blame->metric)->title, number_text(sum->shapley.all[v]),
                number_text(blame_total(sum, v)), how);
