@@ -57,7 +57,7 @@ class Bench:
     def run(self, *arguments):
         done = subprocess.run([self.glint, *map(str, arguments)], capture_output=True, text=True)
         if done.returncode:
-            raise Unknown(done.stderr.strip().split("\n")[0])
+            raise Unknown([line for line in done.stderr.splitlines() if line.startswith("glint ")][-1])
         return done.stdout
 
     def scene(self, name):

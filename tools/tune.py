@@ -42,7 +42,7 @@ def tuned(args, folder, captures, held_out, budget):
     if done.returncode and not done.stdout:
         if "no preset was written" not in done.stderr:
             sys.exit(done.stderr)
-        return {"none": done.stderr.strip().split(": ", 1)[1]}
+        return {"none": done.stderr.strip().splitlines()[-1].split(": ", 1)[1]}  # after lines of progress
     return json.loads(done.stdout)
 
 

@@ -74,8 +74,8 @@ static void metrics_are_chosen(UNUSED void **state) {
     text = glint_ok("replay", CAPTURE, "--against=truth", "--metrics=hdr_flip");
     assert_contains(text, "HDR-ꟻLIP over");
     free(text);
-    glint_fails(2, "metric 'flop': expected one of all, mean_error", "replay", CAPTURE, "--against=truth",
-                "--metrics=flop");
+    glint_fails(2, "metric 'flop' (did you mean flip?): expected one of all, mean_error", "replay", CAPTURE,
+                "--against=truth", "--metrics=flop");
     glint_fails(2, "above 0", "replay", CAPTURE, "--against=truth", "--ppd=0");
 }
 

@@ -158,7 +158,7 @@ static void answers_come_before_times(UNUSED void **state) {
     struct outcome stopped = run_program("sh", "-c", command, NULL);
     assert_int_equal(stopped.status, 130);
     assert_contains(stopped.out, "exact, from all");
-    assert_contains(stopped.out, "adds ms");
+    assert_contains(stopped.out, "ms added if ideal");
     assert_contains(stopped.err, "results are kept in ");
     outcome_free(&stopped);
     json_t *whole = load_json("blame/shares.json"), *found = load_json("asked/shares.json");

@@ -12,14 +12,18 @@ static void value_or_dash_cell(struct table *table, double value) {
 
 static void percent_cell(struct table *table, double percent) {
     if (!isfinite(percent)) table_cell(table, "–");
-    else if (fabs(percent) >= 0.01)
-        table_cell(table, "%.*f", fabs(percent) < 1 ? 2 : fabs(percent) < 100 ? 1 : 0, percent);
-    else table_cell(table, percent == 0 ? "0" : "< 0.01");
+    else if (fabs(percent) >= 0.01) table_cell(table, "%.*f", fabs(percent) < 1 ? 2 : 1, percent);
+    else table_cell(table, percent > 0 ? "< 0.01" : "0");
+}
+
+static void error_cell(struct table *table, double error) {
+    if (isfinite(error)) table_cell(table, "%.5f", error == 0 ? 0 : error);
+    else table_cell(table, "–");
 }
 
 static void share_cell(struct table *table, double share, double half) {
-    if (half > 0) table_cell(table, "%s ± %s", number_text(share), number_text(half));
-    else value_or_dash_cell(table, share);
+    if (half > 0) table_cell(table, "%.5f ± %.5f", share, half);
+    else error_cell(table, share);
 }
 
 /* The player with the largest share of the error. */
@@ -33,7 +37,7 @@ static size_t largest_share(const struct blame *blame, const struct blame_sum *s
 static void print_players(const struct blame *blame, const struct blame_sum *sum, size_t answer) {
     static const char *const titles[] = {"<slot",
                                          ">share of the error",
-                                         ">%",
+                                         ">% of the difference",
                                          ">saved if ideal",
                                          ">fetches/px that costs",
                                          ">left if all others are ideal",
@@ -48,12 +52,12 @@ static void print_players(const struct blame *blame, const struct blame_sum *sum
         table_mark(table, p == most && share > 0 ? MARK_WARN : MARK_NONE);
         share_cell(table, share, blame_half(sum, p, v));
         percent_cell(table, 100 * share / blame_total(sum, v));
-        value_or_dash_cell(table, blame_removed(sum, p, v));
+        error_cell(table, blame_removed(sum, p, v));
         value_or_dash_cell(table, sum->shapley.first[p * BLAME_VALUES + BLAME_FETCHES]);
-        value_or_dash_cell(table, blame_made(sum, p, v));
+        error_cell(table, blame_made(sum, p, v));
     }
     table_cell(table, "sum");
-    value_or_dash_cell(table, shares);
+    error_cell(table, shares);
     percent_cell(table, 100 * shares / blame_total(sum, v));
     for (int k = 0; k < 3; k++) table_cell(table, "%s", "");
     table_print(table, stdout);
@@ -67,7 +71,7 @@ static void print_sum(const struct blame *blame, const char *title, const struct
         if (!blame_is_known(sum) || !isfinite(sum->shapley.none[v])) continue;
         blame_how(sum, how);
         printf("%s: the error of %s against the %s is %s (%s). With every slot replaced by its ideal, it is %s. "
-               "Each slot's share of the difference, %s, %s:\n\n",
+               "Each slot's share of the difference, %s (%s):\n\n",
                title, glint_pipeline_name(blame->base), glint_target_name(blame_answer(blame, a)),
                number_text(sum->shapley.none[v]), glint_metric(blame->metric)->title, number_text(sum->shapley.all[v]),
                number_text(blame_total(sum, v)), how);
