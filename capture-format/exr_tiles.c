@@ -1,4 +1,5 @@
 /* Reads the full-size level of a tiled part, tile by tile, through OpenEXRCore. Captures hold scanlines; other files need not. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "exr_internal.h"
@@ -16,14 +17,10 @@ struct tile {
     uint32_t x, y, width, height;
 };
 
-/* In place of OpenEXRCore's routine, which writes all channels: lines of channels, one after the other. */
-static exr_result_t take_tile(exr_decode_pipeline_t *pipe) {
-    const struct tile *tile = pipe->decoding_user_data;
+/* Lines of channels, one after the other. */
+static void put_tile(const struct tile *tile, const uint8_t *line) {
     const struct glint_exr_wanted *wanted = tile->wanted;
-    const bool packed = !pipe->unpacked_buffer && pipe->chunk.packed_size == pipe->chunk.unpacked_size;
-    const uint8_t *line = packed ? pipe->packed_buffer : pipe->unpacked_buffer;
     const size_t bytes = wanted->type == GLINT_F16 ? 2 : 4, step = bytes * wanted->count;
-    if (!line) return EXR_ERR_CORRUPT_CHUNK;
     for (uint32_t y = 0; y < tile->height; y++)
         for (size_t c = 0; c < tile->part->channel_count; c++) {
             const struct glint_channel_info *channel = &tile->part->channels[c];
@@ -34,7 +31,24 @@ static exr_result_t take_tile(exr_decode_pipeline_t *pipe) {
                                        out + i * bytes);
             line += tile->width * glint_stored_bytes(channel->stored);
         }
+}
+
+/* In place of OpenEXRCore's routine, which writes all channels. */
+static exr_result_t take_tile(exr_decode_pipeline_t *pipe) {
+    if (!pipe->unpacked_buffer) return EXR_ERR_CORRUPT_CHUNK;
+    put_tile(pipe->decoding_user_data, pipe->unpacked_buffer);
     return EXR_ERR_SUCCESS;
+}
+
+/* A tile that is stored as it is. */
+static bool read_plain(struct glint_exr *exr, const struct tile *tile, const exr_chunk_info_t *chunk) {
+    uint8_t *lines = malloc(chunk->packed_size);
+    size_t got = 0;
+    const bool ok = lines && glint_file_read(exr->stream.file, lines, chunk->packed_size, chunk->data_offset, &got) &&
+                    got == chunk->packed_size;
+    if (ok) put_tile(tile, lines);
+    free(lines);
+    return ok;
 }
 
 static bool read_tile(struct glint_exr *exr, size_t p, const struct glint_exr_wanted *wanted, const int at[2],
@@ -52,10 +66,12 @@ static bool read_tile(struct glint_exr *exr, size_t p, const struct glint_exr_wa
         return tile_fail(exr, p, at, GLINT_ERROR_FORMAT, "its size does not fit the part", err);
     if (bytes > exr->limits.memory_bytes / GLINT_CHUNK_SHARE / 6)
         return tile_fail(exr, p, at, GLINT_ERROR_LIMIT, "it is larger than the limit of memory allows", err);
+    struct tile tile = {part, wanted, x, y, width, height};
+    if (chunk.packed_size == bytes)
+        return read_plain(exr, &tile, &chunk) || tile_fail(exr, p, at, GLINT_ERROR_IO, "cannot be read", err);
     exr_decode_pipeline_t pipe = EXR_DECODE_PIPELINE_INITIALIZER;
     if (exr_decoding_initialize(exr->context, (int)p, &chunk, &pipe))
         return tile_fail(exr, p, at, GLINT_ERROR_MEMORY, "out of memory", err);
-    struct tile tile = {part, wanted, x, y, width, height};
     /* The default routines require channel pointers, although the unpacking that would use them is replaced. */
     for (int i = 0; i < pipe.channel_count; i++) {
         pipe.channels[i].decode_to_ptr = wanted->out;
