@@ -59,6 +59,9 @@ typedef bool (*glint_exr_rows_fn)(void *user, uint32_t y, uint32_t lines, const 
 #define GLINT_EXR_MAX_WANTED 64
 bool glint_exr_rows(struct glint_exr *exr, size_t part, const char *const *channels, size_t count, uint32_t threads,
                     glint_exr_rows_fn rows, void *user, struct glint_error *err);
+/* Writes a line of a channel to every `count`-th element of `out`; returns the number of values that do not fit the type. */
+size_t glint_exr_put_line(const uint8_t *from, enum glint_stored stored, enum glint_type type, uint32_t width,
+                          size_t count, uint8_t *out);
 /* Channels as glint_exr_read takes them; types half, float and uint. */
 struct glint_exr_wanted {
     const char *const *names;

@@ -180,9 +180,8 @@ static size_t type_bytes(enum glint_type type) {
     return type == GLINT_F32 || type == GLINT_U32 ? 4 : type == GLINT_U8 ? 1 : 2;
 }
 
-/* Writes a line of a channel to every `count`-th element of `out`; returns the number of values that do not fit the type. */
-static size_t put_line(const uint8_t *from, enum glint_stored stored, enum glint_type type, uint32_t width,
-                       size_t count, uint8_t *out) {
+size_t glint_exr_put_line(const uint8_t *from, enum glint_stored stored, enum glint_type type, uint32_t width,
+                          size_t count, uint8_t *out) {
     size_t misfits = 0;
     const size_t bytes = type_bytes(type), step = bytes * count;
     if (!from) {
@@ -225,7 +224,7 @@ static bool put_rows(void *user, uint32_t y, uint32_t lines, const uint8_t *cons
         for (size_t i = 0; i < to->count; i++) {
             uint8_t *out = to->out + ((size_t)(y + l) * width * to->count + i) * bytes;
             const uint8_t *from = planes[i] ? planes[i] + l * line_bytes : NULL;
-            if (put_line(from, to->stored[i], to->type, width, to->count, out))
+            if (glint_exr_put_line(from, to->stored[i], to->type, width, to->count, out))
                 return glint_fail(err, GLINT_ERROR_FORMAT,
                                   "line %u: %s: expected values below 2^%zu, found a larger one", y + l, to->names[i],
                                   8 * bytes);

@@ -1,4 +1,5 @@
 /* Reads the full-size level of a tiled part, tile by tile, through OpenEXRCore. Captures hold scanlines; other files need not. */
+#include <stdlib.h>
 #include <string.h>
 
 #include "exr_internal.h"
@@ -9,24 +10,45 @@ static bool tile_fail(const struct glint_exr *exr, size_t p, const int at[2], en
                       what);
 }
 
-static exr_pixel_type_t pixel_type(enum glint_type type) {
-    return type == GLINT_F16 ? EXR_PIXEL_HALF : type == GLINT_F32 ? EXR_PIXEL_FLOAT : EXR_PIXEL_UINT;
+/* A tile, and where its texels go. */
+struct tile {
+    const struct glint_exr_part_info *part;
+    const struct glint_exr_wanted *wanted;
+    uint32_t x, y, width, height;
+};
+
+/* Lines of channels, one after the other. */
+static void put_tile(const struct tile *tile, const uint8_t *line) {
+    const struct glint_exr_wanted *wanted = tile->wanted;
+    const size_t bytes = wanted->type == GLINT_F16 ? 2 : 4, step = bytes * wanted->count;
+    for (uint32_t y = 0; y < tile->height; y++)
+        for (size_t c = 0; c < tile->part->channel_count; c++) {
+            const struct glint_channel_info *channel = &tile->part->channels[c];
+            uint8_t *out = wanted->out + ((size_t)(tile->y + y) * tile->part->width + tile->x) * step;
+            for (size_t i = 0; i < wanted->count; i++)
+                if (wanted->names[i] && !strcmp(wanted->names[i], channel->name))
+                    glint_exr_put_line(line, channel->stored, wanted->type, tile->width, wanted->count,
+                                       out + i * bytes);
+            line += tile->width * glint_stored_bytes(channel->stored);
+        }
 }
 
-/* Tells the pipeline where the texels of the tile's channels go: x, y is its first one. */
-static void aim(const struct glint_exr_part_info *part, const struct glint_exr_wanted *wanted, uint32_t x, uint32_t y,
-                exr_decode_pipeline_t *pipe) {
-    const size_t bytes = wanted->type == GLINT_F16 ? 2 : 4, step = wanted->count * bytes;
-    for (int c = 0; c < pipe->channel_count; c++)
-        for (size_t i = 0; i < wanted->count; i++) {
-            exr_coding_channel_info_t *channel = &pipe->channels[c];
-            if (!wanted->names[i] || strcmp(wanted->names[i], channel->channel_name) != 0) continue;
-            channel->decode_to_ptr = wanted->out + ((size_t)y * part->width + x) * step + i * bytes;
-            channel->user_bytes_per_element = (int16_t)bytes;
-            channel->user_data_type = (uint16_t)pixel_type(wanted->type);
-            channel->user_pixel_stride = (int32_t)step;
-            channel->user_line_stride = (int32_t)(step * part->width);
-        }
+/* In place of OpenEXRCore's routine, which writes all channels. */
+static exr_result_t take_tile(exr_decode_pipeline_t *pipe) {
+    if (!pipe->unpacked_buffer) return EXR_ERR_CORRUPT_CHUNK;
+    put_tile(pipe->decoding_user_data, pipe->unpacked_buffer);
+    return EXR_ERR_SUCCESS;
+}
+
+/* A tile that is stored as it is. */
+static bool read_plain(struct glint_exr *exr, const struct tile *tile, const exr_chunk_info_t *chunk) {
+    uint8_t *lines = malloc(chunk->packed_size);
+    size_t got = 0;
+    const bool ok = lines && glint_file_read(exr->stream.file, lines, chunk->packed_size, chunk->data_offset, &got) &&
+                    got == chunk->packed_size;
+    if (ok) put_tile(tile, lines);
+    free(lines);
+    return ok;
 }
 
 static bool read_tile(struct glint_exr *exr, size_t p, const struct glint_exr_wanted *wanted, const int at[2],
@@ -44,12 +66,22 @@ static bool read_tile(struct glint_exr *exr, size_t p, const struct glint_exr_wa
         return tile_fail(exr, p, at, GLINT_ERROR_FORMAT, "its size does not fit the part", err);
     if (bytes > exr->limits.memory_bytes / GLINT_CHUNK_SHARE / 6)
         return tile_fail(exr, p, at, GLINT_ERROR_LIMIT, "it is larger than the limit of memory allows", err);
+    struct tile tile = {part, wanted, x, y, width, height};
+    if (chunk.packed_size == bytes)
+        return read_plain(exr, &tile, &chunk) || tile_fail(exr, p, at, GLINT_ERROR_IO, "cannot be read", err);
     exr_decode_pipeline_t pipe = EXR_DECODE_PIPELINE_INITIALIZER;
     if (exr_decoding_initialize(exr->context, (int)p, &chunk, &pipe))
         return tile_fail(exr, p, at, GLINT_ERROR_MEMORY, "out of memory", err);
-    aim(part, wanted, x, y, &pipe);
-    const bool ok = exr_decoding_choose_default_routines(exr->context, (int)p, &pipe) == EXR_ERR_SUCCESS &&
-                    exr_decoding_run(exr->context, (int)p, &pipe) == EXR_ERR_SUCCESS;
+    /* The default routines require channel pointers, although the unpacking that would use them is replaced. */
+    for (int i = 0; i < pipe.channel_count; i++) {
+        pipe.channels[i].decode_to_ptr = wanted->out;
+        pipe.channels[i].user_pixel_stride = pipe.channels[i].bytes_per_element;
+        pipe.channels[i].user_line_stride = pipe.channels[i].bytes_per_element * pipe.channels[i].width;
+    }
+    bool ok = exr_decoding_choose_default_routines(exr->context, (int)p, &pipe) == EXR_ERR_SUCCESS;
+    pipe.decoding_user_data = &tile;
+    pipe.unpack_and_convert_fn = take_tile;
+    ok = ok && exr_decoding_run(exr->context, (int)p, &pipe) == EXR_ERR_SUCCESS;
     exr_decoding_destroy(exr->context, &pipe);
     return ok || tile_fail(exr, p, at, GLINT_ERROR_FORMAT, "damaged pixels", err);
 }
