@@ -137,7 +137,8 @@ static bool begin_blame(struct arguments *a, struct glint_error *err) {
 
 /* Prints the shares as soon as they are known, because times take at least as long again. */
 static bool attribute_error(struct blame *blame, bool json, bool *shown, struct glint_error *err) {
-    if (!blame_find_shares(blame, err) || !blame_publish(blame, true, err)) return false;
+    if (!blame_find_shares(blame, err)) return false;
+    if (!(blame->rounds ? blame_publish(blame, true, err) : blame_sum_up(blame, err))) return false;
     progress_end(blame->progress);
     if (!json) blame_print_shares(blame);
     *shown = true;

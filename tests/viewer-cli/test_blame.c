@@ -108,6 +108,11 @@ static void shares_add_up_to_the_error(UNUSED void **state) {
     assert_true(number(json_object_get(json_object_get(capture, "costs"), "rays"), "added_fetches_px") > 0);
     assert_true(file_exists(in_folder("blame/index.html")) && file_exists(in_folder("blame/shares.svg")));
     assert_true(file_exists(in_folder("blame/bought.svg")) && file_exists(in_folder("blame/page.json")));
+    char *svg = checked(run_program("cat", in_folder("blame/bought.svg"), NULL), 0, __FILE__, __LINE__);
+    assert_contains(svg,
+                    "zr0-cls-0"); /* the script draws it after others, and writes what it would write as the first */
+    assert_null(strstr(svg, "zr1-"));
+    free(svg);
     json_decref(found);
 }
 

@@ -5,6 +5,7 @@
 
 #include <math.h>
 
+#include "draw/page/page.h"
 #include "options/answer_args.h"
 #include "glint/blame.h"
 #include "journal/journal.h"
@@ -50,6 +51,7 @@ struct blame {
     bool complete;              /* all shares and times are known */
     struct timespec published;
     double publish_seconds; /* taken by the last time */
+    struct page_charts charts;
 };
 void blame_finish(struct blame *blame);
 static inline size_t blame_value(size_t answer, size_t class) {
@@ -113,6 +115,6 @@ void blame_print_times(const struct blame *blame);
 json_t *blame_json(const struct blame *blame);
 
 /* blame_page.c: OUT/index.html, OUT/page.json, OUT/shares.svg and, with times, OUT/bought.svg. */
-bool blame_write_page(const struct blame *blame, struct glint_error *err);
+bool blame_write_page(struct blame *blame, struct glint_error *err);
 
 #endif

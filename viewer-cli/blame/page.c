@@ -189,23 +189,21 @@ static void add_facts(const struct blame *blame, json_t *document) {
 }
 
 /* Charts of the mean, or of the only capture. */
-static bool write_charts(const struct blame *blame, struct glint_error *err) {
-    struct page_charts charts = {0};
+static bool write_charts(struct blame *blame, struct glint_error *err) {
     bool ok = true;
     for (int bought = 0; ok && bought <= (blame->rounds > 0); bought++) {
         char path[4096];
         const char *title = blame->captures.count > 1 ? "mean of the captures" : blame->captures.items[0];
         json_t *chart = (bought ? bought_chart : shares_chart)(blame, &blame->mean, 0, title);
         ok = chart ? journal_path(blame->out, bought ? "bought.svg" : "shares.svg", path, err) &&
-                         page_chart_write(&charts, path, chart, err)
+                         page_chart_write(&blame->charts, path, chart, err)
                    : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
         json_decref(chart);
     }
-    page_charts_finish(&charts);
     return ok;
 }
 
-bool blame_write_page(const struct blame *blame, struct glint_error *err) {
+bool blame_write_page(struct blame *blame, struct glint_error *err) {
     char title[200], path[4096];
     snprintf(title, sizeof title, "Error of %.100s by slot", glint_pipeline_name(blame->base));
     json_t *document = page_create(title);

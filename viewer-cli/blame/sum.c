@@ -141,6 +141,7 @@ void blame_finish(struct blame *blame) {
         glint_shapley_finish(&blame->captured[c].shapley);
     free(blame->captured);
     glint_shapley_finish(&blame->mean.shapley);
+    page_charts_finish(&blame->charts);
     json_decref(blame->lines);
     json_decref(blame->definition);
     journal_close(&blame->journal);

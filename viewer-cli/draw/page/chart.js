@@ -293,7 +293,11 @@ var glintChart = (function () {
     function svg(description) {
         var chart = object(description), of = size(chart), drawn = echarts.init(null, null, {renderer: 'svg', ssr: true, width: of[0], height: of[1]});
         drawn.setOption(option(chart, LIGHT, true, of[0]));
-        var result = drawn.renderToSVGString().replace(/\bzr\d+-/g, 'zr0-'); // ECharts counts its charts
+        // ECharts counts the names that it gives over all charts.
+        var names = [], result = drawn.renderToSVGString().replace(/\bzr\d+-([a-z]+)-?\d+\b/g, function (name, kind) {
+            if (names.indexOf(name) < 0) names.push(name);
+            return 'zr0-' + kind + '-' + names.indexOf(name);
+        });
         drawn.dispose();
         return result.replace(/[\ud800-\udbff][\udc00-\udfff]|[^\u0000-\u007f]/g, function (c) {
             var high = c.charCodeAt(0);
