@@ -38,7 +38,7 @@ def main():
     temporary = folder.rstrip("/") + ".tmp-bundle"
     shutil.rmtree(temporary, ignore_errors=True)
     stage = os.path.join(temporary, "stage")
-    subprocess.run(["meson", "install", "-C", build, "--quiet", "--destdir", os.path.abspath(stage)], check=True)
+    subprocess.run(["meson", "install", "-C", build, "--quiet", "--no-rebuild", "--destdir", os.path.abspath(stage)], check=True)
     (prefix,) = (os.path.dirname(root) for root, _, files in os.walk(stage) if root.endswith("/bin") and "glint" in files)
     for part in ("bin", "share"):
         shutil.move(os.path.join(prefix, part), os.path.join(temporary, part))

@@ -17,7 +17,7 @@ def packed(folder):
         info.uname = info.gname = ""
         return info
     file = io.BytesIO()
-    with gzip.GzipFile(fileobj=file, mode="wb", mtime=0) as zipped, tarfile.open(fileobj=zipped, mode="w", format=tarfile.GNU_FORMAT) as tar:
+    with gzip.GzipFile(fileobj=file, mode="wb", compresslevel=6, mtime=0) as zipped, tarfile.open(fileobj=zipped, mode="w", format=tarfile.GNU_FORMAT) as tar:
         for name in sorted(os.listdir(folder)):
             tar.add(os.path.join(folder, name), arcname=name, filter=plain)
     return file.getvalue()
