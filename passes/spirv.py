@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Compiles a pass's shader: spirv.py GLSLANG SPIRV_OPT SHADER.comp NAME OUT.h OUT.d FOLDER…
+"""Compiles a pass's shader: spirv.py GLSLANG "SPIRV_OPT OPTION…" SHADER.comp NAME OUT.h OUT.d FOLDER…
 
 Functions are inlined and local variables removed here, once, rather than by the driver in each process that uses the pass: lavapipe makes a
-pipeline in two thirds of the time. No pass of spirv-opt that touches arithmetic is used, so that the bits are those of a user's copy of the
+pipeline in two thirds of the time. No pass of spirv-opt that touches arithmetic is used (meson.build), so that the bits are those of a user's copy of the
 shader, which glint compiles without this step."""
 import pathlib
 import struct
@@ -10,8 +10,6 @@ import subprocess
 import sys
 import tempfile
 
-STEPS = ['inline-entry-points-exhaustive', 'eliminate-dead-functions', 'eliminate-local-single-block', 'eliminate-local-single-store', 'ssa-rewrite',
-         'eliminate-dead-code-aggressive']
 A_LINE = 8
 
 
@@ -26,7 +24,7 @@ def main(glslang, spirv_opt, shader, name, out, depfile, *folders):
     with tempfile.TemporaryDirectory() as folder:
         plain, inlined, depends = (f'{folder}/{file}' for file in ('plain.spv', 'inlined.spv', 'plain.d'))
         run(glslang, '--quiet', '--target-env', 'vulkan1.3', *(f'-I{path}' for path in folders), '--depfile', depends, '-o', plain, shader)
-        run(spirv_opt, '--target-env=vulkan1.3', *(f'--{step}' for step in STEPS), plain, '-o', inlined)
+        run(*spirv_opt.split(), plain, '-o', inlined)
         data = pathlib.Path(inlined).read_bytes()
         pathlib.Path(depfile).write_text(pathlib.Path(depends).read_text().replace(plain, out, 1))
     words = [f'0x{word:08x}' for word, in struct.iter_unpack('=I', data)]

@@ -51,7 +51,25 @@ static size_t without_source(const uint32_t *words, size_t bytes, uint32_t *out)
     return n;
 }
 
-/* Each pass's file, compiled here, must equal the embedded shader: the same bindings and constants. */
+/* The module as the build embeds it: what spirv.py does after compiling. */
+static uint32_t *inlined(void **state, const struct spirv *spirv, size_t *bytes) {
+    char command[1200], plain[256], out[256];
+    snprintf(plain, sizeof plain, "%s", write_text(state, "plain.spv", ""));
+    snprintf(out, sizeof out, "%s", write_text(state, "inlined.spv", ""));
+    FILE *file = fopen(plain, "wb");
+    assert_true(file && fwrite(spirv->words, spirv->bytes, 1, file) == 1 && fclose(file) == 0);
+    snprintf(command, sizeof command, GLINT_SPIRV_OPT " %s -o %s 2>/dev/null", plain, out);
+    assert_int_equal(system(command), 0);
+    file = fopen(out, "rb");
+    assert_true(file && fseek(file, 0, SEEK_END) == 0);
+    *bytes = (size_t)ftell(file);
+    rewind(file);
+    uint32_t *words = malloc(*bytes);
+    assert_true(words && fread(words, *bytes, 1, file) == 1 && fclose(file) == 0);
+    return words;
+}
+
+/* Each pass's file, compiled here, must become the embedded shader: the same bindings and constants. */
 static void every_pass_compiles_to_what_is_built_in(void **state) {
     size_t count;
     const struct glint_pass *passes = glint_passes(&count);
@@ -65,11 +83,13 @@ static void every_pass_compiles_to_what_is_built_in(void **state) {
         struct spirv spirv;
         struct glint_error err = {0};
         if (!spirv_find(&spirv, &shaders, &pass, &err)) fail_msg("%s: %s", name, err.message);
-        uint32_t *mine = malloc(spirv.bytes), *built_in = malloc(passes[i].spirv_bytes);
-        const size_t words = without_source(spirv.words, spirv.bytes, mine);
+        size_t bytes;
+        uint32_t *all = inlined(state, &spirv, &bytes), *mine = malloc(bytes),
+                 *built_in = malloc(passes[i].spirv_bytes);
+        const size_t words = without_source(all, bytes, mine);
         assert_int_equal(words, without_source(passes[i].spirv, passes[i].spirv_bytes, built_in));
         if (memcmp(mine, built_in, words * sizeof *mine) != 0) fail_msg("%s: differs", name);
-        free(mine), free(built_in);
+        free(all), free(mine), free(built_in);
     }
 }
 
