@@ -10,7 +10,7 @@ static size_t player_at(const struct blame *blame, size_t place) {
 }
 
 enum bar { BAR_SHARE, BAR_REMOVED, BAR_MADE, BARS };
-static const char *const bar_names[BARS] = {"share", "removes", "makes"};
+static const char *const bar_names[BARS] = {"share", "saved if ideal", "left if all others are ideal"};
 
 static double bar_value(const struct blame_sum *sum, enum bar bar, size_t p, size_t v) {
     return bar == BAR_SHARE     ? blame_share(sum, p, v)
@@ -35,7 +35,7 @@ static json_t *bars_of(const struct blame *blame, const struct blame_sum *sum, e
     return points;
 }
 
-/* Chart with three bars for each player: share, removes, makes. */
+/* Chart with three bars for each player: its share, and what single replacements save and leave. */
 static json_t *shares_chart(const struct blame *blame, const struct blame_sum *sum, size_t answer, const char *title) {
     json_t *names = json_array(), *series = json_array();
     char text[300];
@@ -64,12 +64,12 @@ static json_t *bought_chart(const struct blame *blame, const struct blame_sum *s
             json_array_append_new(points[already],
                                   json_pack("{s:f, s:I, s:s}", "x", bought, "y", (json_int_t)i, "name", name));
     }
-    snprintf(text, sizeof text, "Error removed per millisecond: %.200s", title);
+    snprintf(text, sizeof text, "Error saved per millisecond: %.200s", title);
     return json_pack("{s:s, s:{s:s, s:s, s:s}, s:{s:s, s:s, s:o}, s:[{s:s, s:s, s:o}, {s:s, s:s, s:o}]}", "title", text,
                      "x", "name", "error per millisecond", "unit", glint_metric(blame->metric)->title, "scale", "log",
-                     "y", "name", "", "scale", "category", "categories", names, "series", "name", "reference buys",
-                     "kind", "scatter", "points", points[0], "name", "buys already", "kind", "scatter", "points",
-                     points[1]);
+                     "y", "name", "", "scale", "category", "categories", names, "series", "name", "its ideal saves",
+                     "kind", "scatter", "points", points[0], "name", "the slot saves already", "kind", "scatter",
+                     "points", points[1]);
 }
 
 static json_t *share_cell(const struct blame_sum *sum, size_t p, size_t v) {
@@ -78,8 +78,12 @@ static json_t *share_cell(const struct blame_sum *sum, size_t p, size_t v) {
 }
 
 static void add_players(const struct blame *blame, const struct blame_sum *sum, size_t answer, json_t *blocks) {
-    static const char *const more[][2] = {{"removes", ""},          {"adds", "ms"}, {"buys", "per ms"},
-                                          {"fetches", "per pixel"}, {"makes", ""},  {"saves", "ms"}};
+    static const char *const more[][2] = {{"saved if ideal", ""},
+                                          {"time added if ideal", "ms"},
+                                          {"saved per ms added", ""},
+                                          {"fetches added if ideal", "per pixel"},
+                                          {"left if all others are ideal", ""},
+                                          {"time saved if only it stays", "ms"}};
     const size_t v = blame_value(answer, 0);
     double shares = 0, removed = 0, made = 0;
     json_t *table = page_table(blocks);
@@ -147,19 +151,19 @@ static void add_sum(const struct blame *blame, json_t *document, const char *tit
     }
 }
 
-static const char meaning[] =
-    "A player is a slot, or a group of slots that can only be replaced together. Removes, adds, buys, fetches: only "
-    "this "
-    "player is replaced by its reference; the columns show the error that disappears, the added time, the error "
-    "removed "
-    "per millisecond (where the replacement saves time but increases the error: the error that the player itself "
-    "avoids "
-    "per millisecond), and the added texture fetches. Makes, saves: only this player is kept and all others are "
-    "replaced; "
-    "the columns show the error that appears and the time saved. Where removes and makes differ, players interact. The "
-    "share (Shapley value) is the mean change of error by a player over all orders in which players can be replaced; "
-    "shares add up to the error of the preset minus that of its reference. A player with a negative share improves the "
-    "image.";
+static const char meaning[] = "A player is a slot, or a group of slots that can only be replaced together. Its ideal "
+                              "is what the reference uses in its "
+                              "place. Saved, time added and fetches added if ideal: only this player is replaced by "
+                              "its ideal. Saved per ms added: the "
+                              "error that a millisecond more saves, or, where the ideal is faster but worse, the error "
+                              "that the player itself saves for "
+                              "each millisecond that it takes longer. Left if all others are ideal, time saved if only "
+                              "it stays: only this player is "
+                              "kept. Where what is saved and what is left differ, players interact. The share (Shapley "
+                              "value) is the mean change of the "
+                              "error by a player over all orders in which players can be replaced; shares add up to "
+                              "the error of the preset minus that "
+                              "of its reference. A player with a negative share improves the image.";
 
 static void add_meaning(const struct blame *blame, json_t *document) {
     json_t *blocks = page_section(document, "Players: slots and groups of slots");
