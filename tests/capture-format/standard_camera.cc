@@ -104,11 +104,12 @@ bool check(const char *path, double left, double above, double width, double hei
                 for (int i = 0; i < 3; i++) world[i] = float(eye[i] + depth * (x * right[i] + y * top[i] + ahead[i]));
                 Imf::worldToCamera(header).multVecMatrix(world, camera);
                 Imf::worldToNDC(header).multVecMatrix(world, ndc);
-                ok &= near(double(camera.x), depth * x, "camera x") & near(double(camera.y), depth * y, "camera y") &
-                      near(double(camera.z), depth, "camera z");
+                ok = near(double(camera.x), depth * x, "camera x") && ok;
+                ok = near(double(camera.y), depth * y, "camera y") && ok;
+                ok = near(double(camera.z), depth, "camera z") && ok;
                 const double px = (x / tan_x + 1) / 2 * W + jitter[0], py = (1 - y / tan_y) / 2 * H + jitter[1];
-                ok &= near(double(ndc.x), (px - left) / width, "NDC x") &
-                      near(double(ndc.y), (py - above) / height, "NDC y");
+                ok = near(double(ndc.x), (px - left) / width, "NDC x") && ok;
+                ok = near(double(ndc.y), (py - above) / height, "NDC y") && ok;
             }
     return ok;
 }

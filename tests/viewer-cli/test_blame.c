@@ -164,7 +164,7 @@ static void answers_come_before_times(UNUSED void **state) {
     assert_int_equal(stopped.status, 130);
     assert_contains(stopped.out, "exact, from all");
     assert_contains(stopped.out, "ms added if ideal");
-    assert_contains(stopped.err, "results are kept in ");
+    assert_contains(stopped.err, " are kept in ");
     outcome_free(&stopped);
     json_t *whole = load_json("blame/shares.json"), *found = load_json("asked/shares.json");
     assert_true(json_is_false(json_object_get(found, "complete")) && json_is_true(json_object_get(whole, "complete")));
@@ -257,7 +257,7 @@ static void what_is_wrong_is_named(UNUSED void **state) {
     char *room = strdup(in_folder("room.exr")), *street = strdup(in_folder("street.exr"));
     glint_fails(2, "no capture given", "blame");
     glint_fails(1, "no.exr", "blame", "no.exr");
-    glint_fails(2, "metric 'rmsd': expected one of", "blame", room, "--metric=rmsd");
+    glint_fails(2, "metric 'rmsd' (did you mean rmse?): expected one of", "blame", room, "--metric=rmsd");
     glint_fails(2, "--metric psnr: expected an error", "blame", room, "--metric=psnr");
     glint_fails(2, "--metric mean_error: expected an error", "blame", room, "--metric=mean_error");
     glint_fails(2, "--metric rmse,flip: expected one metric", "blame", room, "--metric=rmse,flip");

@@ -145,7 +145,7 @@ static void an_interrupted_search_goes_on(UNUSED void **state) {
              in_folder(""), GLINT_TEST_PRESET, arguments, in_folder(""));
     struct outcome stopped = run_program("bash", "-c", command, NULL);
     assert_int_equal(stopped.status, 130);
-    assert_contains(stopped.err, "the same command resumes the search");
+    assert_contains(stopped.err, "the same command resumes from there");
     outcome_free(&stopped);
     json_t *best = load_json("c.json");
     assert_true(json_is_false(json_object_get(json_object_get(best, "provenance"), "confirmed")));
