@@ -105,7 +105,7 @@ void man_print_program(void) {
            ".It Ev NO_COLOR\nIf set, no colour unless\n.Fl \\-color\nasks for it.\n"
            ".It Ev OCIO\nThe OpenColorIO configuration for\n.Nm glint view .\n.El\n"
            ".Sh EXIT STATUS\n.Bl -tag -width 130\n"
-           ".It 0\nDone.\n.It 1\nA check failed, or the input is bad.\n.It 2\nWrong usage. Of\n.Nm glint selftest "
+           ".It 0\nDone.\n.It 1\nA check failed, or the input is bad.\n.It 2\nWrong usage.\nOf\n.Nm glint selftest "
            ":\nthe cases could not be run.\n"
            ".It 130\nInterrupted; no incomplete files are left.\n.El\n"
            ".Sh SEE ALSO\n.Xr exrheader 1 ,\n.Xr oiiotool 1\n");
