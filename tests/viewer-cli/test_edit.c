@@ -40,6 +40,7 @@ static const char *value_of(const char *key, const char *form) {
         {"plane", "0,1,0,-0.75"},
         {"boxMin", "-1,-2,-3"},
         {"fade", "0.25"},
+        {"levelRoughness", "0.25"}, /* between those of the fixture's levels */
         {"storage", "depth.Z=D24"},
         {"normal", "unorm"}, /* the fixture's normals have a Z */
         {"vertexNormal", "unorm"},
@@ -92,16 +93,19 @@ static void every_key_reads_back(void **state) {
                    *value = value_of(name, json_string_value(json_object_get(key, "value")));
         const char *part = !strncmp(on, "cubemap", 7)  ? "cubemap.017"
                            : !strncmp(on, "planar", 6) ? "planar.002"
+                           : !strncmp(on, "probe", 5)  ? "probe.002"
+                           : !strcmp(on, "sky")        ? "sky"
                                                        : "gbuffer";
         const bool color = !strcmp(name, "color"), hull = !strcmp(name, "hull"), box = !strncmp(name, "box", 3);
-        char setting[400], attribute[80], full[400];
+        char setting[400], attribute[80], full[400], low[400];
         if (color) part = "lit";
         snprintf(setting, sizeof setting, "%s:%s=%s", part, name, value);
         snprintf(attribute, sizeof attribute, "glint.%s%s", name, hull ? ".00" : "");
         /* a box needs both corners */
         snprintf(full, sizeof full, "%s:boxMax=4,5,6", part);
+        snprintf(low, sizeof low, "%s:boxMin=-1,-2,-3", part);
         if (box || !strcmp(name, "inner"))
-            free(glint_ok("set", made, full, "cubemap.017:boxMin=-1,-2,-3", setting, "-o", in_folder("set.exr")));
+            free(glint_ok("set", made, full, low, setting, "-o", in_folder("set.exr")));
         else free(glint_ok("set", made, setting, "-o", in_folder("set.exr")));
         struct glint_exr *exr = edited_open(in_folder("set.exr"));
         const struct glint_exr_part_info *info = glint_exr_part(exr, edited_part(exr, part));
