@@ -280,7 +280,7 @@ class Tests:
             self.browser.point_at(left + (x + 0.5) / 96 * width, top + (y + 0.5) / 54 * height)
             self.browser.evaluate(f"new Promise(done => {{ const wait = () => {stage.format(number)}.querySelector('.readout th')?.textContent === '{x},{y}' ? done() : setTimeout(wait, 10); wait(); }})")
             rows = self.browser.evaluate(f"[...{stage.format(number)}.querySelectorAll('.readout tbody tr')].map(r => [...r.cells].slice(0, -1).map(c => c.textContent))")
-            return {row[0]: [float(v.replace("\u2212", "-")) for v in row[1:4] if v not in ("\u2013", "not compared")] for row in rows}
+            return {row[0]: [float(v.replace("\u2212", "-")) for v in row[1:4] if v not in ("\u2013", "not compared", "no value")] for row in rows}
 
         # the error is the symmetric one of docs/metrics.md, of the reflections that the page contains
         compared = 0
