@@ -312,9 +312,14 @@ static bool applies(const struct glint_edit_part *part, const struct row *row, c
     return false;
 }
 
-static bool is_named(const char *part, const char *filter) {
+/* Whether the filter means the part: its name, or, where no part has it, the beginning of its name. */
+static bool is_named(const struct glint_edit *edit, size_t p, const char *filter) {
+    const char *part = edit->parts[p].info.name;
     const size_t length = filter ? strlen(filter) : 0;
-    return !filter || (!strncmp(part, filter, length) && (part[length] == '\0' || part[length] == '.'));
+    if (!filter || !strcmp(part, filter)) return true;
+    for (size_t i = 0; i < edit->count; i++)
+        if (!strcmp(edit->parts[i].info.name, filter)) return false;
+    return !strncmp(part, filter, length) && part[length] == '.';
 }
 
 static void say_set(const struct value *v, size_t part, const char *name) {
@@ -325,7 +330,7 @@ static void say_set(const struct value *v, size_t part, const char *name) {
 /* Sets the key of one row on each part that it applies to; *count receives their number. */
 static bool assign_row(const struct value *v, const char *filter, const struct row *row, size_t *count) {
     for (size_t p = 0; p < v->edit->count; p++) {
-        if (!is_named(v->edit->parts[p].info.name, filter) || !applies(&v->edit->parts[p], row, v->text)) continue;
+        if (!is_named(v->edit, p, filter) || !applies(&v->edit->parts[p], row, v->text)) continue;
         if (!set_row(v, p, row)) return false;
         say_set(v, p, attribute_of(row));
         ++*count;
@@ -338,7 +343,7 @@ static bool assign_other(const struct value *v, const char *filter, const char *
     if (glint_attribute_is_ours(name) && *v->text) return true;
     for (size_t p = 0; p < v->edit->count; p++) {
         const struct glint_exr_attribute *old = glint_exr_attribute(&v->edit->parts[p].info, name);
-        if (!old || !is_named(v->edit->parts[p].info.name, filter)) continue;
+        if (!old || !is_named(v->edit, p, filter)) continue;
         if (!set_foreign(v, p, old)) return false;
         say_set(v, p, name);
         ++*count;

@@ -192,12 +192,12 @@ const struct command cmd_set = {
         "Copies a capture with changed attributes: the camera and everything else of the frame, how channels are "
         "encoded, the engine's storage formats, and the attributes of cube maps and planar maps. Keys are the names of "
         "FORMAT.md, without glint. Attributes of the frame are on gbuffer; other keys apply to every part that can "
-        "have them, or, after PART:, only to parts with this name or beginning with it (cubemap, previous). Numbers "
+        "have them, or, after PART:, only to the part of this name, or to those whose names begin with it (cubemap, "
+        "previous). Numbers "
         "are separated by commas, matrices are written row by row, and an empty value removes the attribute. Pixels "
         "keep every bit: set changes what is said about them. The input may break rules of FORMAT.md, the copy must "
         "not: an attribute that a part must not have is removed by its whole name, such as glint.exposurE=. Other "
-        "attributes "
-        "that a part already has can be set by their names, too.",
+        "attributes that a part already has can be set by their names, too.",
     .options = options,
     .targets = targets,
     .parse = cmd_set_parse,
