@@ -83,7 +83,7 @@ bool glint_edit_key(size_t i, struct glint_edit_key *key);
 /* The k-th name that may be the value of the i-th key; NULL past the last, or if the key takes no names. */
 const char *glint_edit_value_name(size_t i, size_t k);
 /* Sets a key, or any other attribute of simple type that a part has, from text: numbers and names are separated by commas, and an empty value
-   removes the attribute. `part` restricts it to parts that have this name or begin with it and a dot ("cubemap", "previous"); NULL for all. */
+   removes the attribute. `part` restricts it to the part of this name, or else to those that begin with it and a dot ("cubemap", "previous"); NULL: all. */
 bool glint_edit_assign(struct glint_edit *edit, const char *part, const char *key, const char *value,
                        struct glint_error *err);
 
