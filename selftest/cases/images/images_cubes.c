@@ -338,11 +338,12 @@ static bool check_sphere(struct frames *frames, const struct image_case *which, 
 /* In the order of their distances from the camera, which is that of their indices; height counts four times. */
 static const double centers[CUBE_FRAME_MOST][3] = {{-1, 0, 0}, {2, 1, -1}, {-4, 3, 1}, {0, -4, 2}};
 
-static void expect_nearest(uint32_t x, uint32_t y, double best[2]) {
+static void expect_nearest(uint32_t bits, uint32_t x, uint32_t y, double best[2]) {
     double u[4], least = INFINITY, second = INFINITY;
     random4_expected(x, y, 3, u);
     for (int k = 0; k < CUBE_FRAME_MOST; k++) {
         double square = 0;
+        if (!(bits >> k & 1)) continue;
         for (int i = 0; i < 3; i++) square += pow(8 * u[i] - 4 - centers[k][i], 2);
         if (square < least) second = least, best[1] = best[0], least = square, best[0] = k;
         else if (square < second) second = square, best[1] = k;
@@ -381,7 +382,7 @@ static bool check_nearest(struct frames *frames, const struct image_case *which,
          (found = image_read(frames, "cubemap_best", GLINT_U32, FRAME_PIXELS, err));
     for (size_t i = 0; ok && i < FRAME_PIXELS; i++) {
         double best[2] = {0, 0};
-        expect_nearest((uint32_t)(i % FRAME_WIDTH), (uint32_t)(i / FRAME_WIDTH), best);
+        expect_nearest(*(const uint32_t *)which->with, (uint32_t)(i % FRAME_WIDTH), (uint32_t)(i / FRAME_WIDTH), best);
         image_compare(finding, found[i], best[0], best[1], "point %zu,%zu", i % FRAME_WIDTH, i / FRAME_WIDTH);
     }
     free(found), free(shader), free(c);
@@ -393,6 +394,8 @@ static const struct cocoon_case rooms = {room_sample, expect_gauge}, boxes = {bo
 #define GAUGE "cocoon_gauge(cocoon, v, place) / max(scale, 0.05)"
 #define LEAVES "part_of(leaves_cocoon(cocoon, v, direction, place, 16, 64), max(length(v), 0.1))"
 #define NEAREST "load_active_centers():nearest_active(point)"
+#define AMONG "load_active_centers():nearest_among(5u, point)"
+static const uint32_t all_of_them = ~0u, two_of_them = 5;
 
 /* clang-format off */
 static const struct image_case list[] = {
@@ -402,7 +405,8 @@ static const struct image_case list[] = {
     {{"rays that leave a cocoon", "from inside, from outside into it and past it: t/(t + start), with the distance of the start from the centre", LEAVES, "absolute", 4e-6, "a gauge of up to 10, rounded by 6e-7, which falls at least a tenth as fast as its places move; 64 secants have converged"}, check_cocoon, LEAVES, &boxes},
     {{"cocoon of a sphere", "weighted maximum by pairs, with the widest kernel and a third of it sky; and with sky only", "direction_of_sample(texel, face), texel_direction(texel, size, layer)", "absolute", 4e-6, "three divisions, 2.5 ULP each (Vulkan), of 3, on each of three levels"}, check_sphere, NULL, "cocoon.maximum=pairs"},
     {{"cocoon of a sphere, by samples", "the same with single samples", NULL, "absolute", 4e-6, "a product of a difference that is 0"}, check_sphere, NULL, "cocoon.maximum=samples"},
-    {{"nearest active cube map", "the nearest of four, relative to another camera position", NEAREST, "places", 0, "a decision; squared distances within 1e-5 m² are a tie"}, check_nearest, NEAREST, NULL},
+    {{"nearest active cube map", "the nearest of four, relative to another camera position", NEAREST, "places", 0, "a decision; squared distances within 1e-5 m² are a tie"}, check_nearest, NEAREST, &all_of_them},
+    {{"nearest of some active cube maps", "the nearest of the first and the third of four", AMONG, "places", 0, "a decision; squared distances within 1e-5 m² are a tie"}, check_nearest, AMONG, &two_of_them},
 };
 /* clang-format on */
 
