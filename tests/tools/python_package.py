@@ -336,6 +336,9 @@ class Tests:
         def add(name="gbuffer", channels=None, encodings=glint.Encodings("reversed_infinite"), **given):
             with glint.Writer(self.path("refused.exr"), glint.Frame(glint.Camera(EYE, CLIP))) as writer:
                 writer.add(name, {**self.gbuffer, **(channels or {})}, encodings, **given)
+        def faces(name):
+            with glint.Writer(self.path("refused.exr"), glint.Frame(glint.Camera(EYE, CLIP))) as writer:
+                writer.add(name, {"R G B": np.ones((6, 1, 3), "f4")})
         ones = np.ones((4, 6))
         for words, call in {
             "depth.Z: expected an array of float16, float32": lambda: add(channels={"depth.Z": ones}),
@@ -358,7 +361,8 @@ class Tests:
             "glint.worldToView: expected the last row": lambda: glint.Writer(self.path("refused.exr"), glint.Frame(glint.Camera(2 * EYE, CLIP))),
             "32 bits": lambda: add(attributes={"mine": 2 ** 31}),
             "glint.": lambda: add(attributes={"glint.mine": 1}),
-            "center": lambda: add(name="cubemap.000", channels={}),
+            "expected a channel of cubemap": lambda: add(name="cubemap.000", channels={}),
+            "center": lambda: faces("cubemap.000"),
             "missing": add,
         }.items():
             raised((TypeError, ValueError, glint.Error), call, words)
