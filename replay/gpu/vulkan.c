@@ -11,7 +11,7 @@ bool vk_fail_no_driver(struct glint_error *err) {
         if (set && *set)
             return glint_fail(err, GLINT_ERROR_DEVICE,
                               "no Vulkan driver found: %s=%s names none that works; unset it, or let it name the .json "
-                              "file of a driver",
+                              "file of a driver (Debian: those of mesa-vulkan-drivers)",
                               variables[i], set);
     }
     return glint_fail(err, GLINT_ERROR_DEVICE,
