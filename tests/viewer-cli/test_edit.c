@@ -104,8 +104,7 @@ static void every_key_reads_back(void **state) {
         /* a box needs both corners */
         snprintf(full, sizeof full, "%s:boxMax=4,5,6", part);
         snprintf(low, sizeof low, "%s:boxMin=-1,-2,-3", part);
-        if (box || !strcmp(name, "inner"))
-            free(glint_ok("set", made, full, low, setting, "-o", in_folder("set.exr")));
+        if (box || !strcmp(name, "inner")) free(glint_ok("set", made, full, low, setting, "-o", in_folder("set.exr")));
         else free(glint_ok("set", made, setting, "-o", in_folder("set.exr")));
         struct glint_exr *exr = edited_open(in_folder("set.exr"));
         const struct glint_exr_part_info *info = glint_exr_part(exr, edited_part(exr, part));

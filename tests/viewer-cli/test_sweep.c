@@ -202,8 +202,8 @@ static void what_is_wrong_is_named(UNUSED void **state) {
                 "--vary=screen_trace.cells=8,16", "--reference=a", "--reference=b");
     glint_fails(2, "expected either runs or truth", "sweep", room, "-o", out, "--vary=screen_trace.cells=8,16",
                 "--reference=a", "--reference=truth");
-    glint_fails(2, "metric 'rmsd' (did you mean rmse?): expected one of", "sweep", room, "-o", out, "--vary=screen_trace.cells=8,16",
-                "--metric=rmsd");
+    glint_fails(2, "metric 'rmsd' (did you mean rmse?): expected one of", "sweep", room, "-o", out,
+                "--vary=screen_trace.cells=8,16", "--metric=rmsd");
     glint_fails(1, "truth.reflection.ggx: missing", "sweep", in_folder("street.exr"), "-o", out, PLAIN,
                 "--reference=truth", "--vary=screen_trace.steps=8,16");
     glint_fails(2, "expected a run of", "sweep", in_folder("street.exr"), "-o", in_folder("bad2"), PLAIN, "--reference",
