@@ -1,6 +1,7 @@
 """glint report over runs, read back in headless Chromium: report.py GLINT. Speaks TAP."""
 import json
 import os
+import re
 import subprocess
 import sys
 
@@ -95,13 +96,18 @@ class Tests:
         assert len(self.table("Times", 0)) == len(self.table("Times", 1))
         self.browser.quiet()
 
+    def shown(self, run):
+        """The images of a run that a page shows: those of the picture's size and of half of it, also those of its errors."""
+        record = self.run_json(run)
+        return {i["name"] for owner in (*record["passes"], record.get("compared", {"images": []})) for i in owner["images"]
+                if (i["width"], i["height"]) in ((96, 54), (48, 27)) and ".level" not in i["name"]}
+
     def test_pictures_are_whole(self):
         self.show("a")
         sizes = self.browser.evaluate("Promise.all([...document.querySelectorAll('main img')].map(i => i.decode().then(() => i.naturalWidth)))")
         names = self.browser.evaluate("[...document.querySelectorAll('main figcaption')].map(c => c.textContent.split(':')[0])")
         assert len(sizes) == len(names) and min(sizes) >= 96, sizes
-        screen = {i["name"] for p in self.run_json("a")["passes"] for i in p.get("images", ()) if (i["width"], i["height"]) in ((96, 54), (48, 27))
-                  and ".level" not in i["name"]}
+        screen = self.shown("a")
         assert screen and set(names) == screen, screen ^ set(names)
         glint("report", self.path("a"), "-o", self.path("two.html"), "--images=travelled,composed")
         self.browser.show(self.path("two.html"))
@@ -127,8 +133,7 @@ class Tests:
             name = head.split(": ")[1]
             assert first.startswith(f"a, {name}") and second.startswith(f"b, {name}"), (head, first, second)
             absent += second == f"b, {name}: not in b"
-        made = {run: {i["name"] for p in self.run_json(run)["passes"] for i in p["images"] if (i["width"], i["height"]) in ((96, 54), (48, 27)) and ".level" not in i["name"]}
-                for run in "ab"}
+        made = {run: self.shown(run) for run in "ab"}
         assert absent == len(made["a"] - made["b"]) > 3 and len(rows) == 3 * len(made["a"] | made["b"]), (absent, len(rows))
         # a pair stands in one row, also in a narrow window
         tops = self.browser.evaluate("[...[...document.querySelectorAll('main .pictures')].at(-1).querySelectorAll('figure')].map(f => f.getBoundingClientRect().y)")
@@ -280,7 +285,7 @@ class Tests:
             self.browser.point_at(left + (x + 0.5) / 96 * width, top + (y + 0.5) / 54 * height)
             self.browser.evaluate(f"new Promise(done => {{ const wait = () => {stage.format(number)}.querySelector('.readout th')?.textContent === '{x},{y}' ? done() : setTimeout(wait, 10); wait(); }})")
             rows = self.browser.evaluate(f"[...{stage.format(number)}.querySelectorAll('.readout tbody tr')].map(r => [...r.cells].slice(0, -1).map(c => c.textContent))")
-            return {row[0]: [float(v.replace("\u2212", "-")) for v in row[1:4] if v not in ("\u2013", "not compared", "no value")] for row in rows}
+            return {row[0]: [float(v.replace("\u2212", "-")) for v in row[1:4] if re.fullmatch("[-+0-9.e\u2212]+", v)] for row in rows}
 
         # the error is the symmetric one of docs/metrics.md, of the reflections that the page contains
         compared = 0
