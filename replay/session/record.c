@@ -62,6 +62,11 @@ static bool makes_diagnostics(const struct run *run) {
     return false;
 }
 
+/* Whether the image is of a role that takes the place of what is missing: nothing is lost without it, but what it replaces. */
+static bool takes_place(const struct glint_absence *absence, const struct glint_row *row) {
+    return absence->other && !strncmp(row->role, absence->other, strlen(absence->other));
+}
+
 /* What the capture does not have and what that costs; images of which nothing is known hold their fallback value. */
 static void warn_of_missing(const struct glint_replay *replay, const struct run *run, json_t *list) {
     size_t count;
@@ -73,9 +78,11 @@ static void warn_of_missing(const struct glint_replay *replay, const struct run 
     }
     for (size_t i = 0; i < run->graph->image_count; i++) {
         const struct graph_image *image = &run->graph->images[i];
+        if (image->source != SOURCE_FALLBACK || image->row->kind != GLINT_ROW_CAPTURE) continue;
         bool known = false;
-        for (size_t k = 0; k < count; k++) known |= glint_absence_concerns(&all[k], image->row);
-        if (image->source == SOURCE_FALLBACK && image->row->kind == GLINT_ROW_CAPTURE && !known)
+        for (size_t k = 0; k < count; k++)
+            known |= glint_absence_concerns(&all[k], image->row) || takes_place(&all[k], image->row);
+        if (!known)
             json_array_append_new(list, json_sprintf("the capture has no %s: %s holds its fallback value, %g",
                                                      image->row->role, image->name, image->row->fallback));
     }

@@ -62,6 +62,16 @@ class Tests:
         assert ok("validate mended.exr").stdout == "mended.exr: valid\n"
         assert "no such key" in ok("set misspelt.exr glint.exposurE=2 -o no.exr", 2).stderr
 
+    # ---- what is absent ----
+
+    def test_only_what_costs_something_is_warned_of(self):
+        """A probe takes the place of a sky or of cube maps; a capture that has these lacks nothing without one."""
+        said = ok("replay s.exr").stderr
+        assert "probe" not in said and "fallback" not in said, said
+        ok("strip s.exr --drop cubemap,sky -o bare.exr")
+        said = ok("replay bare.exr").stderr
+        assert "no cubemap: " in said and "no sky: " in said and "probe.000" not in said, said
+
     # ---- damaged files ----
 
     def test_headers_of_a_cut_file_are_listed(self):
