@@ -14,11 +14,8 @@ struct known {
     const char *place;
 };
 
-/* The place of a scope names the role: "on each `cubemap.NNN`". */
 static bool is_on(const struct glint_part_info *part, enum glint_scope scope) {
-    const char *role = strchr(glint_scope_place(scope), '`') + 1;
-    const size_t length = strcspn(role, ".`");
-    return !part->previous && strlen(part->role->name) == length && !strncmp(part->role->name, role, length);
+    return !part->previous && !strcmp(part->role->name, glint_scope_role(scope));
 }
 
 /* Whether the role has channels with the encoding, which a part may lack. */
