@@ -35,11 +35,6 @@ static void say_color(struct sentence *s, const double *rgb) {
     say(s, "%s %s %s", number_text(rgb[0]), number_text(rgb[1]), number_text(rgb[2]));
 }
 
-static void say_distance(struct sentence *s, double m) {
-    if (isfinite(m)) say(s, "%s m", number_text(m));
-    else say(s, "no limit");
-}
-
 /* ---- The surface ---- */
 
 static void describe_surface(const struct explain *e, json_t *sentences) {
@@ -103,8 +98,7 @@ static void say_end(struct sentence *s, const struct probe_side *side, const str
     const struct glint_probe_record *step = last_step(side, end, false);
     say(s, "%s", end_verb(why));
     if (place >= 0 && place < side->cubemap_count) say(s, " in %s", probe_cubemap(side, place));
-    if (isfinite(m)) say(s, " after ");
-    if (isfinite(m)) say_distance(s, m);
+    if (isfinite(m)) say(s, " after %s m", number_text(m));
     if (step && !isnan(glint_probe_value(step, "x")))
         say(s, " at pixel %.0f,%.0f", floor((double)glint_probe_value(step, "x")),
             floor((double)glint_probe_value(step, "y")));
@@ -129,13 +123,11 @@ static void describe_ray(const struct explain *e, json_t *sentences) {
     const struct glint_probe_record *end;
     const struct glint_pass *pass;
     for (size_t i = 0; (pass = explain_tracer(own, i, &end)); i++) {
-        const bool screen = glint_probe_is(end, "screen_end"),
-                   passed = screen && !(glint_probe_value(end, "finished") > 0);
-        const float reason = glint_probe_value(end, "end");
+        const bool hit = glint_probe_value(end, "end") == (float)GLINT_END_HIT;
         if (i == 0) say_start(&s, e);
         say(&s, i ? "; in the cube maps (%s/%s) it " : " in %s/%s ", pass->slot, pass->variant);
         say_end(&s, own, end);
-        if (screen && (passed || reason == (float)GLINT_END_HIT) && reason != (float)GLINT_END_SKY)
+        if (glint_probe_is(end, "screen_end") && (hit || !(glint_probe_value(end, "finished") > 0)))
             say_depths(&s, own, end);
     }
     if (s.used) say(&s, ".");
