@@ -72,7 +72,7 @@ def finish_binaries(root):
 
 
 def dependencies(root, binaries):
-    """OpenImageIO is loaded when glint pack reads an image of its formats, so that its packages are recommended only."""
+    """OpenImageIO is loaded when glint pack reads an image of its formats, so that its packages, about 200, are suggested only."""
     with tempfile.TemporaryDirectory() as work:
         os.mkdir(f"{work}/debian")
         with open(f"{work}/debian/control", "w", encoding="utf-8") as file:
@@ -82,9 +82,9 @@ def dependencies(root, binaries):
         needed = [path for path in binaries if path not in loaded]
         text = output("dpkg-shlibdeps", "-O", f"-S{os.path.abspath(root)}", f"-l{os.path.abspath(root)}/{LIBRARIES}",
                       "-dDepends", *(f"-e{os.path.abspath(path)}" for path in needed),
-                      "-dRecommends", *(f"-e{os.path.abspath(path)}" for path in loaded), cwd=work)
+                      "-dSuggests", *(f"-e{os.path.abspath(path)}" for path in loaded), cwd=work)
     found = dict(line.removeprefix("shlibs:").split("=", 1) for line in text.splitlines())
-    found["Recommends"] = ", ".join(filter(None, ("mesa-vulkan-drivers | vulkan-icd", found.get("Recommends"))))
+    found["Recommends"] = "mesa-vulkan-drivers | vulkan-icd"
     return found
 
 
@@ -114,6 +114,7 @@ def write_control(root, version, found):
     with open(f"{root}/DEBIAN/control", "w", encoding="utf-8") as file:
         file.write(f"Package: glint\nVersion: {version}\nArchitecture: {output('dpkg', '--print-architecture')}\nMaintainer: {who()}\n"
                    f"Installed-Size: {size // 1024}\nDepends: {found['Depends']}\nRecommends: {found['Recommends']}\n"
+                   f"Suggests: {found['Suggests']}\n"
                    f"Section: graphics\nPriority: optional\n{DESCRIPTION}")
     with open(f"{root}/DEBIAN/md5sums", "w", encoding="utf-8") as sums:
         for folder, _, names in sorted(os.walk(f"{root}/usr")):
@@ -141,7 +142,7 @@ def main():
         write_control(root, version, found)
         path = f"{folder}/glint_{version}_{output('dpkg', '--print-architecture')}.deb"
         subprocess.run(["dpkg-deb", "--root-owner-group", "-Zxz", "--build", root, path], check=True, stdout=subprocess.DEVNULL)
-    print(f"Depends: {found['Depends']}\nRecommends: {found['Recommends']}", file=sys.stderr)
+    print(f"Depends: {found['Depends']}\nRecommends: {found['Recommends']}\nSuggests: {found['Suggests']}", file=sys.stderr)
     subprocess.run(["lintian", "--allow-root", "--fail-on", "error,warning", path], check=True, stdout=sys.stderr)
     print(path)
 

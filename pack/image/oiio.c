@@ -15,8 +15,10 @@ bool oiio_decode(const char *path, const char *kind, const uint8_t *data, size_t
     decode_fn *decode = NULL;
     if (!found) {
         const char *reason = dlerror();
-        return glint_fail(err, GLINT_ERROR_UNSUPPORTED, "%s: %s images need libglint-oiio.so: %.200s", path, kind,
-                          reason ? reason : "it is incomplete");
+        return glint_fail(err, GLINT_ERROR_UNSUPPORTED,
+                          "%s: %s images are decoded by OpenImageIO, which cannot be loaded (Debian: apt install "
+                          "libopenimageio2.4): %.200s",
+                          path, kind, reason ? reason : "it is incomplete");
     }
     memcpy(&decode, &found, sizeof decode); /* C knows no conversion of pointers to functions */
     return decode(path, kind, data, size, most, out, err);
