@@ -78,7 +78,7 @@ def mistakes(base):
         ({"parts.lit.attributes": {"glint.x": 1}}, ("parts", "lit", "attributes", "glint.x"), "neither OpenEXR nor glint. reserves"),
         ({"parts.lit.attributes": {"channels": 1}}, ("parts", "lit", "attributes", "channels"), "neither OpenEXR nor glint. reserves"),
         ({"parts.lit.attributes": {"x": {"type": "v2d", "value": 1}}}, ("parts", "lit", "attributes", "x"), "value: expected 2 numbers"),
-        ({"parts.ao": {"R": "lit.r"}}, "parts.ao", "the role is reserved"),
+        ({"parts.curvature": {"R": "lit.r"}}, "parts.curvature", "the role is reserved"),
         ({"parts.lit.encodings": {"color": "sRGB"}}, "parts.lit.encodings.color", 'did you mean srgb?'),
     ]
 
