@@ -100,7 +100,7 @@ static bool write_occlusion(const struct dump *dump, const struct world *world, 
 /* ---- Shadow map ---- */
 
 enum { SHADOW_SIZE = 1024, MOST_CELLS = 32 };
-static const float SHADOW_REACH = 24; /* m from the middle of the map to its rim */
+static const float SHADOW_REACH = 16, VOLUME_REACH = 20; /* m from the middle to the rim */
 
 struct shadow_work {
     const struct world *world;
@@ -149,7 +149,7 @@ static bool write_shadow(const struct dump *dump, const struct world *world, con
     vec3 right, up, sun = scene->sun_direction,
                     ahead = view_ray(dump->view, dump->view->width / 2, dump->view->height / 2);
     frame_of(sun, &right, &up);
-    vec3 middle = along(view_eye(dump->view), unit(v3(ahead.x, 0, ahead.z)), 0.7f * SHADOW_REACH);
+    vec3 middle = along(view_eye(dump->view), unit(v3(ahead.x, 0, ahead.z)), 0.5f * SHADOW_REACH);
     const float texel = 2 * SHADOW_REACH / SHADOW_SIZE, deep = extent(scene, middle, sun);
     struct glint_shadow shadow = {.range = {0, 1}, .bias = (double)(1.5f * texel / (2 * deep))};
     fill_row(shadow.world_to_shadow, right, 1 / SHADOW_REACH, middle, offset, 0);
@@ -233,7 +233,7 @@ static bool dump_volume(const struct dump *dump, const struct volume_work *work,
 static bool write_volume(const struct dump *dump, const struct world *world, const double offset[3], struct job *job,
                          struct glint_error *err) {
     struct volume_work work = {.world = world, .size = 1};
-    vec3 low, high, eye = view_eye(dump->view), reach = v3(SHADOW_REACH, 0.4f * SHADOW_REACH, SHADOW_REACH);
+    vec3 low, high, eye = view_eye(dump->view), reach = v3(VOLUME_REACH, 0.5f * VOLUME_REACH, VOLUME_REACH);
     if (!scene_bounds(world_scene(world), &low, &high)) return true;
     const float lows[3] = {fmaxf(low.x, eye.x - reach.x), fmaxf(low.y, eye.y - reach.y), fmaxf(low.z, eye.z - reach.z)};
     const float highs[3] = {fminf(high.x, eye.x + reach.x), fminf(high.y, eye.y + reach.y),

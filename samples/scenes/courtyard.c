@@ -148,7 +148,7 @@ static void front(struct scene *scene) {
 static void ground(struct scene *scene) {
     scene_mesh(scene, &paving, MESH_PLAIN);
     scene->cell = 0.5f;
-    scene_quad(scene, v3(LEFT, 0, BACK - DEPTH), v3(0, 0, 8 - BACK + DEPTH), v3(RIGHT + DEPTH - LEFT, 0, 0));
+    scene_quad(scene, v3(LEFT - 1, 0, BACK - DEPTH), v3(0, 0, 8 - BACK + DEPTH), v3(RIGHT + DEPTH - LEFT + 1, 0, 0));
     scene->cell = 4;
     scene_quad(scene, v3(-60, 0, 8), v3(0, 0, 40), v3(120, 0, 0));
     scene_mesh(scene, &stucco, MESH_PLAIN); /* the house behind the camera */
