@@ -228,10 +228,13 @@ static bool enters_yard(vec *p, vec sun) {
     return p->x < YARD[0] && p->z < YARD[2] && p->y < YARD[1];
 }
 
-/* The last surface on that line is the one nearest to the sun. */
+/* The last surface on that line is the one nearest to the sun; behind a wall there is nothing. */
 static vec nearest_to_sun(vec p, vec sun) {
-    for (struct surface s = cast(along(p, sun, 1e-4), sun); s.distance < INFINITY; s = cast(along(p, sun, 1e-4), sun))
+    while (p.x < YARD[0] - 1e-3 && p.z < YARD[2] - 1e-3) {
+        const struct surface s = cast(along(p, sun, 1e-4), sun);
+        if (s.distance == INFINITY) break;
         p = s.at;
+    }
     return p;
 }
 

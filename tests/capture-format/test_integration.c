@@ -81,7 +81,7 @@ static void shadow_map_and_light_agree(UNUSED void **state) {
         const double facing =
             (double)g[4 * i + 1] * sun[0] + (double)g[4 * i + 2] * sun[1] + (double)g[4 * i + 3] * sun[2];
         if (isinf(z)) assert_true(part[i] == 0 && lit[i] > 0);
-        if (isinf(z) || facing < 0.1) continue;
+        if (isinf(z) || facing < 0.5 || part[i] == 0) continue; /* metals have no diffuse light */
         const double back[3] = {z * (2 * u - 1 + p[2]) / p[0] - m[3], z * (1 - 2 * v + p[6]) / p[5] - m[7], -z - m[11]};
         double at[3], q[3];
         for (int a = 0; a < 3; a++) at[a] = m[a] * back[0] + m[4 + a] * back[1] + m[8 + a] * back[2];
@@ -89,15 +89,15 @@ static void shadow_map_and_light_agree(UNUSED void **state) {
             q[r] = s[4 * r] * at[0] + s[4 * r + 1] * at[1] + s[4 * r + 2] * at[2] + s[4 * r + 3];
         const int x = (int)((q[0] + 1) / 2 * MAP), y = (int)((1 - q[1]) / 2 * MAP);
         assert_true(x >= 0 && x < MAP && y >= 0 && y < MAP);
-        /* A texel is 47 mm wide, over which the depth of a surface that faces the sun at 0.1 changes by ten times that: 0.02. */
-        const bool hidden = q[2] > (double)map[y * MAP + x] + 0.02;
+        /* A texel is 47 mm wide, over which the depth of a surface that faces the sun at 0.5 changes by 81 mm, 0.0034 of 24 m. */
+        const bool hidden = q[2] > (double)map[y * MAP + x] + 0.004;
         const bool is_dark = lit[i] <= part[i] * 1.002f; /* halves */
         dark += is_dark;
         bright += !is_dark;
         wrong += hidden != is_dark;
     }
     /* at the rims of shadows, and where an occluder is nearer than that */
-    assert_true(dark > 2000 && bright > 10000);
+    assert_true(dark > 500 && bright > 10000);
     if (wrong > (dark + bright) / 20) fail_msg("%zu of %zu and %zu", wrong, dark, bright);
     glint_capture_close(&c);
 }
