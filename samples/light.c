@@ -29,7 +29,7 @@ static bool has_sun(const struct scene *scene) {
 void light_describe(const struct scene *scene, const double offset[3], struct glint_frame *frame) {
     frame->has_sun = has_sun(scene);
     put3_double(scene->sun_direction, frame->sun.direction);
-    frame->sun.angular_radius_rad = (double)scene->sun_radius_rad;
+    frame->sun.angular_radius_rad = scene->sun_radius_rad;
     put3(scale(scene->sun_irradiance, scene->gain), frame->sun.irradiance);
     frame->light_count = scene->light_count;
     for (uint32_t i = 0; i < scene->light_count; i++) {

@@ -56,7 +56,7 @@ static void trace_hemisphere(const struct light_truth_work *work, const struct h
 static void trace_sun(const struct light_truth_work *work, const struct hit *hit, uint32_t index,
                       struct light_truth *truth) {
     const struct scene *scene = world_scene(work->world);
-    const float radius = tanf(scene->sun_radius_rad);
+    const float radius = (float)tan(scene->sun_radius_rad);
     const uint32_t samples = radius > 0 ? work->rays->samples : 1;
     const vec3 leave = world_leave(hit, hit->geometric);
     vec3 t, b;

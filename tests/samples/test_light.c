@@ -163,7 +163,7 @@ static void test_a_furnace_keeps_its_radiance(UNUSED void **state) {
 static const double elevation = 0.7, high = 0.8;
 
 /* A wall of a box at x = 0 that casts its shadow to x > 0: the sun stands at -x. */
-static void build_box(struct picture *p, float sun_radius_rad) {
+static void build_box(struct picture *p, double sun_radius_rad) {
     struct material matte = matter(0.5f, 0);
     begin(p, v3(2.5f, 2, 0), v3(0.7f, 0, 0.2f));
     p->scene.sun_direction = v3((float)-cos(elevation), (float)sin(elevation), 0);
@@ -201,7 +201,7 @@ static void test_the_shadow_of_a_box(UNUSED void **state) {
 static void test_the_penumbra_of_a_box(UNUSED void **state) {
     const double radius = 0.08;
     struct picture p;
-    build_box(&p, (float)radius);
+    build_box(&p, radius);
     trace(&p, &(struct light_rays){.samples = 1024, .length = 100, .kinds = GLINT_TRUTH_SUN});
     size_t between = 0;
     for (uint32_t k = 0; k < W * H; k++) {
@@ -221,7 +221,7 @@ static void test_the_penumbra_of_a_box(UNUSED void **state) {
 /* Surfaces that are turned away have no sun, and the sky none in its way. */
 static void test_turned_away_from_the_sun(UNUSED void **state) {
     struct picture p;
-    build_box(&p, 0.01f);
+    build_box(&p, 0.01);
     p.scene.eye = v3(3, 0.5f, 0);
     p.scene.target = v3(0, 0.5f, 0.1f);
     trace(&p, &(struct light_rays){

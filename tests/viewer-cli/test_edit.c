@@ -116,7 +116,7 @@ static void every_key_reads_back(void **state) {
                            : !strcmp(on, "sky")        ? "sky"
                                                        : "gbuffer";
         const bool color = !strcmp(name, "color"), hull = !strcmp(name, "hull"), box = !strncmp(name, "box", 3);
-        char setting[400], attribute[80], full[400], low[400];
+        char setting[400], attribute[100], full[400], low[400];
         if (color) part = "lit";
         snprintf(setting, sizeof setting, "%s:%s=%s", part, name, value);
         snprintf(attribute, sizeof attribute, "glint.%s%s", name, hull ? ".00" : "");
