@@ -9,14 +9,10 @@
 /* A name of the format, and where it may be. */
 struct known {
     const char *name; /* NULL: none */
-    char hull[64];    /* the name of some planes of a hull */
+    char text[64];    /* the name of some planes of a hull, or of an attribute of a light */
     bool here;
     const char *place;
 };
-
-static bool is_on(const struct glint_part_info *part, enum glint_scope scope) {
-    return !part->previous && !strcmp(part->role->name, glint_scope_role(scope));
-}
 
 /* Whether the role has channels with the encoding, which a part may lack. */
 static bool has_encoding(const struct glint_role *role, const char *which) {
@@ -28,18 +24,20 @@ static bool has_encoding(const struct glint_role *role, const char *which) {
     return false;
 }
 
-/* The names of all parts, those of encodings, then those of the rows; a hull has a name for each four planes. */
-static bool known_at(size_t i, const struct glint_part_info *part, struct known *known) {
+/* The names of all parts, those of encodings, then those of the rows; a hull has a name for each four planes, and of lights only the one
+   that `name` seems to mean is there. */
+static bool known_at(size_t i, const struct glint_part_info *part, const char *name, struct known *known) {
     static const char *const common[] = {GLINT_VERSION_ATTRIBUTE, GLINT_STORAGE_ATTRIBUTE, GLINT_SIBLING_ATTRIBUTE,
                                          GLINT_SIBLING_HASH_ATTRIBUTE};
     enum { COMMON = sizeof common / sizeof *common, HULLS = GLINT_MAX_PLANES / 4 };
     size_t encodings, rows;
+    uint32_t number = 0;
     const struct glint_encoding_row *encoding = glint_encoding_rows(&encodings);
     const struct glint_attribute_row *row = glint_attribute_rows(&rows);
     if (i < COMMON) {
         known->name = common[i];
-        known->here = i < 2 || is_on(part, GLINT_SCOPE_CUBEMAP);
-        known->place = glint_scope_place(GLINT_SCOPE_CUBEMAP);
+        known->here = i < 2 || glint_scope_is_on(GLINT_SCOPE_CUBEMAP, part->role, part->previous);
+        known->place = glint_scope_row(GLINT_SCOPE_CUBEMAP)->place;
         return true;
     }
     if ((i -= COMMON) < encodings) {
@@ -50,14 +48,15 @@ static bool known_at(size_t i, const struct glint_part_info *part, struct known 
     }
     if ((i -= encodings) >= rows * HULLS) return false;
     row += i / HULLS;
-    known->name = i % HULLS ? NULL : row->name;
+    glint_light_number(name, &number);
+    known->name = i % HULLS ? NULL : glint_attribute_name(row, number, known->text);
     if (row->kind == GLINT_KIND_PLANES) {
-        snprintf(known->hull, sizeof known->hull, "%s.%02zu", row->name, i % HULLS);
-        known->name = known->hull;
+        snprintf(known->text, sizeof known->text, "%s.%02zu", row->name, i % HULLS);
+        known->name = known->text;
     }
     if (!known->name) return true;
-    known->here = is_on(part, row->scope);
-    known->place = glint_scope_place(row->scope);
+    known->here = glint_scope_is_on(row->scope, part->role, part->previous);
+    known->place = glint_scope_row(row->scope)->place;
     return true;
 }
 
@@ -65,7 +64,8 @@ static bool report_unknown(struct glint_check *check, const struct glint_part_in
     struct glint_nearest nearest = glint_nearest_to(name);
     struct known candidates[64];
     size_t count = 0;
-    for (size_t i = 0; count < sizeof candidates / sizeof *candidates && known_at(i, part, &candidates[count]); i++) {
+    for (size_t i = 0; count < sizeof candidates / sizeof *candidates && known_at(i, part, name, &candidates[count]);
+         i++) {
         if (!candidates[count].name || !candidates[count].here) continue;
         glint_nearest_offer(&nearest, candidates[count++].name);
     }
@@ -76,7 +76,7 @@ static bool report_unknown(struct glint_check *check, const struct glint_part_in
 static bool check_name(struct glint_check *check, const struct glint_part_info *part, const char *name) {
     struct known known;
     const char *place = NULL;
-    for (size_t i = 0; known_at(i, part, &known); i++) {
+    for (size_t i = 0; known_at(i, part, name, &known); i++) {
         if (!known.name || strcmp(known.name, name) != 0) continue;
         if (known.here) return true;
         if (!place) place = known.place;

@@ -10,10 +10,11 @@ struct context {
     struct glint_check *check;
     const struct glint_exr_part_info *part;
     const struct glint_attribute_row *row;
+    const char *name; /* the row's, with the number of a light */
 };
 
-#define BROKEN(c, rule, ...)                                                                                           \
-    glint_violation((c)->check, GLINT_RULE_##rule, (c)->part->name, (c)->row->name, __VA_ARGS__)
+#define BROKEN(c, rule, ...) glint_violation((c)->check, GLINT_RULE_##rule, (c)->part->name, (c)->name, __VA_ARGS__)
+static const double PI = 3.14159265358979324;
 
 bool glint_attribute_is_ours(const char *name) {
     return !strncmp(name, "glint.", 6);
@@ -42,6 +43,10 @@ static bool in_range(enum glint_range range, double v) {
         return v > 0 && v <= 1;
     case GLINT_RANGE_ELEVATION:
         return v >= -90 && v <= 90;
+    case GLINT_RANGE_ACUTE:
+        return v >= 0 && v < PI / 2;
+    case GLINT_RANGE_ANGLE:
+        return v >= 0 && v <= PI;
     case GLINT_RANGE_ANY:
         break;
     }
@@ -74,6 +79,43 @@ static bool check_clip(struct context *c, const double *m) {
         return BROKEN(c, MATRIX, "expected an invertible matrix, found %g, %g and %g for a, b and B", m[0], m[5],
                       m[11]);
     return true;
+}
+
+/* By Gauss, with the largest element of a column as the pivot. */
+static bool is_singular(const double *matrix) {
+    double m[16];
+    memcpy(m, matrix, sizeof m);
+    for (int k = 0; k < 4; k++) {
+        int best = k;
+        for (int r = k + 1; r < 4; r++)
+            if (fabs(m[4 * r + k]) > fabs(m[4 * best + k])) best = r;
+        if (m[4 * best + k] == 0) return true;
+        for (int c = 0; c < 4; c++) {
+            const double kept = m[4 * k + c];
+            m[4 * k + c] = m[4 * best + c];
+            m[4 * best + c] = kept;
+        }
+        for (int r = k + 1; r < 4; r++) {
+            const double factor = m[4 * r + k] / m[4 * k + k];
+            for (int c = k; c < 4; c++) m[4 * r + c] -= factor * m[4 * k + c];
+        }
+    }
+    return false;
+}
+
+static bool decode_direction(struct context *c, const double *n, void *member) {
+    const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    if (!(fabs(length - 1) <= 1e-3))
+        return BROKEN(c, ATTRIBUTE, "expected a unit vector, found one of length %g", length);
+    const double unit[3] = {n[0] / length, n[1] / length, n[2] / length};
+    memcpy(member, unit, sizeof unit);
+    return true;
+}
+
+static bool decode_range(struct context *c, const double *n, void *member) {
+    memcpy(member, n, 2 * sizeof *n);
+    return (n[0] != n[1] && n[0] >= 0 && n[0] <= 1 && n[1] >= 0 && n[1] <= 1) ||
+           BROKEN(c, SHADOW, "expected two different depths in [0, 1], found %g and %g", n[0], n[1]);
 }
 
 /* ---- lists ---- */
@@ -130,7 +172,7 @@ static bool decode_planes(struct context *c, struct glint_cubemap *cubemap) {
     bool ended = false, gap = false;
     for (unsigned i = 0; i < GLINT_MAX_PLANES / 4; i++) {
         char name[64];
-        snprintf(name, sizeof name, "%s.%02u", c->row->name, i);
+        snprintf(name, sizeof name, "%s.%02u", c->name, i);
         const struct glint_exr_attribute *from = glint_exr_attribute(c->part, name);
         if (from && gap) return BROKEN(c, ATTRIBUTE, "expected %s after the one before it, found a gap", name);
         gap = !from;
@@ -185,6 +227,13 @@ static bool decode_numbers(struct context *c, const struct glint_exr_attribute *
     case GLINT_KIND_CAMERA_CLIP:
         memcpy(member, n, 16 * sizeof *n);
         return check_clip(c, n);
+    case GLINT_KIND_MATRIX:
+        memcpy(member, n, 16 * sizeof *n);
+        return !is_singular(n) || BROKEN(c, MATRIX, "expected an invertible matrix, found a singular one");
+    case GLINT_KIND_DIRECTION:
+        return decode_direction(c, n, member);
+    case GLINT_KIND_RANGE:
+        return decode_range(c, n, member);
     case GLINT_KIND_PLANE:
         memcpy(member, n, 4 * sizeof *n);
         if (n[0] == 0 && n[1] == 0 && n[2] == 0)
@@ -209,8 +258,9 @@ static bool decode_row(struct context *c, void *to) {
     const struct glint_attribute_row *row = c->row;
     if (row->kind == GLINT_KIND_PLANES) return decode_planes(c, to);
     void *member = (char *)to + row->offset;
-    const struct glint_exr_attribute *from = glint_exr_attribute(c->part, row->name);
+    const struct glint_exr_attribute *from = glint_exr_attribute(c->part, c->name);
     if (!from) {
+        if (row->kind == GLINT_KIND_RANGE) memcpy(member, (const double[2]){0, 1}, 2 * sizeof(double));
         if (row->kind == GLINT_KIND_DOUBLE && !isnan(row->fallback))
             memcpy(member, &row->fallback, sizeof row->fallback);
         const bool required = row->required && (row->group == GLINT_NO_GROUP || *(bool *)((char *)to + row->group));
@@ -231,19 +281,58 @@ static bool decode_row(struct context *c, void *to) {
     }
 }
 
-bool glint_attributes_decode(struct glint_check *check, const struct glint_exr_part_info *part, enum glint_scope scope,
-                             void *to) {
+static bool decode_scope(struct glint_check *check, const struct glint_exr_part_info *part, enum glint_scope scope,
+                         uint32_t number, void *to) {
+    char name[64];
     size_t count = 0;
     const struct glint_attribute_row *rows = glint_attribute_rows(&count);
     struct context c = {.check = check, .part = part};
     /* A group exists if one of its attributes does; others that are required are then missing. */
     for (size_t i = 0; i < count; i++)
-        if (rows[i].scope == scope && rows[i].group != GLINT_NO_GROUP && glint_exr_attribute(part, rows[i].name))
+        if (rows[i].scope == scope && rows[i].group != GLINT_NO_GROUP &&
+            glint_exr_attribute(part, glint_attribute_name(&rows[i], number, name)))
             *(bool *)((char *)to + rows[i].group) = true;
     for (size_t i = 0; i < count; i++) {
+        if (rows[i].scope != scope) continue;
         c.row = &rows[i];
-        if (rows[i].scope == scope && !decode_row(&c, to)) return false;
-        if (rows[i].scope == scope && rows[i].kind == GLINT_KIND_PLANES && !check_volume(&c, to)) return false;
+        c.name = glint_attribute_name(&rows[i], number, name);
+        if (!decode_row(&c, to)) return false;
+        if (rows[i].kind == GLINT_KIND_PLANES && !check_volume(&c, to)) return false;
     }
     return true;
+}
+
+/* ---- lights ---- */
+
+static bool has_light(const struct glint_exr_part_info *part, uint32_t number) {
+    uint32_t found;
+    for (size_t i = 0; i < part->attribute_count; i++)
+        if (glint_light_number(part->attributes[i].name, &found) && found == number) return true;
+    return false;
+}
+
+static bool decode_lights(struct glint_check *check, const struct glint_exr_part_info *part,
+                          struct glint_frame *frame) {
+    uint32_t count = 0, number;
+    for (; count < GLINT_MAX_LIGHTS && has_light(part, count); count++) {
+        struct glint_light *light = &frame->lights[count];
+        if (!decode_scope(check, part, GLINT_SCOPE_LIGHT, count, light)) return false;
+        if (light->has_cone && !(light->cone.inner_rad <= light->cone.outer_rad && light->cone.outer_rad > 0) &&
+            !glint_violation(check, GLINT_RULE_LIGHT, part->name, NULL,
+                             "light %03u: expected 0 <= coneInner <= coneOuter, above 0, found %g and %g", count,
+                             light->cone.inner_rad, light->cone.outer_rad))
+            return false;
+    }
+    frame->light_count = count;
+    for (size_t i = 0; i < part->attribute_count; i++)
+        if (glint_light_number(part->attributes[i].name, &number) && number >= count)
+            return glint_violation(check, GLINT_RULE_LIGHT, part->name, part->attributes[i].name,
+                                   "expected numbers from 000 without a gap, at most %d, found %u lights before it",
+                                   GLINT_MAX_LIGHTS, count);
+    return true;
+}
+
+bool glint_attributes_decode(struct glint_check *check, const struct glint_exr_part_info *part, enum glint_scope scope,
+                             void *to) {
+    return decode_scope(check, part, scope, 0, to) && (scope != GLINT_SCOPE_FRAME || decode_lights(check, part, to));
 }

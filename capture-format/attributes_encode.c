@@ -73,8 +73,11 @@ static bool push_planes(struct glint_arena *arena, struct glint_attribute_list *
     return true;
 }
 
+/* `number`: of a light. */
 static bool push_value(struct glint_arena *arena, struct glint_attribute_list *list,
-                       const struct glint_attribute_row *row, const void *from) {
+                       const struct glint_attribute_row *row, uint32_t number, const void *from) {
+    char text[64];
+    const char *name = glint_attribute_name(row, number, text);
     const char *member = (const char *)from + row->offset;
     double numbers[16] = {0};
     float narrow[3];
@@ -83,33 +86,39 @@ static bool push_value(struct glint_arena *arena, struct glint_attribute_list *l
     switch (row->kind) {
     case GLINT_KIND_CAMERA_VIEW:
     case GLINT_KIND_CAMERA_CLIP:
+    case GLINT_KIND_MATRIX:
         memcpy(numbers, member, sizeof numbers);
-        return push_numbers(arena, list, row->name, GLINT_EXR_M44D, numbers, 16);
+        return push_numbers(arena, list, name, GLINT_EXR_M44D, numbers, 16);
     case GLINT_KIND_PLANE:
         memcpy(numbers, member, 4 * sizeof *numbers);
-        return push_numbers(arena, list, row->name, GLINT_EXR_M44D, numbers, 16);
+        return push_numbers(arena, list, name, GLINT_EXR_M44D, numbers, 16);
     case GLINT_KIND_V3:
+    case GLINT_KIND_DIRECTION:
         memcpy(numbers, member, 3 * sizeof *numbers);
-        return push_numbers(arena, list, row->name, GLINT_EXR_V3D, numbers, 3);
+        return push_numbers(arena, list, name, GLINT_EXR_V3D, numbers, 3);
     case GLINT_KIND_V2:
         memcpy(numbers, member, 2 * sizeof *numbers);
-        return push_numbers(arena, list, row->name, GLINT_EXR_V2D, numbers, 2);
+        return push_numbers(arena, list, name, GLINT_EXR_V2D, numbers, 2);
+    case GLINT_KIND_RANGE:
+        memcpy(numbers, member, 2 * sizeof *numbers);
+        if (numbers[0] == 0 && numbers[1] == 0) numbers[1] = 1;
+        return push_numbers(arena, list, name, GLINT_EXR_V2D, numbers, 2);
     case GLINT_KIND_DOUBLE:
         memcpy(numbers, member, sizeof *numbers);
         if (numbers[0] == 0 && !isnan(row->fallback)) numbers[0] = row->fallback;
-        return push_numbers(arena, list, row->name, GLINT_EXR_DOUBLE, numbers, 1);
+        return push_numbers(arena, list, name, GLINT_EXR_DOUBLE, numbers, 1);
     case GLINT_KIND_V3FLOAT:
         memcpy(narrow, member, sizeof narrow);
         for (int i = 0; i < 3; i++) numbers[i] = (double)narrow[i];
-        return push_numbers(arena, list, row->name, GLINT_EXR_V3F, numbers, 3);
+        return push_numbers(arena, list, name, GLINT_EXR_V3F, numbers, 3);
     case GLINT_KIND_UINT:
         memcpy(&word, member, sizeof word);
         numbers[0] = (int32_t)word;
-        return push_numbers(arena, list, row->name, GLINT_EXR_INT, numbers, 1);
+        return push_numbers(arena, list, name, GLINT_EXR_INT, numbers, 1);
     case GLINT_KIND_BOOL:
         memcpy(&flag, member, sizeof flag);
         numbers[0] = flag;
-        return push_numbers(arena, list, row->name, GLINT_EXR_INT, numbers, 1);
+        return push_numbers(arena, list, name, GLINT_EXR_INT, numbers, 1);
     case GLINT_KIND_AXIS:
     case GLINT_KIND_CLIP_Y:
     case GLINT_KIND_CLIP_Z:
@@ -117,26 +126,37 @@ static bool push_value(struct glint_arena *arena, struct glint_attribute_list *l
         const char *const *names = glint_kind_names(row->kind);
         memcpy(&word, member, sizeof word);
         for (uint32_t i = 0; names[i]; i++)
-            if (i == word) return glint_attribute_push_string(arena, list, row->name, names[i]);
+            if (i == word) return glint_attribute_push_string(arena, list, name, names[i]);
         return false;
     }
     case GLINT_KIND_CLASSES:
-        return push_classes(arena, list, row->name, from);
+        return push_classes(arena, list, name, from);
     case GLINT_KIND_PLANES:
-        return push_planes(arena, list, row->name, from);
+        return push_planes(arena, list, name, from);
     }
     return false;
 }
 
-bool glint_attributes_encode(struct glint_arena *arena, struct glint_attribute_list *list, enum glint_scope scope,
-                             const void *from) {
+static bool encode_scope(struct glint_arena *arena, struct glint_attribute_list *list, enum glint_scope scope,
+                         uint32_t number, const void *from) {
     size_t count = 0;
     const struct glint_attribute_row *rows = glint_attribute_rows(&count);
     for (size_t i = 0; i < count; i++) {
         if (rows[i].scope != scope) continue;
         if (rows[i].group != GLINT_NO_GROUP && !*(const bool *)((const char *)from + rows[i].group)) continue;
-        if (!push_value(arena, list, &rows[i], from)) return false;
+        if (!push_value(arena, list, &rows[i], number, from)) return false;
     }
+    return true;
+}
+
+bool glint_attributes_encode(struct glint_arena *arena, struct glint_attribute_list *list, enum glint_scope scope,
+                             const void *from) {
+    if (!encode_scope(arena, list, scope, 0, from)) return false;
+    if (scope != GLINT_SCOPE_FRAME) return true;
+    const struct glint_frame *frame = from;
+    if (frame->light_count > GLINT_MAX_LIGHTS) return false;
+    for (uint32_t i = 0; i < frame->light_count; i++)
+        if (!encode_scope(arena, list, GLINT_SCOPE_LIGHT, i, &frame->lights[i])) return false;
     return true;
 }
 

@@ -13,6 +13,7 @@ struct row {
     const struct glint_attribute_row *attribute;
     const struct glint_encoding_row *encoding;
     bool storage;
+    char numbered[64]; /* the name of a light's attribute, with its number */
 };
 
 static bool row_at(size_t i, struct row *row) {
@@ -27,7 +28,18 @@ static bool row_at(size_t i, struct row *row) {
 }
 
 static const char *attribute_of(const struct row *row) {
+    if (row->numbered[0]) return row->numbered;
     return row->attribute ? row->attribute->name : row->encoding ? row->encoding->attribute : GLINT_STORAGE_ATTRIBUTE;
+}
+
+/* Whether a key without "glint." means the row; the number of a light is kept. */
+static bool row_is(struct row *row, const char *key) {
+    char name[256];
+    uint32_t number;
+    snprintf(name, sizeof name, PREFIX "%s", key);
+    if (row->attribute && row->attribute->scope == GLINT_SCOPE_LIGHT && glint_light_number(name, &number))
+        glint_attribute_name(row->attribute, number, row->numbered);
+    return !strcmp(attribute_of(row), name) && !strstr(name, ".NNN.");
 }
 
 /* How many numbers the text of a kind has; 0: it is no list of numbers. */
@@ -35,13 +47,16 @@ static size_t number_count(enum glint_attribute_kind kind) {
     switch (kind) {
     case GLINT_KIND_CAMERA_VIEW:
     case GLINT_KIND_CAMERA_CLIP:
+    case GLINT_KIND_MATRIX:
         return 16;
     case GLINT_KIND_PLANE:
         return 4;
     case GLINT_KIND_V3:
     case GLINT_KIND_V3FLOAT:
+    case GLINT_KIND_DIRECTION:
         return 3;
     case GLINT_KIND_V2:
+    case GLINT_KIND_RANGE:
         return 2;
     case GLINT_KIND_DOUBLE:
     case GLINT_KIND_UINT:
@@ -58,6 +73,7 @@ static const char *form_of(const struct row *row) {
     switch (row->attribute->kind) {
     case GLINT_KIND_CAMERA_VIEW:
     case GLINT_KIND_CAMERA_CLIP:
+    case GLINT_KIND_MATRIX:
         return "16 numbers, row by row";
     case GLINT_KIND_PLANE:
         return "4 numbers";
@@ -65,8 +81,10 @@ static const char *form_of(const struct row *row) {
         return "4 numbers for each plane";
     case GLINT_KIND_V3:
     case GLINT_KIND_V3FLOAT:
+    case GLINT_KIND_DIRECTION:
         return "3 numbers";
     case GLINT_KIND_V2:
+    case GLINT_KIND_RANGE:
         return "2 numbers";
     case GLINT_KIND_UINT:
         return "a whole number";
@@ -82,11 +100,13 @@ static const char *form_of(const struct row *row) {
 }
 
 bool glint_edit_key(size_t i, struct glint_edit_key *key) {
-    static const enum glint_edit_scope scopes[] = {[GLINT_SCOPE_FRAME] = GLINT_EDIT_FRAME,
-                                                   [GLINT_SCOPE_CUBEMAP] = GLINT_EDIT_CUBEMAP,
-                                                   [GLINT_SCOPE_SKY] = GLINT_EDIT_SKY,
-                                                   [GLINT_SCOPE_PROBE] = GLINT_EDIT_PROBE,
-                                                   [GLINT_SCOPE_PLANAR] = GLINT_EDIT_PLANAR};
+    static const enum glint_edit_scope scopes[] = {
+        [GLINT_SCOPE_FRAME] = GLINT_EDIT_FRAME,       [GLINT_SCOPE_LIGHT] = GLINT_EDIT_FRAME,
+        [GLINT_SCOPE_INDIRECT] = GLINT_EDIT_INDIRECT, [GLINT_SCOPE_SHADOW] = GLINT_EDIT_SHADOW,
+        [GLINT_SCOPE_VOLUME] = GLINT_EDIT_VOLUME,     [GLINT_SCOPE_TRUTH_OCCLUSION] = GLINT_EDIT_TRUTH,
+        [GLINT_SCOPE_TRUTH_SUN] = GLINT_EDIT_TRUTH,   [GLINT_SCOPE_CUBEMAP] = GLINT_EDIT_CUBEMAP,
+        [GLINT_SCOPE_SKY] = GLINT_EDIT_SKY,           [GLINT_SCOPE_PROBE] = GLINT_EDIT_PROBE,
+        [GLINT_SCOPE_PLANAR] = GLINT_EDIT_PLANAR};
     struct row row;
     if (!row_at(i, &row)) return false;
     const struct glint_attribute_row *a = row.attribute;
@@ -174,7 +194,7 @@ static bool set_string(const struct value *v, size_t part, const char *name) {
                           v->err);
 }
 
-static bool set_numeric(const struct value *v, size_t part, const struct glint_attribute_row *row) {
+static bool set_numeric(const struct value *v, size_t part, const char *name, const struct glint_attribute_row *row) {
     double numbers[17] = {0};
     const size_t wanted = number_count(row->kind), count = parse_numbers(v->text, numbers, 17);
     const bool whole = row->kind == GLINT_KIND_UINT || row->kind == GLINT_KIND_BOOL;
@@ -183,12 +203,11 @@ static bool set_numeric(const struct value *v, size_t part, const struct glint_a
     if (whole && !(numbers[0] >= 0 && numbers[0] <= limit && numbers[0] == (double)(uint32_t)numbers[0]))
         return refuse(v, form_of(&(struct row){.attribute = row}));
     if (whole) numbers[0] = (int32_t)(uint32_t)numbers[0]; /* EXR has no unsigned attributes */
-    return set_numbers(v, part, row->name, glint_kind_type(row->kind), numbers,
-                       row->kind == GLINT_KIND_PLANE ? 16 : wanted);
+    return set_numbers(v, part, name, glint_kind_type(row->kind), numbers, row->kind == GLINT_KIND_PLANE ? 16 : wanted);
 }
 
 static void plane_name(char name[64], const char *attribute, unsigned i) {
-    snprintf(name, 64, "%s.%02u", attribute, i);
+    snprintf(name, 64, "%.60s.%02u", attribute, i);
 }
 
 /* A hull is stored four planes an attribute. */
@@ -270,11 +289,11 @@ static bool set_row(const struct value *v, size_t part, const struct row *row) {
     const char *name = attribute_of(row);
     const struct glint_attribute_row *a = row->attribute;
     if (!a && !glint_edit_resolve(v->edit, &v->edit->parts[part], v->err)) return false;
-    if (a && a->kind == GLINT_KIND_PLANES) return set_planes(v, part, name);
+    if (a && a->kind == GLINT_KIND_PLANES) return set_planes(v, part, a->name);
     if (!*v->text) return glint_edit_unset(v->edit, part, name), true;
     if (row->storage) return set_storage(v, part);
     if (a && a->kind == GLINT_KIND_CLASSES) return set_classes(v, part, name);
-    if (a && number_count(a->kind)) return set_numeric(v, part, a);
+    if (a && number_count(a->kind)) return set_numeric(v, part, name, a);
     return parse_names(v, row) && set_string(v, part, name);
 }
 
@@ -305,8 +324,7 @@ static bool applies(const struct glint_edit_part *part, const struct row *row, c
     if (!role) return false;
     if (row->encoding) return has_encoding(part, row->encoding->which);
     if (row->attribute)
-        return !strcmp(role->name, glint_scope_role(row->attribute->scope)) &&
-               strncmp(part->info.name, "previous.", 9) != 0;
+        return glint_scope_is_on(row->attribute->scope, role, !strncmp(part->info.name, "previous.", 9));
     for (size_t c = 0; c < part->info.channel_count; c++)
         if (!*value || same_channel(value, part->info.channels[c].name)) return true;
     return false;
@@ -361,7 +379,7 @@ bool glint_edit_assign(struct glint_edit *edit, const char *filter, const char *
     char full[256];
     /* Cameras have the same names on gbuffer and on planar maps; the frame's row comes first. */
     for (size_t i = 0; row_at(i, &row) && !count; i++) {
-        if (strcmp(attribute_of(&row) + strlen(PREFIX), name) != 0) continue;
+        if (!row_is(&row, name)) continue;
         known = true;
         snprintf(full, sizeof full, "%s", attribute_of(&row));
         if (!assign_row(&v, filter, &row, &count)) return false;

@@ -57,20 +57,21 @@ static void write_encodings(FILE *out) {
 }
 
 static void write_attributes(FILE *out) {
-    static const char *const ranges[] = {"any", "> 0", "≥ 0", "(0, 1]", "[−90, 90]"};
+    static const char *const ranges[] = {"any", "> 0", "≥ 0", "(0, 1]", "[−90, 90]", "[0, π/2)", "[0, π]"};
     size_t count = 0;
     const struct glint_attribute_row *rows = glint_attribute_rows(&count);
     for (int scope = 0; scope < GLINT_SCOPE_COUNT; scope++) {
         fprintf(out,
                 "%sAttributes %s:\n\n| attribute | type | required | range | value when absent | unit | meaning |\n"
                 "| --- | --- | --- | --- | --- | --- | --- |\n",
-                scope ? "\n" : "", glint_scope_place((enum glint_scope)scope));
+                scope ? "\n" : "", glint_scope_row((enum glint_scope)scope)->place);
         for (size_t i = 0; i < count; i++) {
             const struct glint_attribute_row *row = &rows[i];
             if ((int)row->scope != scope) continue;
             char absent[32] = "–";
             if (row->kind == GLINT_KIND_DOUBLE && !row->required && !isnan(row->fallback))
                 snprintf(absent, sizeof absent, "%g", row->fallback);
+            if (row->kind == GLINT_KIND_RANGE) snprintf(absent, sizeof absent, "0 1");
             fprintf(out, "| `%s` | %s | %s | %s | %s | %s | %s |\n", row->name, glint_kind_type(row->kind),
                     !row->required                 ? "no"
                     : row->group == GLINT_NO_GROUP ? "yes"

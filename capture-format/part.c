@@ -215,22 +215,28 @@ static bool check_channels(struct glint_check *check, const struct glint_part_in
     return check_required(check, out);
 }
 
+static bool check_grid(struct glint_check *check, const struct glint_part_info *out) {
+    const double *m = out->volume.world_to_grid;
+    if (!out->has_volume) return true;
+    if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1)
+        return BROKEN(GRID, "glint.worldToGrid", "expected the last row 0 0 0 1, found %g %g %g %g", m[12], m[13],
+                      m[14], m[15]);
+    return (out->volume.slices && out->height % out->volume.slices == 0) ||
+           BROKEN(GRID, "glint.volumeSlices", "expected a height of a whole number of slices, found %u and %u slices",
+                  out->height, out->volume.slices);
+}
+
 /* The attributes of the role, but for those of the frame, which all parts need. */
 static bool parse_scopes(struct glint_check *check, const struct glint_exr_part_info *from,
                          struct glint_part_info *out) {
-    const struct {
-        enum glint_scope scope;
-        bool *has;
-        void *to;
-    } all[] = {{GLINT_SCOPE_CUBEMAP, &out->has_cubemap, &out->cubemap},
-               {GLINT_SCOPE_PLANAR, &out->has_planar, &out->planar},
-               {GLINT_SCOPE_SKY, &out->has_sky, &out->sky},
-               {GLINT_SCOPE_PROBE, &out->has_probe, &out->probe}};
-    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
-        if (strcmp(out->role->name, glint_scope_role(all[i].scope))) continue;
-        *all[i].has = true;
-        if (!glint_attributes_decode(check, from, all[i].scope, all[i].to)) return false;
+    for (int i = 0; i < GLINT_SCOPE_COUNT; i++) {
+        const enum glint_scope scope = (enum glint_scope)i;
+        const struct glint_scope_row *row = glint_scope_row(scope);
+        if (row->of_frame || !glint_scope_is_on(scope, out->role, out->previous)) continue;
+        *(bool *)((char *)out + row->has) = true;
+        if (!glint_attributes_decode(check, from, scope, (char *)out + row->found)) return false;
     }
+    if (!check_grid(check, out)) return false;
     const struct glint_probe_box *box = &out->probe.box;
     for (int i = 0; out->probe.has_box && i < 3; i++)
         if (!(box->min[i] < box->max[i]))
@@ -263,8 +269,8 @@ bool glint_part_parse(struct glint_check *check, struct glint_arena *arena, cons
 /* ---- rules between parts ---- */
 
 static bool check_depth(struct glint_check *check, const struct glint_part_info *out, const struct glint_frame *frame) {
-    if (!glint_part_has_channel(out, "depth.Z") || !out->role) return true;
-    if (!glint_role_channel_find(out->role, "depth.Z")) return true;
+    const struct glint_role_channel *row = glint_role_channel_find(out->role, "depth.Z");
+    if (!row || !row->encoding[0] || !glint_part_has_channel(out, "depth.Z")) return true;
     const enum glint_depth_encoding encoding = out->encodings.depth;
     const struct glint_camera *camera = out->has_planar ? &out->planar.camera
                                         : out->previous ? &frame->previous
@@ -299,6 +305,17 @@ static bool check_shape(struct glint_check *check, const struct glint_part_info 
     return true;
 }
 
+/* A shadow map is of a light that the frame has. */
+static bool check_shadow(struct glint_check *check, const struct glint_part_info *out,
+                         const struct glint_frame *frame) {
+    const struct glint_shadow *shadow = &out->shadow;
+    if (!out->has_shadow || (shadow->has_light ? shadow->light < frame->light_count : frame->has_sun)) return true;
+    if (!shadow->has_light)
+        return BROKEN(SHADOW, NULL, "expected glint.sunDirection on gbuffer, or glint.shadowLight, found neither");
+    return BROKEN(SHADOW, "glint.shadowLight", "expected the number of one of the frame's %u lights, found %u",
+                  frame->light_count, shadow->light);
+}
+
 static bool check_required_roles(struct glint_check *check, const struct glint_part_info *parts, size_t count) {
     size_t role_count = 0;
     const struct glint_role *roles = glint_roles(&role_count);
@@ -331,7 +348,9 @@ bool glint_parts_check(struct glint_check *check, const struct glint_exr_part_in
     for (size_t i = 0; i < count; i++) {
         const struct glint_part_info *out = &parts[i];
         if (!out->role) continue;
-        if (!check_shape(check, out, gbuffer) || (gbuffer && !check_depth(check, out, frame))) return false;
+        if (!check_shape(check, out, gbuffer) ||
+            (gbuffer && !(check_depth(check, out, frame) && check_shadow(check, out, frame))))
+            return false;
         if (gbuffer && out->previous && !strcmp(out->role->name, "gbuffer") && !frame->has_previous &&
             !BROKEN(PREVIOUS, NULL, "expected previousWorldToView and previousViewToClip on gbuffer, found none"))
             return false;

@@ -2,6 +2,7 @@
 #include "registry.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #define CAT_(a, b) a##b
@@ -168,10 +169,19 @@ int glint_encoding_value(const char *which, const char *name) {
 #define GROUP_has_roughness(scope) offsetof(STRUCT_##scope, has_roughness)
 #define GROUP_has_box(scope) offsetof(STRUCT_##scope, has_box)
 #define GROUP_has_material(scope) offsetof(STRUCT_##scope, has_material)
+#define GROUP_has_sun(scope) offsetof(STRUCT_##scope, has_sun)
+#define GROUP_has_cone(scope) offsetof(STRUCT_##scope, has_cone)
+#define GROUP_has_light(scope) offsetof(STRUCT_##scope, has_light)
 #define NEED_REQUIRED true
 #define NEED_OPTIONAL false
 
 #define STRUCT_FRAME struct glint_frame
+#define STRUCT_LIGHT struct glint_light
+#define STRUCT_INDIRECT struct glint_indirect
+#define STRUCT_SHADOW struct glint_shadow
+#define STRUCT_VOLUME struct glint_light_volume
+#define STRUCT_TRUTH_OCCLUSION struct glint_truth
+#define STRUCT_TRUTH_SUN struct glint_truth
 #define STRUCT_CUBEMAP struct glint_cubemap
 #define STRUCT_SKY struct glint_sky
 #define STRUCT_PROBE struct glint_probe
@@ -179,6 +189,7 @@ int glint_encoding_value(const char *which, const char *name) {
 
 static const struct glint_attribute_row attributes[] = {
 #define SCOPE(...)
+#define PART_SCOPE(...)
 #define ATTRIBUTE(scope, name, kind, member, group, need, range, fallback, unit, meaning)                              \
     {GLINT_SCOPE_##scope,                                                                                              \
      name,                                                                                                             \
@@ -198,40 +209,55 @@ const struct glint_attribute_row *glint_attribute_rows(size_t *count) {
     return attributes;
 }
 
-const char *glint_scope_place(enum glint_scope scope) {
-    static const char *const places[] = {
-#define SCOPE(id, role, type, place) [GLINT_SCOPE_##id] = place,
+const struct glint_scope_row *glint_scope_row(enum glint_scope scope) {
+    static const struct glint_scope_row rows[] = {
+#define SCOPE(id, role, type, place) [GLINT_SCOPE_##id] = {role, place, true, 0, 0, 0},
+#define PART_SCOPE(id, role, type, member, place)                                                                      \
+    [GLINT_SCOPE_##id] = {role,                                                                                        \
+                          place,                                                                                       \
+                          false,                                                                                       \
+                          offsetof(struct glint_part, member),                                                         \
+                          offsetof(struct glint_part_info, has_##member),                                              \
+                          offsetof(struct glint_part_info, member)},
 #define ATTRIBUTE(...)
 #include "rows/attributes.h"
     };
-    return places[scope];
+    return &rows[scope];
 }
 
-const char *glint_scope_role(enum glint_scope scope) {
-    static const char *const roles_of[] = {
-#define SCOPE(id, role, type, place) [GLINT_SCOPE_##id] = role,
-#define ATTRIBUTE(...)
-#include "rows/attributes.h"
-    };
-    return roles_of[scope];
+bool glint_scope_is_on(enum glint_scope scope, const struct glint_role *role, bool previous) {
+    const struct glint_scope_row *row = glint_scope_row(scope);
+    return role && !strcmp(role->name, row->role) && !(row->of_frame && previous);
+}
+
+/* ---- names of the attributes of lights ---- */
+
+static const char light[] = "glint.light.";
+
+const char *glint_attribute_name(const struct glint_attribute_row *row, uint32_t number, char name[64]) {
+    if (row->scope != GLINT_SCOPE_LIGHT) return row->name;
+    snprintf(name, 64, "%s%03u%s", light, number, row->name + sizeof light - 1 + strlen("NNN"));
+    return name;
+}
+
+bool glint_light_number(const char *name, uint32_t *number) {
+    const char *digits = name + sizeof light - 1;
+    if (strncmp(name, light, sizeof light - 1) != 0 || strspn(digits, "0123456789") != 3 || digits[3] != '.')
+        return false;
+    *number = (uint32_t)(100 * (digits[0] - '0') + 10 * (digits[1] - '0') + digits[2] - '0');
+    return true;
 }
 
 const char *glint_kind_type(enum glint_attribute_kind kind) {
-    static const char *const types[] = {[GLINT_KIND_CAMERA_VIEW] = "m44d",
-                                        [GLINT_KIND_CAMERA_CLIP] = "m44d",
-                                        [GLINT_KIND_V3] = "v3d",
-                                        [GLINT_KIND_V2] = "v2d",
-                                        [GLINT_KIND_DOUBLE] = "double",
-                                        [GLINT_KIND_V3FLOAT] = "v3f",
-                                        [GLINT_KIND_UINT] = "int",
-                                        [GLINT_KIND_BOOL] = "int",
-                                        [GLINT_KIND_AXIS] = "string",
-                                        [GLINT_KIND_CLIP_Y] = "string",
-                                        [GLINT_KIND_CLIP_Z] = "string",
-                                        [GLINT_KIND_VOLUME] = "string",
-                                        [GLINT_KIND_CLASSES] = "stringvector",
-                                        [GLINT_KIND_PLANES] = "m44d",
-                                        [GLINT_KIND_PLANE] = "m44d"};
+    static const char *const types[] = {[GLINT_KIND_CAMERA_VIEW] = "m44d", [GLINT_KIND_CAMERA_CLIP] = "m44d",
+                                        [GLINT_KIND_MATRIX] = "m44d",      [GLINT_KIND_V3] = "v3d",
+                                        [GLINT_KIND_DIRECTION] = "v3d",    [GLINT_KIND_V2] = "v2d",
+                                        [GLINT_KIND_RANGE] = "v2d",        [GLINT_KIND_DOUBLE] = "double",
+                                        [GLINT_KIND_V3FLOAT] = "v3f",      [GLINT_KIND_UINT] = "int",
+                                        [GLINT_KIND_BOOL] = "int",         [GLINT_KIND_AXIS] = "string",
+                                        [GLINT_KIND_CLIP_Y] = "string",    [GLINT_KIND_CLIP_Z] = "string",
+                                        [GLINT_KIND_VOLUME] = "string",    [GLINT_KIND_CLASSES] = "stringvector",
+                                        [GLINT_KIND_PLANES] = "m44d",      [GLINT_KIND_PLANE] = "m44d"};
     return types[kind];
 }
 

@@ -32,8 +32,11 @@ void glint_encoding_set(struct glint_encodings *encodings, const struct glint_en
 enum glint_attribute_kind {
     GLINT_KIND_CAMERA_VIEW,
     GLINT_KIND_CAMERA_CLIP,
+    GLINT_KIND_MATRIX,
     GLINT_KIND_V3,
+    GLINT_KIND_DIRECTION,
     GLINT_KIND_V2,
+    GLINT_KIND_RANGE,
     GLINT_KIND_DOUBLE,
     GLINT_KIND_V3FLOAT,
     GLINT_KIND_UINT,
@@ -51,16 +54,27 @@ enum glint_range {
     GLINT_RANGE_POSITIVE,
     GLINT_RANGE_NOT_NEGATIVE,
     GLINT_RANGE_UNIT,
-    GLINT_RANGE_ELEVATION
+    GLINT_RANGE_ELEVATION,
+    GLINT_RANGE_ACUTE,
+    GLINT_RANGE_ANGLE
 };
 enum glint_scope {
 #define SCOPE(id, role, type, place) GLINT_SCOPE_##id,
+#define PART_SCOPE(id, role, type, member, place) GLINT_SCOPE_##id,
 #define ATTRIBUTE(...)
 #include "rows/attributes.h"
     GLINT_SCOPE_COUNT
 };
-/* The role whose parts carry a scope's attributes. */
-const char *glint_scope_role(enum glint_scope scope);
+struct glint_scope_row {
+    const char *role;  /* whose parts carry the attributes */
+    const char *place; /* "on each `cubemap.NNN`" */
+    bool of_frame;     /* on gbuffer itself, not on a previous one; the offsets below are of parts' structs alone */
+    size_t given;      /* in glint_part: the pointer to the struct */
+    size_t has, found; /* in glint_part_info: whether the part is one of the role, and the struct */
+};
+const struct glint_scope_row *glint_scope_row(enum glint_scope scope);
+/* Whether a part of this role carries a scope's attributes. */
+bool glint_scope_is_on(enum glint_scope scope, const struct glint_role *role, bool previous);
 #define GLINT_NO_GROUP ((size_t)-1)
 struct glint_attribute_row {
     enum glint_scope scope;
@@ -74,7 +88,10 @@ struct glint_attribute_row {
     const char *unit, *meaning;
 };
 const struct glint_attribute_row *glint_attribute_rows(size_t *count);
-const char *glint_scope_place(enum glint_scope scope);
+/* The row's name, with the number of a light in place of NNN. */
+const char *glint_attribute_name(const struct glint_attribute_row *row, uint32_t number, char name[64]);
+/* The number after `glint.light.`; false if the name is none of a light. */
+bool glint_light_number(const char *name, uint32_t *number);
 /* EXR's word for how a kind is stored. */
 const char *glint_kind_type(enum glint_attribute_kind kind);
 /* Names of the values of AXIS, CLIP_Y, CLIP_Z and VOLUME, NULL-terminated; NULL for the other kinds. */

@@ -92,6 +92,22 @@ static bool push_foreign(struct glint_writer_part *held, const struct glint_part
     return true;
 }
 
+/* What the part was given. An attribute that belongs to another role is found when the part is checked; of truths, each takes its own. */
+static bool push_scopes(struct glint_writer_part *held, const struct glint_part *part, const struct glint_role *role,
+                        struct glint_error *err) {
+    for (int i = 0; i < GLINT_SCOPE_COUNT; i++) {
+        const struct glint_scope_row *row = glint_scope_row((enum glint_scope)i);
+        const void *from = row->of_frame ? NULL : *(const void *const *)((const char *)part + row->given);
+        if (!from || (from == part->truth && !glint_scope_is_on((enum glint_scope)i, role, false))) continue;
+        if (!glint_attributes_encode(&held->arena, &held->attributes, (enum glint_scope)i, from))
+            return from == part->cubemap ? glint_fail(err, GLINT_ERROR_USAGE,
+                                                      "part %s: expected a volume and at most %d planes, found others",
+                                                      part->name, GLINT_MAX_PLANES)
+                                         : glint_fail(err, GLINT_ERROR_MEMORY, "part %s: out of memory", part->name);
+    }
+    return true;
+}
+
 static bool push_attributes(struct glint_writer_part *held, const struct glint_part *part,
                             const struct glint_role *role, struct glint_error *err) {
     static const double version = GLINT_FORMAT_VERSION;
@@ -102,18 +118,7 @@ static bool push_attributes(struct glint_writer_part *held, const struct glint_p
     if (!push_encodings(held, part, role, err)) return false;
     if (part->channel_count && !push_storage(held, part))
         return glint_fail(err, GLINT_ERROR_MEMORY, "part %s: out of memory", part->name);
-    if (part->cubemap && !glint_attributes_encode(&held->arena, &held->attributes, GLINT_SCOPE_CUBEMAP, part->cubemap))
-        return glint_fail(err, GLINT_ERROR_USAGE, "part %s: expected a volume and at most %d planes, found others",
-                          part->name, GLINT_MAX_PLANES);
-    const struct {
-        enum glint_scope scope;
-        const void *from;
-    } others[] = {{GLINT_SCOPE_PLANAR, part->planar}, {GLINT_SCOPE_SKY, part->sky}, {GLINT_SCOPE_PROBE, part->probe}};
-    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
-        if (others[i].from &&
-            !glint_attributes_encode(&held->arena, &held->attributes, others[i].scope, others[i].from))
-            return glint_fail(err, GLINT_ERROR_MEMORY, "part %s: out of memory", part->name);
-    return push_foreign(held, part, err);
+    return push_scopes(held, part, role, err) && push_foreign(held, part, err);
 }
 
 /* A part whose pixels are in a sibling: one black pixel a face, so that every tool can open the file. The hash is

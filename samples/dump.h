@@ -24,6 +24,9 @@ bool dump_cubemap_elsewhere(const struct dump *dump, uint32_t index, const struc
                             const char *sibling, struct glint_error *err);
 bool dump_sky(const struct dump *dump, uint32_t size, const struct texel *texels, struct glint_error *err);
 bool dump_water(const struct dump *dump, const struct water_pixel *water, struct glint_error *err);
+/* Colours of the picture's size. */
+bool dump_picture(const struct dump *dump, const char *name, const vec3 *first, size_t stride_bytes,
+                  struct glint_error *err);
 /* The final image. */
 bool dump_scene(const struct dump *dump, const vec3 *scene, size_t stride_bytes, struct glint_error *err);
 bool dump_glass(const struct dump *dump, const struct glass_pixel *glass, struct glint_error *err);

@@ -54,6 +54,23 @@ struct finished_work {
     vec3 *picture;
 };
 
+static struct mirror mirror_of(const struct pixel *pixel, const struct hit *hit) {
+    return (struct mirror){world_leave(hit, hit->geometric),
+                           hit->geometric,
+                           unit(pixel->normal),
+                           pixel->albedo,
+                           pixel->roughness,
+                           pixel->metalness,
+                           pixel->specular};
+}
+
+vec3 finished_pixel(const struct world *world, const struct view *view, const struct pixel *pixel,
+                    const struct hit *hit, float u, float v) {
+    if (!(hit->t < INFINITY)) return pixel->lit;
+    const struct mirror m = mirror_of(pixel, hit);
+    return add(pixel->lit, sample_reflection(world, &m, unit(sub(view_eye(view), hit->position)), u, v));
+}
+
 static void finished_row(void *user, uint32_t y) {
     const struct finished_work *work = user;
     for (uint32_t x = 0; x < work->view->width; x++) {
@@ -62,13 +79,7 @@ static void finished_row(void *user, uint32_t y) {
         work->picture[i] = pixel->lit;
         struct hit hit = primary_hit(work->world, work->view, x, y);
         if (!(hit.t < INFINITY)) continue;
-        struct mirror m = {world_leave(&hit, hit.geometric),
-                           hit.geometric,
-                           unit(pixel->normal),
-                           pixel->albedo,
-                           pixel->roughness,
-                           pixel->metalness,
-                           pixel->specular};
+        const struct mirror m = mirror_of(pixel, &hit);
         vec3 to_eye = unit(sub(view_eye(work->view), hit.position));
         for (uint32_t k = 0; k < work->samples; k++) {
             float u, v;

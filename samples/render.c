@@ -36,10 +36,10 @@ static vec3 to_half(vec3 v) {
     return v3(rounded(v.x), rounded(v.y), rounded(v.z));
 }
 
-static struct pixel seen(const struct frame_work *work, const struct hit *hit, vec3 direction) {
+static struct pixel seen(const struct world *world, const struct view *view, const struct hit *hit, vec3 direction) {
     vec3 to_eye = scale(unit(direction), -1);
     float slope = fmaxf(dot(to_eye, hit->geometric), 0.05f);
-    struct surface surface = world_surface(work->world, hit, hit->t * work->view->pixel_rad / slope);
+    struct surface surface = world_surface(world, hit, hit->t * view->pixel_rad / slope);
     struct pixel pixel = {.depth = hit->t,
                           .vertex_normal = to_half(hit->normal),
                           .albedo = surface.albedo,
@@ -47,41 +47,52 @@ static struct pixel seen(const struct frame_work *work, const struct hit *hit, v
                           .metalness = surface.metalness,
                           .specular = surface.specular,
                           .stencil = surface.stencil};
+    const struct shade shade = world_shade(world, hit);
     pixel.normal = to_half(bend_normal(surface.normal, hit, to_eye));
-    pixel.lit = world_radiance(work->world, hit);
+    pixel.lit = shade.lit;
+    pixel.indirect = shade.indirect;
+    pixel.emission = shade.emission;
     return pixel;
 }
 
-struct hit primary_hit(const struct world *world, const struct view *view, uint32_t x, uint32_t y) {
+static struct hit hit_along(const struct world *world, const struct view *view, vec3 direction, bool odd) {
     float from = (float)VIEW_NEAR;
     struct hit hit;
     do {
-        hit = world_see(world, view_eye(view), view_ray(view, x, y), from);
+        hit = world_see(world, view_eye(view), direction, from);
         from = hit.t * (1 + 1e-5f) + 1e-5f;
-    } while ((x ^ y) & 1 && hit.t < INFINITY && hit.mesh->flags & MESH_STIPPLED);
+    } while (odd && hit.t < INFINITY && hit.mesh->flags & MESH_STIPPLED);
     return hit;
+}
+
+struct hit primary_hit(const struct world *world, const struct view *view, uint32_t x, uint32_t y) {
+    return hit_along(world, view, view_ray(view, x, y), (x ^ y) & 1);
+}
+
+struct pixel pixel_at(const struct world *world, const struct view *view, double x, double y, bool odd,
+                      struct hit *hit) {
+    vec3 direction = view_ray_at(view, x, y);
+    *hit = hit_along(world, view, direction, odd);
+    if (hit->t < INFINITY) return seen(world, view, hit, direction);
+    return (struct pixel){.depth = INFINITY,
+                          .stencil = STENCIL_SKY,
+                          .normal = v3(0, 1, 0),
+                          .vertex_normal = v3(0, 1, 0),
+                          .lit = world_sky(world, direction)};
 }
 
 static void frame_row(void *user, uint32_t y) {
     const struct frame_work *work = user;
     for (uint32_t x = 0; x < work->view->width; x++) {
         struct pixel *pixel = &work->pixels[(size_t)y * work->view->width + x];
-        vec3 direction = view_ray(work->view, x, y);
-        struct hit hit = primary_hit(work->world, work->view, x, y);
+        struct hit hit;
+        *pixel = pixel_at(work->world, work->view, x + 0.5, y + 0.5, (x ^ y) & 1, &hit);
         if (hit.t < INFINITY) {
-            *pixel = seen(work, &hit, direction);
             vec3 step = hit.mesh->flags & MESH_MOVING ? hit.mesh->step : gray(0);
             vec3 before = sub(hit.position, step);
             motion_of(work, x, y, before, 1, pixel->motion);
             pixel->motion[2] = (float)(view_depth(work->previous, before) - view_depth(work->view, hit.position));
-        } else {
-            *pixel = (struct pixel){.depth = INFINITY,
-                                    .stencil = STENCIL_SKY,
-                                    .normal = v3(0, 1, 0),
-                                    .vertex_normal = v3(0, 1, 0),
-                                    .lit = world_sky(work->world, direction)};
-            motion_of(work, x, y, direction, 0, pixel->motion);
-        }
+        } else motion_of(work, x, y, view_ray(work->view, x, y), 0, pixel->motion);
     }
 }
 

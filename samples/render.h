@@ -13,10 +13,13 @@ struct pixel {
     float roughness, metalness, specular;
     float motion[3]; /* previous uv minus current uv; likewise for depth, 0 for sky */
     uint32_t stencil;
-    vec3 lit;
+    vec3 lit, indirect, emission; /* the latter two are parts of lit; 0 for sky */
 };
 
 /* The surface hit by the ray through a pixel's jittered centre. */
+/* The surface at any point of the picture, in pixels, and the hit there, without motion; `odd`: stippled meshes are left out. */
+struct pixel pixel_at(const struct world *world, const struct view *view, double x, double y, bool odd,
+                      struct hit *hit);
 struct hit primary_hit(const struct world *world, const struct view *view, uint32_t x, uint32_t y);
 
 /* `pixels` has room for the size of the view. */

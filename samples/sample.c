@@ -9,6 +9,8 @@
 #include "finished.h"
 #include "foreground.h"
 #include "gltf.h"
+#include "light.h"
+#include "light_truth.h"
 #include "probes.h"
 #include "scenes.h"
 #include "settings.h"
@@ -91,6 +93,11 @@ static bool check_options(const struct glint_sample_options *o, struct glint_err
         return glint_fail(err, GLINT_ERROR_USAGE, "field of view %g rad: expected between 0 and 3", o->fov_y_rad);
     if (!finite3(o->offset)) return glint_fail(err, GLINT_ERROR_USAGE, "offset: expected finite numbers");
     if (!finite3(o->travel)) return glint_fail(err, GLINT_ERROR_USAGE, "travel: expected finite numbers");
+    if (!(o->occlusion_radius >= 0) || !(o->contact_length >= 0) || isinf(o->occlusion_radius) ||
+        isinf(o->contact_length))
+        return glint_fail(err, GLINT_ERROR_USAGE,
+                          "radius of occlusion %g, length of contact shadows %g: expected lengths", o->occlusion_radius,
+                          o->contact_length);
     bool looks = finite3(o->eye) && finite3(o->target) && memcmp(o->eye, o->target, sizeof o->eye);
     if (o->camera_given && !looks)
         return glint_fail(err, GLINT_ERROR_USAGE, "camera: expected a position and another point to look at");
@@ -152,6 +159,7 @@ static struct glint_frame frame_of_views(const struct session *s, const struct v
     frame.fog.base += offset[1];
     memcpy(frame.classes, scene->classes, sizeof scene->classes);
     frame.class_count = scene->class_count;
+    light_describe(scene, offset, &frame);
     return frame;
 }
 
@@ -267,14 +275,18 @@ static bool write_parts(struct session *s, const struct dump *dump, const struct
                         const struct view *previous, uint32_t number, bool shot, struct glint_error *err) {
     if (!dump_gbuffer(dump, "gbuffer", view, s->pixels, err) || !dump_lit(dump, "lit", s->pixels, err) ||
         !dump_gbuffer(dump, "previous.gbuffer", previous, s->previous, err) ||
-        !dump_lit(dump, "previous.lit", s->previous, err))
+        !dump_lit(dump, "previous.lit", s->previous, err) ||
+        !light_write(dump, s->now, s->pixels, &s->options, &s->job, err))
         return false;
     if (!(shot ? name_cubemaps(s, dump, err) : write_cubemaps(s, dump, err)) || !write_sky(s, dump, err)) return false;
     if (s->scene.water.there && !write_water(s, dump, view, number, err)) return false;
     if (!write_glass(s, dump, view, (double)number - 1, err)) return false;
     const struct glint_sample_options *o = &s->options;
     if (o->finished_samples && !write_finished(s, dump, view, err)) return false;
-    if (!s->truth) return true;
+    if (!o->truth_samples) return true;
+    struct view unjittered = view_through(&s->scene, o, o->width, o->height, number, VIEW_PLACES);
+    if (!light_truth_write(dump, s->now, &unjittered, o, &s->job, err)) return false;
+    if (!(o->truths & GLINT_TRUTH_REFLECTION)) return true;
     return render_truth(s->now, view, s->pixels, o->truth_samples, 0, o->finished_samples > 0, s->truth, &s->job,
                         o->truth_samples, err) &&
            (!o->truth_of_pixels || average_truth(s, number, err)) &&
@@ -351,6 +363,9 @@ static void set_defaults(struct session *s) {
     if (!o->planar_width) o->planar_width = 240, o->planar_height = 120;
     if (!o->frames) o->frames = 1;
     if (!o->first_frame) o->first_frame = 1;
+    if (!o->truths) o->truths = GLINT_TRUTH_REFLECTION;
+    if (o->occlusion_radius == 0) o->occlusion_radius = 1;
+    if (o->contact_length == 0) o->contact_length = 0.5;
     if (!o->probes_given) o->probes = s->scene.probes;
     s->light_samples = o->light_samples ? o->light_samples : s->scene.light_samples;
     struct view first = view_at(&s->scene, o, o->width, o->height, 1);
@@ -441,8 +456,11 @@ bool glint_sample_write(const char *scene, const char *out, const struct glint_s
     struct session s = {.out = out, .options = options ? *options : (struct glint_sample_options){0}};
     s.job = (struct job){.progress = progress, .user = user, .threads = s.options.threads};
     bool ok = check_options(&s.options, err) && build_scene(scene, &s, err);
-    if (ok && s.options.finished_samples && (s.scene.water.there || has_panes(&s.scene)))
+    const bool beyond = s.scene.water.there || has_panes(&s.scene);
+    if (ok && s.options.finished_samples && beyond)
         ok = glint_fail(err, GLINT_ERROR_USAGE, "%.200s: has water or panes, and a finished picture with them", scene);
+    if (ok && s.options.truths & GLINT_TRUTH_ANTIALIASED && beyond)
+        ok = glint_fail(err, GLINT_ERROR_USAGE, "%.200s: has water or panes, which the antialiased truth lacks", scene);
     if (ok) {
         if (s.options.foreground) foreground_add(&s.scene, &s.options);
         set_defaults(&s);

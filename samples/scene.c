@@ -7,7 +7,8 @@
 #include <string.h>
 
 void scene_init(struct scene *scene) {
-    *scene = (struct scene){.cell = 1, .light_samples = 96, .bounces = 2, .fov_y_rad = 1.0f, .gain = 1};
+    *scene = (struct scene){
+        .cell = 1, .light_samples = 96, .bounces = 2, .fov_y_rad = 1.0f, .gain = 1, .sun_radius_rad = 0.00465};
     static const struct glint_stencil_class classes[] = {
         {STENCIL_SKY, STENCIL_SKY, "sky"},
         {STENCIL_VEHICLE, STENCIL_VEHICLE, "vehicle"},

@@ -95,6 +95,7 @@ struct scene {
     struct contact contacts[SCENE_MAX_CONTACTS];
     uint32_t contact_count;
     vec3 sun_direction, sun_irradiance; /* towards the sun */
+    double sun_radius_rad;              /* of its disc, for the truth: the engine itself has a point */
     vec3 (*sky)(vec3 direction);        /* radiance; NULL: black */
     float gain;                         /* factor of all light sources, so that the image needs no exposure */
     bool unlit;                         /* radiance is emission alone */

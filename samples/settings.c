@@ -59,6 +59,10 @@ static void take_options(XXH3_state_t *state, const struct scene *scene, const s
     hash_bytes(state, &o->unjittered, sizeof o->unjittered);
     hash_bytes(state, &o->finished_samples, sizeof o->finished_samples);
     hash_bytes(state, &o->foreground, sizeof o->foreground);
+    const double lengths[] = {o->occlusion_radius, o->contact_length};
+    const uint32_t parts[] = {o->truths, o->also};
+    hash_bytes(state, lengths, sizeof lengths);
+    hash_bytes(state, parts, sizeof parts);
     hash_bytes(state, &o->truth_of_pixels, sizeof o->truth_of_pixels);
     if (o->reflecting_given) {
         hash_bytes(state, &o->reflecting, sizeof o->reflecting);

@@ -92,9 +92,13 @@ struct view view_at(const struct scene *scene, const struct glint_sample_options
 }
 
 vec3 view_ray(const struct view *view, uint32_t x, uint32_t y) {
+    return view_ray_at(view, x + 0.5, y + 0.5);
+}
+
+vec3 view_ray_at(const struct view *view, double x, double y) {
     const double *p = view->camera.view_to_clip, *m = view->camera.world_to_view;
-    double px = ((2 * (x + 0.5) / view->width - 1) + p[2]) / p[0];
-    double py = ((1 - 2 * (y + 0.5) / view->height) + p[6]) / p[5];
+    double px = ((2 * x / view->width - 1) + p[2]) / p[0];
+    double py = ((1 - 2 * y / view->height) + p[6]) / p[5];
     return v3((float)(m[0] * px + m[4] * py - m[8]), (float)(m[1] * px + m[5] * py - m[9]),
               (float)(m[2] * px + m[6] * py - m[10]));
 }

@@ -27,6 +27,8 @@ struct view view_at(const struct scene *scene, const struct glint_sample_options
                     uint32_t height, int64_t number);
 /* The direction through the centre of a pixel, scaled to a length of 1 along the view axis. */
 vec3 view_ray(const struct view *view, uint32_t x, uint32_t y);
+/* The same through any point of the picture, in pixels from its upper left corner. */
+vec3 view_ray_at(const struct view *view, double x, double y);
 vec3 view_eye(const struct view *view);
 /* Projects a point (w = 1) or direction (w = 0); false behind the camera. */
 double view_depth(const struct view *view, vec3 point); /* along the view axis */

@@ -263,14 +263,20 @@ static float seen_footprint(const struct world *world, const struct hit *hit) {
     return distance * world->scene->pixel_rad / fmaxf(cosine, 0.05f);
 }
 
-vec3 world_radiance(const struct world *world, const struct hit *hit) {
+struct shade world_shade(const struct world *world, const struct hit *hit) {
     const struct look *look = hit->mesh->material.look;
     struct surface surface = world_surface(world, hit, look ? seen_footprint(world, hit) : 0);
-    if (world->scene->unlit) return surface.emission;
+    if (world->scene->unlit) return (struct shade){.lit = surface.emission, .emission = surface.emission};
     float shade = hit->mesh->flags & MESH_MOVING ? 1 : contact_shade(world, hit->position);
     vec3 irradiance = along(world_direct(world, hit->position, look ? surface.normal : hit->normal), hit->light, shade);
     vec3 albedo = scale(surface.albedo, (1 - surface.metalness) / PI_F);
-    return add(surface.emission, times(albedo, irradiance));
+    return (struct shade){.lit = add(surface.emission, times(albedo, irradiance)),
+                          .indirect = times(albedo, scale(hit->light, shade)),
+                          .emission = surface.emission};
+}
+
+vec3 world_radiance(const struct world *world, const struct hit *hit) {
+    return world_shade(world, hit).lit;
 }
 
 vec3 world_sky(const struct world *world, vec3 direction) {

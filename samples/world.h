@@ -42,6 +42,11 @@ vec3 world_leave(const struct hit *hit, vec3 side);
 struct surface world_surface(const struct world *world, const struct hit *hit, float footprint);
 /* Direct light at a point, without bounces. */
 vec3 world_direct(const struct world *world, vec3 position, vec3 normal);
+/* The radiance from the hit, and what it is made of: the rest of `lit` is direct light. */
+struct shade {
+    vec3 lit, indirect, emission;
+};
+struct shade world_shade(const struct world *world, const struct hit *hit);
 /* The radiance from the hit: emission and diffuse shading. It depends on the point alone, not on the viewer. */
 vec3 world_radiance(const struct world *world, const struct hit *hit);
 /* The radiance along a ray, including sky; `hit` may be NULL. */

@@ -9,6 +9,7 @@
 #include "capture/damaged.h"
 #include "capture/missing.h"
 #include "capture/depth_facts.h"
+#include "capture/info_light.h"
 #include "capture/info_tables.h"
 #include "io/pipe.h"
 #include "io/progress.h"
@@ -105,6 +106,7 @@ static json_t *part_json(const struct glint_capture *capture, const struct glint
                       part->cubemap.outdoor, "fade", part->cubemap.fade > 0 ? part->cubemap.fade : 1.0, "inner",
                       cubemap_volume_name(part->cubemap.inner), "age_frames", (json_int_t)part->cubemap.age_frames));
     if (part->has_probe) json_object_set_new(json, "probe", probe_json(capture, part));
+    light_part_json(part, json);
     if (part->sky.has_ground) json_object_set_new(json, "ground_deg", json_real(part->sky.ground));
     return json;
 }
@@ -126,13 +128,14 @@ static enum status print_capture(const struct arguments *a, struct glint_capture
         json_t *parts = json_array(), *carries = survey ? carries_json(capture, NULL) : NULL;
         for (size_t i = 0; i < glint_capture_part_count(capture); i++)
             json_array_append_new(parts, part_json(capture, glint_capture_part(capture, i), all));
-        return print_json(
-            json_pack("{s:s, s:b, s:I, s:o, s:o, s:o, s:b, s:b, s:o, s:f, s:o, s:o*, s:o*}", "file", a->path, "capture",
-                      1, "frame", (json_int_t)frame->number, "camera", camera_json(frame), "depth",
-                      depth_facts_json(&depth), "parts", parts, "has_previous", frame->has_previous, "fog",
-                      frame->has_fog, "jitter_px", json_numbers(frame->jitter_px, 2), "metres_per_unit",
-                      frame->metres_per_unit > 0 ? frame->metres_per_unit : 1.0, "notes", frame_notes_json(frame),
-                      "survey", survey ? survey_json(survey) : NULL, "presets", carries));
+        return print_json(json_pack("{s:s, s:b, s:I, s:o, s:o, s:o, s:b, s:b, s:o, s:f, s:o, s:o*, s:o, s:o*, s:o*}",
+                                    "file", a->path, "capture", 1, "frame", (json_int_t)frame->number, "camera",
+                                    camera_json(frame), "depth", depth_facts_json(&depth), "parts", parts,
+                                    "has_previous", frame->has_previous, "fog", frame->has_fog, "jitter_px",
+                                    json_numbers(frame->jitter_px, 2), "metres_per_unit",
+                                    frame->metres_per_unit > 0 ? frame->metres_per_unit : 1.0, "notes",
+                                    frame_notes_json(frame), "sun", sun_json(frame), "lights", lights_json(frame),
+                                    "survey", survey ? survey_json(survey) : NULL, "presets", carries));
     }
     struct stat file = {0};
     stat(glint_capture_path(capture), &file);
@@ -146,6 +149,7 @@ static enum status print_capture(const struct arguments *a, struct glint_capture
     info_print_depth(capture);
     info_print_cubemaps(capture);
     info_print_probes(capture);
+    info_print_light(capture);
     struct glint_error err = {0};
     return !survey || carries_print(capture, &err) ? STATUS_DONE : command_fail(&cmd_info, &err);
 }

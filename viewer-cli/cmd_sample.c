@@ -29,6 +29,10 @@ enum {
     KEY_ENCODING,
     KEY_TRUTH,
     KEY_TRUTH_OF_PIXELS,
+    KEY_TRUTH_OF,
+    KEY_RADIUS,
+    KEY_LENGTH,
+    KEY_ALSO,
     KEY_FINISHED,
     KEY_FOREGROUND,
     KEY_LIGHT,
@@ -63,6 +67,10 @@ static const struct argp_option options[] = {
     {"probes",      KEY_PROBES,      "imperfect|perfect|auto",  0, "Contents of the cube maps. imperfect: as in games, only static objects, simplified, with metals as diffuse; perfect: "
         "the exact scene; auto: placed automatically, for glTF files", 0},
     {"truth",       KEY_TRUTH,       "N",     0, "Path trace the true reflection with N rays per pixel into truth.* (default 0: no truth)", 0},
+    {"truth-of",    KEY_TRUTH_OF,    "WHAT,...", 0, "Which truths --truth traces: reflection (default), occlusion, sun, indirect, antialiased", 0},
+    {"occlusion-radius", KEY_RADIUS, "M",     0, "How far away surfaces occlude, in metres, in the truth of occlusion (default 1)", 0},
+    {"contact-length", KEY_LENGTH,   "M",     0, "How far away surfaces cast contact shadows, in metres, in the truth of the sun (default 0.5)", 0},
+    {"also",        KEY_ALSO,        "WHAT,...", 0, "Also write the engine's own: ao (ambient occlusion), sun (shadow mask), shadow (shadow map), volume (of light)", 0},
     {"truth-of-pixels", KEY_TRUTH_OF_PIXELS, NULL, 0, "Average the truth over the area of each pixel, as over the jitter of a static camera, instead of at the frame's single "
         "sample", 0},
     {"finished",    KEY_FINISHED,    "N",     0, "Also write the final image into scene, with N rays per pixel for the reflections of opaque surfaces; the truth then "
@@ -91,6 +99,8 @@ static const struct argp_option options[] = {
 static const struct example examples[] = {
     {"glint sample --list", "lists the scenes"},
     {"glint sample street -o street.exr --truth 64", "renders a wet street at dusk, with the path-traced truth"},
+    {"glint sample courtyard -o yard.exr --truth 64 --truth-of occlusion,sun,indirect --also sun,shadow",
+     "renders a sunlit yard with the truths of other effects, and the engine's shadows"},
     {"glint sample room -o room.exr --frames 8 --size 640x360", "renders a shot: room.0001.exr to room.0008.exr"},
     {"glint sample scene.glb -o scene.exr --camera 0,1.7,5,0,1,0 --probes auto", "renders a glTF file"},
     {"glint sample room -o room.exr --encoding depth=reversed,normal=octahedral",
@@ -98,6 +108,8 @@ static const struct example examples[] = {
     {0},
 };
 static const char *const probes[] = {"imperfect", "perfect", "auto", NULL};
+static const char *const truths[] = {"reflection", "occlusion", "sun", "indirect", "antialiased", NULL};
+static const char *const extras[] = {"ao", "sun", "shadow", "volume", NULL};
 static const char *const compressions[] = {"zip", "none", "zips", "piz", "pxr24", "rle", NULL};
 
 static const struct arg_target targets[] = {
@@ -193,6 +205,21 @@ static void set_encodings(struct glint_encodings *e, char *text, struct argp_sta
     }
 }
 
+/* A bit for each name of a list. */
+static uint32_t names_to_bits(const char *option, char *text, const char *const *names, struct argp_state *state) {
+    uint32_t bits = 0;
+    for (char *rest = text, *piece; (piece = strsep(&rest, ",")) != NULL;)
+        bits |= 1u << arg_choice(option, piece, names, state);
+    return bits;
+}
+
+static double metres(const char *option, const char *text, struct argp_state *state) {
+    double value;
+    arg_numbers(option, text, &value, 1, state);
+    if (!(value > 0 && value <= 1e6)) argp_error(state, "--%s=%s: expected a length in metres above 0", option, text);
+    return value;
+}
+
 static error_t parse_scene(int key, char *arg, struct argp_state *state, struct arguments *a) {
     switch (key) {
     case ARGP_KEY_ARG:
@@ -223,6 +250,18 @@ static error_t cmd_sample_parse(int key, char *arg, struct argp_state *state) {
     case KEY_PROBES:
         s->probes_given = true;
         s->probes = (enum glint_probes)arg_choice("probes", arg, probes, state);
+        return 0;
+    case KEY_TRUTH_OF:
+        s->truths = names_to_bits("truth-of", arg, truths, state);
+        return 0;
+    case KEY_ALSO:
+        s->also = names_to_bits("also", arg, extras, state);
+        return 0;
+    case KEY_RADIUS:
+        s->occlusion_radius = metres("occlusion-radius", arg, state);
+        return 0;
+    case KEY_LENGTH:
+        s->contact_length = metres("contact-length", arg, state);
         return 0;
     case KEY_CAMERA:
         arg_numbers("camera", arg, numbers, 6, state);

@@ -48,6 +48,10 @@ static const char *const scope_titles[] = {[GLINT_EDIT_FRAME] = "the frame",
                                            [GLINT_EDIT_SKY] = "sky",
                                            [GLINT_EDIT_PROBE] = "probe.NNN",
                                            [GLINT_EDIT_PLANAR] = "planar.NNN",
+                                           [GLINT_EDIT_INDIRECT] = "indirect",
+                                           [GLINT_EDIT_SHADOW] = "shadow.NNN",
+                                           [GLINT_EDIT_VOLUME] = "volume.NNN",
+                                           [GLINT_EDIT_TRUTH] = "truth.occlusion, truth.sun",
                                            [GLINT_EDIT_ENCODING] = "parts with such channels",
                                            [GLINT_EDIT_STORAGE] = "parts with the channel"};
 

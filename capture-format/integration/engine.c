@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { WIDTH = 320, HEIGHT = 180, CUBE = 64 };
+enum { WIDTH = 320, HEIGHT = 180, CUBE = 64, MAP = 512 };
 static const double NEAR = 0.1, YARD[3] = {7, 3, 6}; /* walls at ±x and ±z, and their height */
 
 typedef struct {
@@ -81,14 +81,27 @@ static void sky_color(vec d, double rgb[3]) {
     rgb[2] = 1.1 - 0.2 * up;
 }
 
+static vec sun_direction(void) {
+    return unit(v(0.4, 1, 0.3));
+}
+
+static double sky_light(const struct surface *s) {
+    return 0.35 + 0.15 * s->normal.y;
+}
+
 /* Sun with its shadows, and half of the sky. */
 static void light(const struct surface *s, double rgb[3]) {
-    const vec sun = unit(v(0.4, 1, 0.3));
+    const vec sun = sun_direction();
     const double facing = dot(s->normal, sun);
     const vec above = along(s->at, s->normal, 1e-4);
     const double direct = facing > 0 && cast(above, sun).distance == INFINITY ? 2 * facing : 0;
     const double diffuse = 1 - s->material[1] / 255.0; /* metals have no diffuse reflection */
-    for (int c = 0; c < 3; c++) rgb[c] = diffuse * s->albedo[c] / 255 * (direct + 0.35 + 0.15 * s->normal.y);
+    for (int c = 0; c < 3; c++) rgb[c] = diffuse * s->albedo[c] / 255 * (direct + sky_light(s));
+}
+
+static void ambient(const struct surface *s, double rgb[3]) {
+    const double diffuse = 1 - s->material[1] / 255.0;
+    for (int c = 0; c < 3; c++) rgb[c] = diffuse * s->albedo[c] / 255 * sky_light(s);
 }
 
 /* ---- Textures ---- */
@@ -181,6 +194,7 @@ static void render_pixel(const struct engine_frame *f, uint32_t x, uint32_t y) {
     if (sky) sky_color(d, rgb);
     else light(&s, rgb);
     put_color(&f->lit, x, y, rgb, 1);
+    if (!sky) ambient(&s, rgb), put_color(&f->ambient, x, y, rgb, 1);
     project(&f->previous, sky ? d : s.at, sky ? 0 : 1, before);
     const float motion[2] = {(float)(before[0] - uv[0]), (float)(before[1] - uv[1])};
     memcpy(texel(&f->motion, x, y), motion, sizeof motion);
@@ -205,6 +219,46 @@ static void render_probe(const struct engine_probe *probe) {
         }
 }
 
+/* ---- The sun's shadow map ---- */
+
+/* Where the line towards the sun through a point of the floor enters the yard, which may be at a wall; false if it passes by. */
+static bool enters_yard(vec *p, vec sun) {
+    const double t = fmax(0, fmax((-YARD[0] - p->x) / sun.x, (-YARD[2] - p->z) / sun.z));
+    *p = along(*p, sun, t);
+    return p->x < YARD[0] && p->z < YARD[2] && p->y < YARD[1];
+}
+
+/* The last surface on that line is the one nearest to the sun; behind a wall there is nothing. */
+static vec nearest_to_sun(vec p, vec sun) {
+    while (p.x < YARD[0] - 1e-3 && p.z < YARD[2] - 1e-3) {
+        const struct surface s = cast(along(p, sun, 1e-4), sun);
+        if (s.distance == INFINITY) break;
+        p = s.at;
+    }
+    return p;
+}
+
+static void render_shadow(struct engine_shadow *shadow, vec sun) {
+    const double reach = 12; /* from the middle of the yard to the rim of the map, and to its near and far ends */
+    const vec right = unit(v(sun.y, -sun.x, 0)),
+              up = v(sun.y * right.z - sun.z * right.y, sun.z * right.x - sun.x * right.z,
+                     sun.x * right.y - sun.y * right.x);
+    const double rows[12] = {right.x / reach,      right.y / reach,      right.z / reach,      0,
+                             up.x / reach,         up.y / reach,         up.z / reach,         0,
+                             -sun.x / (2 * reach), -sun.y / (2 * reach), -sun.z / (2 * reach), 0.5};
+    memcpy(shadow->world_to_shadow, rows, sizeof rows);
+    shadow->world_to_shadow[15] = 1;
+    for (uint32_t y = 0; y < MAP; y++)
+        for (uint32_t x = 0; x < MAP; x++) {
+            const vec in_map = along(along(v(0, 0, 0), right, reach * (2 * (x + 0.5) / MAP - 1)), up,
+                                     reach * (1 - 2 * (y + 0.5) / MAP));
+            vec p = along(in_map, sun, -in_map.y / sun.y);
+            const float depth =
+                enters_yard(&p, sun) ? (float)(0.5 - dot(nearest_to_sun(p, sun), sun) / (2 * reach)) : 1;
+            memcpy(texel(&shadow->depth, x, y), &depth, sizeof depth);
+        }
+}
+
 struct engine_frame *engine_render(uint32_t number) {
     static const double positions[ENGINE_PROBES][3] = {{-3, 1.5, 1}, {3, 1.5, -2}};
     struct engine_frame *f = calloc(1, sizeof *f);
@@ -215,7 +269,11 @@ struct engine_frame *engine_render(uint32_t number) {
     bool ok = take_texture(&f->depth, WIDTH, HEIGHT, 4) && take_texture(&f->normal, WIDTH, HEIGHT, 4) &&
               take_texture(&f->material, WIDTH, HEIGHT, 4) && take_texture(&f->albedo, WIDTH, HEIGHT, 4) &&
               take_texture(&f->motion, WIDTH, HEIGHT, 8) && take_texture(&f->lit, WIDTH, HEIGHT, 8) &&
-              take_texture(&f->sky, CUBE, 6 * CUBE, 8);
+              take_texture(&f->ambient, WIDTH, HEIGHT, 8) && take_texture(&f->sky, CUBE, 6 * CUBE, 8) &&
+              take_texture(&f->shadow.depth, MAP, MAP, 4);
+    const vec sun = sun_direction();
+    f->sun = (struct engine_sun){{sun.x, sun.y, sun.z}, 2 * 3.14159265358979324}; /* a white surface sends back 2 */
+    if (ok) render_shadow(&f->shadow, sun);
     for (int i = 0; ok && i < ENGINE_PROBES; i++) {
         memcpy(f->probes[i].position, positions[i], sizeof positions[i]);
         ok = take_texture(&f->probes[i].color, CUBE, 6 * CUBE, 8) &&
@@ -236,8 +294,8 @@ struct engine_frame *engine_render(uint32_t number) {
 
 void engine_free(struct engine_frame *f) {
     if (!f) return;
-    struct engine_texture *const all[] = {&f->depth,  &f->normal, &f->material, &f->albedo,
-                                          &f->motion, &f->lit,    &f->sky};
+    struct engine_texture *const all[] = {&f->depth, &f->normal,  &f->material, &f->albedo,      &f->motion,
+                                          &f->lit,   &f->ambient, &f->sky,      &f->shadow.depth};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) free(all[i]->bytes);
     for (int i = 0; i < ENGINE_PROBES; i++) free(f->probes[i].color.bytes), free(f->probes[i].distance.bytes);
     free(f);

@@ -1,5 +1,5 @@
 /* A stand-in for an engine: what it has in memory once a frame's textures are read back. integration.c and integration.cc make a
-   capture of it; an engine has its own structures in this place. */
+   capture of it, and light.c one with its light and shadows; an engine has its own structures in this place. */
 #ifndef ENGINE_H
 #define ENGINE_H
 
@@ -28,6 +28,17 @@ struct engine_probe {
     struct engine_texture distance; /* R32F; +inf where sky is seen */
 };
 
+struct engine_sun {
+    double direction[3]; /* unit vector in world space, towards the sun */
+    double irradiance;   /* white, on a surface that faces the sun */
+};
+
+struct engine_shadow {
+    double world_to_shadow
+        [16]; /* row-major, for column vectors: x and y in [-1, 1] over the map, y up, and z as `depth` has it */
+    struct engine_texture depth; /* R32F, 0 at the sun's end */
+};
+
 #define ENGINE_PROBES 2
 struct engine_frame {
     uint32_t number;
@@ -38,7 +49,10 @@ struct engine_frame {
     struct engine_texture albedo;   /* RGBA8 */
     struct engine_texture motion;   /* RG32F: previous uv minus current uv */
     struct engine_texture lit;      /* RGBA16F: diffuse light and sky, linear */
+    struct engine_texture ambient;  /* RGBA16F: the part of `lit` that is the sky's */
     struct engine_texture sky;      /* RGBA16F, six faces below each other */
+    struct engine_sun sun;
+    struct engine_shadow shadow;
     struct engine_probe probes[ENGINE_PROBES];
 };
 

@@ -44,6 +44,25 @@ static const struct row rows[] = {
     {"material", "glint.roughestReflection", "roughest_reflection", NUMBER},
     {"material", "glint.glossScale", "gloss_scale", NUMBER},
     {"material", "glint.glossOffset", "gloss_offset", NUMBER},
+    {"sun", "glint.sunDirection", "direction", NUMBERS},
+    {"sun", "glint.sunAngularRadius", "angular_radius", NUMBER},
+    {"sun", "glint.sunIrradiance", "irradiance", NUMBERS},
+    {"light", "glint.light.NNN.position", "position", NUMBERS},
+    {"light", "glint.light.NNN.intensity", "intensity", NUMBERS},
+    {"light", "glint.light.NNN.range", "range", NUMBER},
+    {"light", "glint.light.NNN.radius", "radius", NUMBER},
+    {"light", "glint.light.NNN.axis", "axis", NUMBERS},
+    {"light", "glint.light.NNN.coneInner", "cone_inner", NUMBER},
+    {"light", "glint.light.NNN.coneOuter", "cone_outer", NUMBER},
+    {"indirect", "glint.occluded", "occluded", FLAG},
+    {"shadow", "glint.worldToShadow", "world_to_shadow", NUMBERS},
+    {"shadow", "glint.shadowRange", "range", NUMBERS},
+    {"shadow", "glint.shadowBias", "bias", NUMBER},
+    {"shadow", "glint.shadowLight", "light", COUNT},
+    {"volume", "glint.worldToGrid", "world_to_grid", NUMBERS},
+    {"volume", "glint.volumeSlices", "slices", COUNT},
+    {"truth", "glint.radius", "radius", NUMBER},
+    {"truth", "glint.length", "length", NUMBER},
     {"cubemap", "glint.center", "center", NUMBERS},
     {"cubemap", "glint.outdoor", "outdoor", FLAG},
     {"cubemap", "glint.fade", "fade", NUMBER},
@@ -97,16 +116,39 @@ static json_t *value_of(const struct row *row, const struct glint_exr_attribute 
     return a->numbers ? json_boolean(a->numbers[0] != 0) : NULL;
 }
 
-/* The object that holds a scope's attributes; empty if the part has none. */
-static json_t *scope_of(const struct glint_exr_part_info *part, const char *scope) {
+/* The name of a row's attribute, with the number of a light in place of NNN. */
+static const char *name_of(const struct row *row, unsigned number, char name[64]) {
+    const char *numbered = strstr(row->attribute, "NNN");
+    if (!numbered) return row->attribute;
+    snprintf(name, 64, "%.*s%03u%s", (int)(numbered - row->attribute), row->attribute, number, numbered + 3);
+    return name;
+}
+
+/* The object that holds a scope's attributes, of lights those of one; empty if the part has none. */
+static json_t *numbered_of(const struct glint_exr_part_info *part, const char *scope, unsigned number) {
     json_t *object = json_object();
+    char name[64];
     for (size_t i = 0; i < ROWS; i++) {
         const struct glint_exr_attribute *a =
-            strcmp(rows[i].scope, scope) ? NULL : glint_exr_attribute(part, rows[i].attribute);
+            strcmp(rows[i].scope, scope) ? NULL : glint_exr_attribute(part, name_of(&rows[i], number, name));
         json_t *value = a ? value_of(&rows[i], a) : NULL;
         if (value) json_object_set_new(object, rows[i].key, value);
     }
     return object;
+}
+
+static json_t *scope_of(const struct glint_exr_part_info *part, const char *scope) {
+    return numbered_of(part, scope, 0);
+}
+
+static json_t *lights_of(const struct glint_exr_part_info *part) {
+    json_t *list = json_array();
+    for (unsigned i = 0; i < GLINT_MAX_LIGHTS; i++) {
+        json_t *light = numbered_of(part, "light", i);
+        if (json_object_size(light)) json_array_append(list, light);
+        json_decref(light);
+    }
+    return list;
 }
 
 static json_t *classes_of(const struct glint_exr_attribute *a) {
@@ -123,17 +165,20 @@ static json_t *classes_of(const struct glint_exr_attribute *a) {
 }
 
 json_t *extract_frame(const struct glint_exr_part_info *gbuffer) {
-    json_t *frame = scope_of(gbuffer, "frame"), *fog = scope_of(gbuffer, "fog"),
-           *material = scope_of(gbuffer, "material");
+    static const char *const objects[] = {"fog", "material", "sun"};
+    json_t *frame = scope_of(gbuffer, "frame"), *lights = lights_of(gbuffer);
     const struct glint_exr_attribute *classes = glint_exr_attribute(gbuffer, "glint.stencilClasses");
     json_object_set_new(frame, "layout", json_string("row_major"));
     json_object_set_new(frame, "vectors", json_string("column"));
     json_object_set_new(frame, "jitter_in_matrix", json_true());
-    if (json_object_size(fog)) json_object_set(frame, "fog", fog);
-    if (json_object_size(material)) json_object_set(frame, "material", material);
-    json_decref(material);
+    for (size_t i = 0; i < sizeof objects / sizeof *objects; i++) {
+        json_t *object = scope_of(gbuffer, objects[i]);
+        if (json_object_size(object)) json_object_set(frame, objects[i], object);
+        json_decref(object);
+    }
     if (classes) json_object_set_new(frame, "stencil_classes", classes_of(classes));
-    json_decref(fog);
+    if (json_array_size(lights)) json_object_set(frame, "lights", lights);
+    json_decref(lights);
     return frame;
 }
 
@@ -245,12 +290,13 @@ bool extract_attributes(const struct glint_exr_part_info *part, json_t *out, str
     json_t *encodings = role ? scope_of(part, "encodings") : NULL;
     if (json_object_size(encodings)) json_object_set(out, "encodings", encodings);
     json_decref(encodings);
-    static const char *const objects[] = {"cubemap", "planar", "sky", "probe"};
+    static const char *const objects[] = {"cubemap", "planar", "sky", "probe", "indirect", "shadow", "volume", "truth"};
     for (size_t i = 0; i < sizeof objects / sizeof *objects; i++) {
-        if (strcmp(own, objects[i])) continue;
-        json_t *object = scope_of(part, own);
+        const size_t length = strcspn(own, "."); /* truth.occlusion, truth.sun */
+        if (strncmp(own, objects[i], length) || objects[i][length]) continue;
+        json_t *object = scope_of(part, objects[i]);
         if (!strcmp(own, "cubemap")) add_planes(part, object);
-        if (json_object_size(object)) json_object_set(out, own, object);
+        if (json_object_size(object)) json_object_set(out, objects[i], object);
         json_decref(object);
     }
     return add_unknown(part, out, err);

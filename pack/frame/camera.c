@@ -63,6 +63,15 @@ bool matrix_order_read(const struct node *frame, struct matrix_order *order, str
     return true;
 }
 
+bool matrix_read(const struct node *frame, const struct node *node, const char *key, double out[16],
+                 struct glint_error *err) {
+    struct matrix_order order = {.is_transposed = false};
+    if (!matrix_order_read(frame, &order, err)) return false;
+    node_numbers(node, key, out);
+    if (order.is_transposed) transpose(out);
+    return true;
+}
+
 /* ---- Matrices ---- */
 
 static bool check_rotation(const struct node *node, const double m[16], struct glint_error *err) {

@@ -19,6 +19,9 @@ struct matrix_order {
 };
 /* `frame`: the manifest's frame. */
 bool matrix_order_read(const struct node *frame, struct matrix_order *order, struct glint_error *err);
+/* Any matrix, as the frame lists its own; the key must be there. */
+bool matrix_read(const struct node *frame, const struct node *node, const char *key, double out[16],
+                 struct glint_error *err);
 /* "world_to_view" or its inverse; *found: whether it was said. */
 bool view_read(const struct node *node, const char *prefix, const struct matrix_order *order, double out[16],
                bool *found, struct glint_error *err);

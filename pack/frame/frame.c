@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "keys.h"
+#include "light.h"
 
 static int choice_of(const struct node *node, const char *key, const char *const *names) {
     const char *text = node_text(node, key);
@@ -17,8 +18,8 @@ static int choice_of(const struct node *node, const char *key, const char *const
 /* Says which keys of the frame were not said, and what holds in their place. */
 static void note_defaults(const struct node *frame_node) {
     static const char *const told[] = {
-        "clip_y", "clip_z", "up",  "metres_per_unit", "jitter", "exposure",       "pre_exposure",
-        "player", "number", "fog", "material",        "cut",    "stencil_classes"};
+        "clip_y", "clip_z",   "up",  "metres_per_unit", "jitter", "exposure", "pre_exposure", "player", "number",
+        "fog",    "material", "cut", "stencil_classes", "sun",    "lights"};
     const struct object *object = pack_object("frame");
     for (size_t i = 0; i < sizeof told / sizeof *told; i++) {
         const struct node node = node_child(frame_node, told[i]);
@@ -96,7 +97,7 @@ static bool read_values(const struct node *node, struct glint_frame *frame, stru
            read_positive(node, "metres_per_unit", &frame->metres_per_unit, err) &&
            read_positive(node, "motion_range", &frame->motion_range, err) &&
            read_positive(node, "motion_depth_range", &frame->motion_depth_range, err) && read_fog(&fog, frame, err) &&
-           read_material(&material, frame, err) && read_classes(&classes, frame, err);
+           read_material(&material, frame, err) && read_classes(&classes, frame, err) && lights_read(node, frame, err);
 }
 
 /* ---- Cameras ---- */

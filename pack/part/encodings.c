@@ -49,6 +49,7 @@ static bool is_device(enum glint_depth_encoding depth) {
 static bool check_depth(struct part *part, const struct glint_camera *camera, struct glint_error *err) {
     const struct channel *channel = find_channel(part, "depth.Z");
     const struct node encodings = node_child(&part->node, "encodings"), node = node_child(&encodings, "depth");
+    if (!concerns(part, "depth")) return true; /* a shadow map's depth is that of its matrix */
     if (!channel || !camera) return true;
     const struct projection p = projection_of(camera->view_to_clip, part->frame->clip_z);
     const bool buffer = channel->texture && channel->sources[0]->component.letter == 'd';

@@ -13,6 +13,7 @@
 #include "extras.h"
 #include "frame.h"
 #include "keys.h"
+#include "light.h"
 #include "manifest.h"
 
 struct pack {
@@ -80,21 +81,28 @@ static struct part part_of(struct pack *pack, const char *name) {
 static bool check_part(const struct part *part, uint32_t width, uint32_t height, struct glint_error *err) {
     const struct node *node = &part->node;
     static const struct {
-        const char *role, *what; /* what: required */
-    } objects[] = {{"cubemap", "a cubemap with its center"},
-                   {"planar", "a planar with its plane and camera"},
-                   {"sky", NULL},
-                   {"probe", NULL}};
+        const char *role, *key, *what; /* what: required */
+    } objects[] = {{"cubemap", "cubemap", "a cubemap with its center"},
+                   {"planar", "planar", "a planar with its plane and camera"},
+                   {"sky", "sky", NULL},
+                   {"probe", "probe", NULL},
+                   {"indirect", "indirect", NULL},
+                   {"shadow", "shadow", "a shadow with its matrix"},
+                   {"volume", "volume", "a volume with its matrix and slices"},
+                   {"truth.occlusion", "truth", "a truth with its radius"},
+                   {"truth.sun", "truth", "a truth with its length"}};
     if (!part->name[0] || strlen(part->name) > 255)
         return node_fail(node, err, GLINT_ERROR_FORMAT, "expected a part's name of 1 to 255 bytes");
     if (part->role && part->role->reserved)
         return node_fail(node, err, GLINT_ERROR_FORMAT, "the role is reserved: %s", part->role->meaning);
     for (size_t i = 0; i < sizeof objects / sizeof *objects; i++) {
-        const char *name = objects[i].role;
-        const bool own = part->role && !strcmp(part->role->name, name), has = node_has(node, name);
+        const char *name = objects[i].key;
+        const bool own = part->role && !strcmp(part->role->name, objects[i].role), has = node_has(node, name);
         if (own && !has && objects[i].what)
             return node_fail(node, err, GLINT_ERROR_FORMAT, "expected %s, found none", objects[i].what);
-        if (has && !own)
+        const bool truth = part->role && !strcmp(name, "truth") &&
+                           (!strcmp(part->role->name, "truth.occlusion") || !strcmp(part->role->name, "truth.sun"));
+        if (has && !own && !truth)
             return node_fail(node, err, GLINT_ERROR_FORMAT, "expected no %s, which belongs to parts of that role alone",
                              name);
     }
@@ -122,35 +130,56 @@ static bool hand_over(struct glint_writer *writer, const struct part *part, stru
     return ok;
 }
 
+/* What the manifest says of a part beside its channels. */
+struct carried {
+    struct glint_cubemap cubemap;
+    struct glint_planar planar;
+    struct glint_sky sky;
+    struct glint_probe probe;
+    struct glint_indirect indirect;
+    struct glint_shadow shadow;
+    struct glint_light_volume volume;
+    struct glint_truth truth;
+};
+
+static bool carried_read(const struct pack *pack, const struct node *node, struct carried *c, struct glint_part *file,
+                         struct glint_error *err) {
+    if (node_has(node, "cubemap")) file->cubemap = &c->cubemap;
+    if (node_has(node, "planar")) file->planar = &c->planar;
+    if (node_has(node, "sky")) file->sky = &c->sky;
+    if (node_has(node, "probe")) file->probe = &c->probe;
+    if (node_has(node, "indirect")) file->indirect = &c->indirect;
+    if (node_has(node, "shadow")) file->shadow = &c->shadow;
+    if (node_has(node, "volume")) file->volume = &c->volume;
+    if (node_has(node, "truth")) file->truth = &c->truth;
+    if (file->sky) sky_read(node, &c->sky);
+    if (file->indirect) indirect_read(node, &c->indirect);
+    if (file->truth) truth_read(node, &c->truth);
+    return (!file->cubemap || cubemap_read(node, &c->cubemap, err)) &&
+           (!file->planar || planar_read(&pack->frame_node, node, &c->planar, err)) &&
+           (!file->probe || probe_read(node, &c->probe, err)) &&
+           (!file->shadow || shadow_read(&pack->frame_node, node, &c->shadow, err)) &&
+           (!file->volume || volume_read(&pack->frame_node, node, &c->volume, err));
+}
+
 static bool add_part(struct pack *pack, struct part *part, struct glint_writer *writer, struct extras *extras,
                      const char *out, struct glint_error *err) {
-    struct glint_cubemap cubemap = {.outdoor = false};
-    struct glint_planar planar = {.plane = {0}};
-    struct glint_sky sky = {.has_ground = false};
-    struct glint_probe probe = {.has_box = false};
+    struct carried carried = {.sky = {.has_ground = false}};
     struct glint_part file = {.name = part->name};
     struct glint_attribute *simple = NULL;
     const struct glint_camera *camera = !pack->has_frame                  ? NULL
-                                        : node_has(&part->node, "planar") ? &planar.camera
+                                        : node_has(&part->node, "planar") ? &carried.planar.camera
                                         : !part->is_previous              ? &pack->frame.camera
                                         : pack->frame.has_previous        ? &pack->frame.previous
                                                                           : NULL;
-    if (node_has(&part->node, "cubemap") && !cubemap_read(&part->node, &cubemap, err)) return false;
-    if (node_has(&part->node, "planar") && !planar_read(&pack->frame_node, &part->node, &planar, err)) return false;
-    if (node_has(&part->node, "sky")) sky_read(&part->node, &sky);
-    if (node_has(&part->node, "probe") && !probe_read(&part->node, &probe, err)) return false;
-    if (!encodings_read(part, camera, err) || !channels_choose(part, err) ||
-        !read_sibling(part, out, &file.sibling, err) || !channels_convert(part, err))
+    if (!carried_read(pack, &part->node, &carried, &file, err) || !encodings_read(part, camera, err) ||
+        !channels_choose(part, err) || !read_sibling(part, out, &file.sibling, err) || !channels_convert(part, err))
         return false;
     bool ok = attributes_read(part, extras, &simple, &file.attribute_count, err);
     file.width = part->width;
     file.height = part->height;
     file.encodings = part->encodings;
     file.attributes = simple;
-    if (node_has(&part->node, "cubemap")) file.cubemap = &cubemap;
-    if (node_has(&part->node, "planar")) file.planar = &planar;
-    if (node_has(&part->node, "sky")) file.sky = &sky;
-    if (node_has(&part->node, "probe")) file.probe = &probe;
     ok = ok && (part->role ? hand_over(writer, part, &file, err) : extras_add_part(extras, part, err));
     free(simple);
     return ok;

@@ -10,6 +10,8 @@ FIELD(vec4,  depth_range,              "x: near plane in m; y: far plane in m, +
 FIELD(vec4,  fog_color,                "rgb: radiance; w: extinction per m at the base, 0 without fog")
 FIELD(vec4,  fog_height,               "x: camera's height over the base in m; y: scale height in m, 0 when uniform; zw: 0")
 FIELD(vec4,  material,                 "x: reflectance of a metal at normal incidence as a multiple of its albedo; y: 1 where fog adds its colour and absorbs nothing; zw: 0")
+FIELD(vec4,  sun_direction,            "xyz: unit vector towards the sun in world axes, 0 where the capture has no sun; w: angular radius of its disc in rad")
+FIELD(vec4,  sun_irradiance,           "rgb: irradiance on a surface that faces the sun, radiance · sr, 0 where it is not known; w: 0")
 FIELD(vec4,  openness,                 "x: fraction of the picture above the horizon that shows the sky, -1 where nothing above it is in the picture; counted in frames without cube maps that have a sky, else 0; yzw: 0")
 FIELD(vec4,  up,                       "xyz: unit up axis; w: largest colour that images hold, 65504 or +inf")
 FIELD(uvec4, size,                     "xy: full resolution; zw: pipeline's half resolution")

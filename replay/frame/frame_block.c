@@ -131,6 +131,14 @@ void frame_block_far(struct frame_block *block, const struct glint_capture *capt
     block->probe_high = metres_of(probe->box.max, origin, metres);
 }
 
+static void fill_sun(struct frame_block *block, const struct glint_frame *frame) {
+    const struct glint_sun *sun = &frame->sun;
+    if (!frame->has_sun) return;
+    block->sun_direction = (vec4){(float)sun->direction[0], (float)sun->direction[1], (float)sun->direction[2],
+                                  (float)sun->angular_radius_rad};
+    block->sun_irradiance = (vec4){sun->irradiance[0], sun->irradiance[1], sun->irradiance[2], 0};
+}
+
 /* The stencil class of first-person foreground such as a weapon: what it hides was never rendered. */
 static uvec4 foreground_of(const struct glint_frame *frame) {
     for (uint32_t i = 0; i < frame->class_count; i++) {
@@ -159,6 +167,7 @@ void frame_block_fill(struct frame_block *block, const struct glint_frame *frame
     block->depth_range =
         (vec4){(float)(fmin(one, other) * metres), (float)(fmax(one, other) * metres), (float)p.front, (float)q.front};
     fill_fog(block, frame, eye, metres);
+    fill_sun(block, frame);
     block->size = (uvec4){sizes->full[0], sizes->full[1], sizes->half[0], sizes->half[1]};
     block->counts = (uvec4){sizes->active, frame->number, sizes->cube_face, sizes->sky_face};
     block->flags = (uvec4){sizes->history, frame->cut, sizes->chain, 0};

@@ -58,6 +58,13 @@ struct glint_frame fixture_frame(void) {
     frame.class_count = 2;
     frame.classes[0] = (struct glint_stencil_class){.value = 3, .mask = 7, .name = "sky"};
     frame.classes[1] = (struct glint_stencil_class){.value = 4, .name = "character = player"};
+    frame.has_sun = true;
+    frame.sun = (struct glint_sun){{0.6, 0.64, -0.48}, 0.00465, {6.5f, 6, 5.25f}};
+    frame.light_count = 2;
+    frame.lights[0] = (struct glint_light){.position = {1e6 + 0.1, 2, 3}, .intensity = {4, 3, 2}, .range = 800};
+    frame.lights[1] = (struct glint_light){.position = {-1, 2, 3}, .intensity = {1, 1, 0.5f}, .radius = 3};
+    frame.lights[1].has_cone = true;
+    frame.lights[1].cone = (struct glint_cone){{0, -0.8, 0.6}, 0.25, 0.75};
     return frame;
 }
 
@@ -111,6 +118,20 @@ void fixture_init(struct fixture *f) {
     f->probe[0].has_box = true;
     f->probe[0].box = (struct glint_probe_box){{1e6 + 0.1, 2, -3}, {-1, -2, -3}, {0.5, 2.5, 3.5}};
     f->probe[1] = (struct glint_probe){.has_roughness = true, .roughness = 0.84};
+    f->indirect.occluded = true;
+    for (int i = 0; i < 2; i++) {
+        f->shadow[i].world_to_shadow[0] = f->shadow[i].world_to_shadow[9] = 0.01;
+        f->shadow[i].world_to_shadow[6] = -0.0025;
+        f->shadow[i].world_to_shadow[15] = 1;
+    }
+    f->shadow[1].range[0] = 1; /* reversed */
+    f->shadow[1].bias = 0.002;
+    f->shadow[1].has_light = true;
+    f->shadow[1].light = 1;
+    for (int i = 0; i < 3; i++) f->volume.world_to_grid[5 * i] = 0.005, f->volume.world_to_grid[4 * i + 3] = 1 + i;
+    f->volume.world_to_grid[15] = 1;
+    f->volume.slices = FIX_CELLS_Z;
+    f->truth = (struct glint_truth){.radius = 100, .length = 30};
     f->planar.plane[1] = 1;
     f->planar.plane[3] = -1.0 / 3;
     f->planar.camera = fixture_camera((const double[3]){1, -2, 3}, 0.1, 500);
@@ -142,14 +163,33 @@ static void add_fixture_channel(struct glint_part *part, struct fixture_channels
 }
 
 struct glint_part fixture_part(const struct fixture *f, enum fixture_part which, struct fixture_channels *c) {
-    static const char *const names[] = {"gbuffer",      "lit",
-                                        "scene",        "previous.gbuffer",
-                                        "previous.lit", "cubemap.000",
-                                        "cubemap.017",  "sky",
-                                        "probe.002",    "probe.002.level1",
-                                        "planar.002",   "transparent",
-                                        "water",        "truth.reflection.ggx",
-                                        "truth.mirror", "engine.screen_trace.anything"};
+    static const char *const names[] = {"gbuffer",
+                                        "lit",
+                                        "scene",
+                                        "previous.gbuffer",
+                                        "previous.lit",
+                                        "cubemap.000",
+                                        "cubemap.017",
+                                        "sky",
+                                        "probe.002",
+                                        "probe.002.level1",
+                                        "planar.002",
+                                        "transparent",
+                                        "water",
+                                        "truth.reflection.ggx",
+                                        "truth.mirror",
+                                        "engine.screen_trace.anything",
+                                        "indirect",
+                                        "emissive",
+                                        "ao",
+                                        "sun",
+                                        "shadow.000",
+                                        "shadow.001",
+                                        "volume.000",
+                                        "truth.occlusion",
+                                        "truth.sun",
+                                        "truth.indirect",
+                                        "truth.antialiased"};
     const bool cube = which == FIXTURE_CUBEMAP_0 || which == FIXTURE_CUBEMAP_1 || which == FIXTURE_SKY ||
                       which == FIXTURE_PROBE || which == FIXTURE_PROBE_1;
     const uint32_t face = which == FIXTURE_PROBE_1 ? FIX_CUBE / 2 : FIX_CUBE;
@@ -172,6 +212,27 @@ struct glint_part fixture_part(const struct fixture *f, enum fixture_part which,
         add_fixture_channel(&part, c, "whatever", f->gbuffer + 6, 17);
         return part;
     }
+    if (which == FIXTURE_AO || which == FIXTURE_SUN || which == FIXTURE_TRUTH_OCCLUSION || which == FIXTURE_TRUTH_SUN) {
+        add_fixture_channel(&part, c, "visibility", f->color, 4);
+        if (which == FIXTURE_TRUTH_SUN) add_fixture_channel(&part, c, "contact", f->color + 1, 4);
+        if (which != FIXTURE_AO && which != FIXTURE_SUN) part.truth = &f->truth;
+        return part;
+    }
+    if (which == FIXTURE_SHADOW_0 || which == FIXTURE_SHADOW_1) {
+        part.width = part.height = FIX_SHADOW;
+        add_fixture_channel(&part, c, "depth.Z", f->color, 1);
+        part.shadow = &f->shadow[which - FIXTURE_SHADOW_0];
+        return part;
+    }
+    if (which == FIXTURE_VOLUME) {
+        static const char *const names_of[] = {"px.R", "px.G", "px.B", "nx.R", "nx.G", "nx.B", "py.R", "py.G", "py.B",
+                                               "ny.R", "ny.G", "ny.B", "pz.R", "pz.G", "pz.B", "nz.R", "nz.G", "nz.B"};
+        part.width = FIX_CELLS_X;
+        part.height = FIX_CELLS_Y * FIX_CELLS_Z;
+        for (size_t i = 0; i < 18; i++) add_fixture_channel(&part, c, names_of[i], f->color + i, 18);
+        part.volume = &f->volume;
+        return part;
+    }
     const float *color = cube ? f->cube : f->color;
     const size_t stride = cube ? 5 : 4;
     for (size_t i = 0; i < 3; i++) add_fixture_channel(&part, c, rgba[i], color + i, stride);
@@ -192,6 +253,8 @@ struct glint_part fixture_part(const struct fixture *f, enum fixture_part which,
         add_fixture_channel(&part, c, "depth.Z", f->gbuffer, 17);
         part.planar = &f->planar;
     }
+    if (which == FIXTURE_INDIRECT) part.indirect = &f->indirect;
+    if (which == FIXTURE_TRUTH_INDIRECT) add_fixture_channel(&part, c, "error", f->gbuffer + 4, 17);
     if (which == FIXTURE_TRUTH) {
         add_fixture_channel(&part, c, "weight", color + 3, stride);
         add_fixture_channel(&part, c, "error", f->gbuffer + 4, 17);

@@ -4,7 +4,7 @@
 
 #include "glint/capture.h"
 
-enum { FIX_W = 40, FIX_H = 24, FIX_CUBE = 8 };
+enum { FIX_W = 40, FIX_H = 24, FIX_CUBE = 8, FIX_SHADOW = 16, FIX_CELLS_X = 3, FIX_CELLS_Y = 2, FIX_CELLS_Z = 4 };
 
 /* A right-handed camera at `eye` that looks along its own -z, with near and far planes in units. */
 struct glint_camera fixture_camera(const double eye[3], double near, double far);
@@ -26,6 +26,10 @@ struct fixture {
     struct glint_planar planar;
     struct glint_sky sky;
     struct glint_probe probe[2]; /* by level */
+    struct glint_indirect indirect;
+    struct glint_shadow shadow[2]; /* of the sun, and of light 1 */
+    struct glint_light_volume volume;
+    struct glint_truth truth;
 };
 void fixture_init(struct fixture *f);
 /* The one of a test program. Its setup, with cmocka's signature, initialises it. */
@@ -49,6 +53,17 @@ enum fixture_part {
     FIXTURE_TRUTH,
     FIXTURE_MIRROR,
     FIXTURE_ENGINE,
+    FIXTURE_INDIRECT,
+    FIXTURE_EMISSIVE,
+    FIXTURE_AO,
+    FIXTURE_SUN,
+    FIXTURE_SHADOW_0,
+    FIXTURE_SHADOW_1,
+    FIXTURE_VOLUME,
+    FIXTURE_TRUTH_OCCLUSION,
+    FIXTURE_TRUTH_SUN,
+    FIXTURE_TRUTH_INDIRECT,
+    FIXTURE_TRUTH_ANTIALIASED,
     FIXTURE_PARTS
 };
 struct fixture_channels {

@@ -1,5 +1,5 @@
 """What the examples for engine programmers write is valid, and lint finds nothing in it.
-usage: integration.py GLINT INTEGRATION INTEGRATION_CC (programs)"""
+usage: integration.py GLINT INTEGRATION INTEGRATION_CC INTEGRATION_LIGHT (programs)"""
 import os
 import subprocess
 import sys

@@ -146,8 +146,9 @@ static void limits_hold(UNUSED void **state) {
         if (!strstr(err.message, words[i])) fail_msg("%s", err.message);
     }
     /* Chunks that do not fit are refused before memory is allocated for them. */
-    assert_true(fixture_write(&fixture, path, FIXTURE_LIT + 1, NULL, &err));
-    const struct glint_limits tight = {.memory_bytes = 900000};
+    const struct glint_writer_options piz = {.compression = GLINT_PIZ}; /* chunks of 32 lines */
+    assert_true(fixture_write(&fixture, path, FIXTURE_LIT + 1, &piz, &err));
+    const struct glint_limits tight = {.memory_bytes = 1300000};
     struct glint_capture *capture = glint_capture_open(path, &tight, &err);
     static float out[FIX_W * FIX_H];
     assert_non_null(capture);

@@ -78,7 +78,11 @@ def mistakes(base):
         ({"parts.lit.attributes": {"glint.x": 1}}, ("parts", "lit", "attributes", "glint.x"), "neither OpenEXR nor glint. reserves"),
         ({"parts.lit.attributes": {"channels": 1}}, ("parts", "lit", "attributes", "channels"), "neither OpenEXR nor glint. reserves"),
         ({"parts.lit.attributes": {"x": {"type": "v2d", "value": 1}}}, ("parts", "lit", "attributes", "x"), "value: expected 2 numbers"),
-        ({"parts.ao": {"R": "lit.r"}}, "parts.ao", "the role is reserved"),
+        ({"parts.curvature": {"R": "lit.r"}}, "parts.curvature", "the role is reserved"),
+        ({"frame.sun": {"irradiance": [1, 1, 1]}}, "frame.sun", "direction is missing"),
+        ({"frame.sun": {"direction": [0, 2, 0]}}, "frame", "glint.sunDirection: expected a unit vector, found one of length 2"),
+        ({"frame.lights": [{"position": [0, 0, 0], "intensity": [1, 1, 1], "axis": [0, 1, 0]}]}, None, "a spot light needs axis and cone_outer, found no cone_outer"),
+        ({"parts.lit.shadow": {"world_to_shadow": [1] * 16}}, "parts.lit", "expected no shadow, which belongs to parts of that role alone"),
         ({"parts.lit.encodings": {"color": "sRGB"}}, "parts.lit.encodings.color", 'did you mean srgb?'),
     ]
 

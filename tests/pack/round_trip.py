@@ -60,6 +60,43 @@ class Tests:
             glint("sample", name, "-o", path, *SMALL, "--truth=1", *more)
             self.check_bytes(path)
 
+    def test_light_and_shadow(self):
+        """Sun, lamps, shadow map, volume and truths: back and forth, edited, cropped, stripped; the matrices also as other engines list them."""
+        path, folder = self.path("light.exr"), self.path("light-out")
+        glint("sample", "courtyard", "-o", path, *SMALL, "--truth=1", "--truth-of=occlusion,sun,indirect,antialiased", "--also=ao,sun,shadow,volume",
+              "--occlusion-radius=0.75", "--contact-length=0.25", "--offset=1e6,-3,7e5")
+        glint("validate", path)
+        lamp = self.path("lamp.exr")
+        glint("set", path, *(f"light.000.{key}={value}" for key, value in (("position", "1,2,3"), ("intensity", "4,3,2"), ("axis", "0,-0.6,0.8"), ("coneOuter", 0.5))),
+              "shadow.000:shadowLight=0", "indirect:occluded=1", "-o", lamp)
+        self.check_bytes(lamp)
+        self.check_bytes(path)
+        said, known = glint("info", lamp), json.loads(glint("info", lamp, "--json"))
+        assert "sun towards (" in said and "1 point and spot light" in said and "light 000" in said and "cells of light" in said, said
+        parts = {part["name"]: part for part in known["parts"]}
+        assert known["lights"][0]["axis"] == [0, -0.6, 0.8] and parts["truth.occlusion"]["radius"] == 0.75 and parts["truth.sun"]["length"] == 0.25
+        assert parts["shadow.000"]["shadow"]["light"] == 0 and parts["indirect"]["occluded"] and parts["volume.000"]["volume"]["slices"] > 1
+        for words, kept in ((["crop", path, "4,4,16,8"], 1), (["strip", path, "--keep", "gbuffer,lit,shadow,sun,indirect"], 1), (["strip", path, "--drop", "shadow"], 0)):
+            out = self.path(f"light-{words[0]}-{kept}.exr")
+            glint(*words, "-o", out)
+            glint("validate", out)
+            left = {part["name"]: (part["width"], part["height"]) for part in json.loads(glint("info", out, "--json"))["parts"]}
+            size = (16, 8) if words[0] == "crop" else (40, 24)
+            assert ("shadow.000" in left) == kept and left.get("shadow.000", (1024, 1024)) == (1024, 1024), left
+            assert left["indirect"] == left["sun"] == size and left.get("volume.000", parts["volume.000"]) != size, left
+        # Row vectors: every matrix of the manifest is transposed.
+        with open(os.path.join(folder, "manifest.json"), encoding="utf-8") as file:
+            manifest = json.load(file)
+        matrices = [(manifest["frame"], key) for key in manifest["frame"] if key.endswith(("_to_view", "_to_clip"))]
+        matrices += [(manifest["parts"]["shadow.000"]["shadow"], "world_to_shadow"), (manifest["parts"]["volume.000"]["volume"], "world_to_grid")]
+        for holder, key in matrices:
+            holder[key] = [holder[key][4 * (i % 4) + i // 4] for i in range(16)]
+        manifest["frame"]["vectors"] = "row"
+        with open(os.path.join(folder, "rows.json"), "w", encoding="utf-8") as file:
+            json.dump(manifest, file)
+        glint("pack", os.path.join(folder, "rows.json"), "-o", self.path("rows.exr"))
+        assert contents(self.path("rows.exr")) == contents(path), "matrices of row vectors"
+
     def test_every_encoding(self):
         most = max(map(len, ENCODINGS.values()))
         for i in range(most):

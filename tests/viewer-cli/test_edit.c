@@ -48,6 +48,17 @@ static const char *value_of(const char *key, const char *form) {
         {"motion", "pixels"},     /* packed16 is for uint channels */
         {"motionDepth", "view_linear"},
         {"inner", "box"},
+        {"sunDirection", "0,0.6,-0.8"},
+        {"sunAngularRadius", "0.25"},
+        {"light.001.axis", "-0.6,0,0.8"},
+        {"light.001.coneInner", "0.5"},
+        {"light.001.coneOuter", "1.5"},
+        {"occluded", "0"},
+        {"worldToShadow", "0.5,0,0,1,0,0.5,0,2,0,0,-0.25,0,0,0,-1,0"}, /* a perspective */
+        {"shadowRange", "1,0.25"},
+        {"shadowLight", "0"},
+        {"worldToGrid", "0,0,0.5,1,0,0.25,0,2,-0.5,0,0,3,0,0,0,1"},
+        {"volumeSlices", "2"},
     };
     for (size_t i = 0; i < sizeof values / sizeof *values; i++)
         if (!strcmp(values[i].key, key)) return values[i].value;
@@ -88,16 +99,24 @@ static void every_key_reads_back(void **state) {
     const json_t *keys = json_object_get(json, "keys"), *key;
     size_t i, set = 0;
     json_array_foreach(keys, i, key) {
-        const char *name = json_string_value(json_object_get(key, "key")),
-                   *on = json_string_value(json_object_get(key, "on")),
+        char numbered[80];
+        const char *listed = json_string_value(json_object_get(key, "key")), *digits = strstr(listed, "NNN");
+        snprintf(numbered, sizeof numbered, "%.*s%s%s", (int)(digits ? digits - listed : 70), listed,
+                 digits ? "001" : "", digits ? digits + 3 : ""); /* a light of the fixture */
+        const char *name = numbered, *on = json_string_value(json_object_get(key, "on")),
                    *value = value_of(name, json_string_value(json_object_get(key, "value")));
         const char *part = !strncmp(on, "cubemap", 7)  ? "cubemap.017"
                            : !strncmp(on, "planar", 6) ? "planar.002"
                            : !strncmp(on, "probe", 5)  ? "probe.002"
+                           : !strncmp(on, "shadow", 6) ? "shadow.001"
+                           : !strncmp(on, "volume", 6) ? "volume.000"
+                           : !strcmp(on, "indirect")   ? "indirect"
+                           : !strcmp(name, "radius")   ? "truth.occlusion"
+                           : !strcmp(name, "length")   ? "truth.sun"
                            : !strcmp(on, "sky")        ? "sky"
                                                        : "gbuffer";
         const bool color = !strcmp(name, "color"), hull = !strcmp(name, "hull"), box = !strncmp(name, "box", 3);
-        char setting[400], attribute[80], full[400], low[400];
+        char setting[400], attribute[100], full[400], low[400];
         if (color) part = "lit";
         snprintf(setting, sizeof setting, "%s:%s=%s", part, name, value);
         snprintf(attribute, sizeof attribute, "glint.%s%s", name, hull ? ".00" : "");
@@ -192,6 +211,15 @@ static void bad_values_are_refused(void **state) {
         {1, "normal=octahedral", "no Z"},
         {1, "depthNear=-1", "value in range"},
         {1, "fogColor=-1,0,0", "value in range"},
+        {2, "light.NNN.range=3", "no such key"},
+        {2, "light.001.rnage=3", "did you mean light.001.range?"},
+        {1, "light.003.position=1,2,3", "without a gap"},
+        {1, "light.000.coneOuter=1", "axis: missing"},
+        {1, "sunDirection=0,2,0", "a unit vector, found one of length 2"},
+        {1, "sunDirection=", "missing"},
+        {1, "shadowRange=0.5,0.5", "two different depths"},
+        {1, "shadowLight=7", "one of the frame's 2 lights, found 7"},
+        {1, "volumeSlices=3", "a whole number of slices"},
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         glint_fails(bad[i].status, bad[i].text, "set", made, bad[i].setting, "-o", in_folder("none.exr"));

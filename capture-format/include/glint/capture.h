@@ -109,6 +109,30 @@ struct glint_material_model {
     double gloss_scale, gloss_offset; /* log2_power: power = 2^(scale · stored + offset); 0: 10 and 1 */
 };
 
+/* The sun, or the moon, or whatever light is infinitely far away. */
+struct glint_sun {
+    double direction[3];       /* unit vector in world space towards it */
+    double angular_radius_rad; /* of its disc; 0: a point */
+    float irradiance[3];       /* radiance · sr, on a surface that faces it, with nothing between; 0: not known */
+};
+
+/* A point light, or a spot light if it has a cone. */
+#define GLINT_MAX_LIGHTS 64
+struct glint_cone {
+    double axis[3]; /* unit vector in world space along which the light shines */
+    double inner_rad,
+        outer_rad; /* angles from the axis: full intensity up to the first one, none from the second one on */
+};
+struct glint_light {
+    double position[3]; /* world */
+    float
+        intensity[3]; /* radiant: at d metres the irradiance on a surface that faces the light is this divided by d² */
+    double range;     /* units: the light ends at this distance; 0: it has no end */
+    double radius;    /* units: of the lamp, within which nothing casts a shadow; 0: a point */
+    bool has_cone;
+    struct glint_cone cone;
+};
+
 struct glint_stencil_class {
     uint32_t value, mask; /* a pixel belongs to the class if (id & mask) == value; mask 0: all bits */
     char name[32];        /* "sky", "foreground", "character", "vegetation", "water", … */
@@ -140,6 +164,10 @@ struct glint_frame {
     struct glint_material_model material;
     struct glint_stencil_class classes[GLINT_MAX_STENCIL_CLASSES];
     uint32_t class_count;
+    bool has_sun;
+    struct glint_sun sun;
+    struct glint_light lights[GLINT_MAX_LIGHTS];
+    uint32_t light_count;
 };
 
 /* Warnings about a valid frame, one sentence each: cameras whose stored rotation is too imprecise for their distance from the
@@ -197,6 +225,36 @@ struct glint_planar {
     struct glint_camera camera;
 };
 
+/* ---- Light and shadow ---- */
+
+/* The ambient or baked part of `lit`. */
+struct glint_indirect {
+    bool occluded; /* the engine's own ambient occlusion is already in it */
+};
+
+/* A shadow map: shadow = world_to_shadow · world. After division by w, x from -1 to 1 is the map from left to right, y as clip_y says, and
+   z is the depth that the map stores. */
+struct glint_shadow {
+    double world_to_shadow[16]; /* row-major, for column vectors, invertible: orthographic or perspective */
+    double range[2];            /* the depths nearest to the light and farthest from it, in [0, 1]; both 0: 0 and 1 */
+    double bias;                /* added to the stored depth, away from the light, before the engine compares */
+    bool has_light;             /* false: the sun's */
+    uint32_t light;             /* number of the light in glint_frame */
+};
+
+/* A grid of ambient cubes, whose slices are stored one below the other: a part of cells_x × (cells_y · slices) pixels. */
+struct glint_light_volume {
+    double world_to_grid
+        [16];        /* grid = world_to_grid · world; cell (i, j, k) lies from (i, j, k) to (i + 1, j + 1, k + 1) */
+    uint32_t slices; /* cells along z */
+};
+
+/* How far a path tracer went for truth.occlusion and truth.sun, in units. */
+struct glint_truth {
+    double radius; /* truth.occlusion: surfaces farther away do not occlude */
+    double length; /* truth.sun: surfaces farther away cast no contact shadow */
+};
+
 /* ---- Parts ---- */
 
 /* The type of a channel in the caller's memory. The file stores it exactly, as half, float or uint. */
@@ -236,10 +294,14 @@ struct glint_part {
     const struct glint_channel *channels;
     size_t channel_count;
     struct glint_encodings encodings;
-    const struct glint_cubemap *cubemap; /* required for cubemap.NNN */
-    const struct glint_planar *planar;   /* required for planar.NNN */
-    const struct glint_sky *sky;         /* sky only; may be NULL */
-    const struct glint_probe *probe;     /* probe.NNN and its levels only; may be NULL */
+    const struct glint_cubemap *cubemap;     /* required for cubemap.NNN */
+    const struct glint_planar *planar;       /* required for planar.NNN */
+    const struct glint_sky *sky;             /* sky only; may be NULL */
+    const struct glint_probe *probe;         /* probe.NNN and its levels only; may be NULL */
+    const struct glint_indirect *indirect;   /* indirect only; may be NULL */
+    const struct glint_shadow *shadow;       /* required for shadow.NNN */
+    const struct glint_light_volume *volume; /* required for volume.NNN */
+    const struct glint_truth *truth;         /* required for truth.occlusion and truth.sun */
     const char *
         sibling; /* cubemap.NNN only: a file in the same folder whose part of this name is used; give no channels then */
     const struct glint_attribute *attributes;
@@ -309,11 +371,15 @@ struct glint_part_info {
     const struct glint_channel_info *channels; /* in the file's order */
     size_t channel_count;
     struct glint_encodings encodings;
-    bool has_cubemap, has_planar, has_sky, has_probe;
+    bool has_cubemap, has_planar, has_sky, has_probe, has_indirect, has_shadow, has_volume, has_truth;
     struct glint_cubemap cubemap;
     struct glint_planar planar;
     struct glint_sky sky;
     struct glint_probe probe;
+    struct glint_indirect indirect;
+    struct glint_shadow shadow;
+    struct glint_light_volume volume;
+    struct glint_truth truth;
     char sibling[256];     /* the file that holds the pixels, and whose size and channels are reported here; "": none */
     char sibling_hash[33]; /* XXH3-128 of that file, which was verified; "" without a sibling */
     const struct glint_attribute *attributes; /* attributes unknown to glint (string, double, int, float) */

@@ -68,11 +68,15 @@ enum glint_edit_scope {
     GLINT_EDIT_SKY,      /* on sky */
     GLINT_EDIT_PROBE,    /* on each probe.NNN and its levels */
     GLINT_EDIT_PLANAR,   /* on each planar.NNN */
+    GLINT_EDIT_INDIRECT, /* on indirect */
+    GLINT_EDIT_SHADOW,   /* on each shadow.NNN */
+    GLINT_EDIT_VOLUME,   /* on each volume.NNN */
+    GLINT_EDIT_TRUTH,    /* on truth.occlusion or truth.sun */
     GLINT_EDIT_ENCODING, /* on each part that has channels of the encoding */
     GLINT_EDIT_STORAGE   /* on each part that has the channel */
 };
 struct glint_edit_key {
-    const char *name; /* "metresPerUnit", the attribute without "glint." */
+    const char *name; /* "metresPerUnit", the attribute without "glint."; NNN in it stands for the number of a light */
     enum glint_edit_scope scope;
     const char *form; /* "number", "3 numbers", "a name", … */
     bool required;

@@ -14,6 +14,23 @@ enum glint_probes {
     GLINT_PROBES_AUTO       /* placed by the sampler (glTF files) */
 };
 
+/* Truths that are traced. */
+enum glint_truths {
+    GLINT_TRUTH_REFLECTION = 1,
+    GLINT_TRUTH_OCCLUSION = 2,
+    GLINT_TRUTH_SUN = 4, /* in scenes with a sun */
+    GLINT_TRUTH_INDIRECT = 8,
+    GLINT_TRUTH_ANTIALIASED = 16 /* of the finished picture with finished_samples, else of lit */
+};
+
+/* What the engine writes of its light only when asked. */
+enum glint_also {
+    GLINT_ALSO_AO = 1,     /* its own, coarse ambient occlusion, over half the radius of the truth */
+    GLINT_ALSO_SUN = 2,    /* its shadow mask, in scenes with a sun */
+    GLINT_ALSO_SHADOW = 4, /* one shadow map, in scenes with a sun */
+    GLINT_ALSO_VOLUME = 8  /* a volume of light */
+};
+
 struct glint_sample_options {
     uint32_t width, height;               /* 0: 1280 × 720 */
     uint32_t cube_size;                   /* 0: 256 */
@@ -27,6 +44,10 @@ struct glint_sample_options {
     /* Rays a pixel for truth.*; 0: none of these parts. The parts of a lobe say it in `truthSamples`, and in
        `truthNoise` the median over the pixels of the mean's standard error, relative. */
     uint32_t truth_samples;
+    uint32_t truths;         /* enum glint_truths, which of them; 0: that of reflections */
+    double occlusion_radius; /* m: how far the truth of occlusion looks for occluders; 0: 1 */
+    double contact_length;   /* m: how far that of contact shadows does; 0: 0.5 */
+    uint32_t also;           /* enum glint_also */
     bool truth_of_pixels; /* of their whole areas, as a still camera sees them over its jitter; false: of the samples */
     uint32_t light_samples; /* rays a point for indirect light; 0: the scene's default */
     double fov_y_rad;       /* 0: the scene's */

@@ -70,6 +70,45 @@ class MaterialModel:
     gloss_offset: float = 1.0
 
 
+@mirrors("glint_sun")
+@dataclass(eq=False)
+class Sun:
+    """The sun, or the moon, or whatever light is infinitely far away."""
+    direction: Floats
+    """(3,): unit vector in world space towards it"""
+    angular_radius_rad: float = 0.0
+    """of its disc, [0, π/2); 0: a point"""
+    irradiance: Floats = _zeros(3)
+    """(3,): radiance · sr, on a surface that faces it, with nothing between, ≥ 0; stored as float32; zeros: not known"""
+
+
+@mirrors("glint_cone")
+@dataclass(eq=False)
+class Cone:
+    """Where a spot light shines."""
+    axis: Floats
+    """(3,): unit vector in world space along which it shines"""
+    inner_rad: float
+    """angle from the axis up to which it has its full intensity"""
+    outer_rad: float
+    """angle from the axis from which on it has none, at most π"""
+
+
+@mirrors("glint_light")
+@dataclass(eq=False)
+class Light:
+    """A point light, or a spot light if it has a cone."""
+    position: Floats
+    """(3,): world"""
+    intensity: Floats
+    """(3,): radiant intensity, ≥ 0: at d metres the irradiance on a surface that faces the light is this divided by d²; stored as float32"""
+    range: float = 0.0
+    """units: the light ends at this distance; 0: it has no end"""
+    radius: float = 0.0
+    """units: of the lamp, within which nothing casts a shadow; 0: a point"""
+    cone: Cone | None = None
+
+
 @mirrors("glint_stencil_class")
 @dataclass
 class StencilClass:
@@ -120,6 +159,9 @@ class Frame:
     classes: list[StencilClass] = counted("class_count", list)
     """at most 32"""
     material: MaterialModel | None = None
+    sun: Sun | None = None
+    lights: list[Light] = counted("light_count", list)
+    """at most 64"""
 
 
 @mirrors("glint_cubemap")
@@ -172,6 +214,46 @@ class Probe:
     """as in Sky"""
     box: ProbeBox | None = None
     """None: everything is infinitely far away"""
+
+
+@mirrors("glint_indirect")
+@dataclass(eq=False)
+class Indirect:
+    """The attributes of the part indirect."""
+    occluded: bool = False
+    """the engine's own ambient occlusion is already in it"""
+
+
+@mirrors("glint_shadow")
+@dataclass(eq=False)
+class Shadow:
+    """The attributes of a part shadow.NNN."""
+    world_to_shadow: Floats
+    """(4, 4), invertible: after division by w, x from −1 to 1 is the map from left to right, y as clip_y says, z the depth that is stored"""
+    range: Floats = field(default_factory=lambda: np.array([0.0, 1.0]))
+    """(2,): the depths nearest to the light and farthest from it, in [0, 1]"""
+    bias: float = 0.0
+    """what the engine adds to the stored depth, away from the light, before it compares, ≥ 0"""
+    light: int | None = None
+    """the number of the light in Frame.lights; None: the sun's"""
+
+
+@mirrors("glint_light_volume")
+@dataclass(eq=False)
+class LightVolume:
+    """The attributes of a part volume.NNN: a grid of ambient cubes, slices one below the other."""
+    world_to_grid: Floats
+    """(4, 4), invertible, last row 0 0 0 1: cell (i, j, k) lies from (i, j, k) to (i + 1, j + 1, k + 1)"""
+    slices: int
+    """cells along z, ≥ 1"""
+
+
+@mirrors("glint_truth")
+@dataclass(eq=False)
+class Truth:
+    """How far a path tracer went, in units: radius for the part truth.occlusion, length for the contact shadow of truth.sun."""
+    radius: float = 0.0
+    length: float = 0.0
 
 
 @mirrors("glint_planar")
