@@ -25,7 +25,7 @@ static void measuring_finish(struct measuring *m) {
     for (size_t i = 0; m->tracked && i < m->out->image_count; i++) free(m->tracked[i].base);
     for (int k = 0; k < 3; k++) free(m->decided[k]);
     free(m->tracked);
-    free(m->surfaces);
+    free(m->labels);
 }
 
 /* ---- Runs ---- */
@@ -200,9 +200,11 @@ bool glint_stability_measure(struct glint_replay *replay, struct glint_capture *
                                           .bound = options->bound > 0 ? options->bound : GLINT_STABILITY_BOUND};
     struct measuring m = {.replay = replay, .capture = capture, .options = options, .out = stability};
     struct glint_progress_part part = {.progress = progress, .user = user, .share = 1.0 / (stability->seeds + 1)};
+    size_t effects;
+    const struct glint_effect *effect = options->effect ? options->effect : glint_effects(&effects);
     bool ok = stability->seeds <= UINT8_MAX ||
               glint_fail(err, GLINT_ERROR_USAGE, "seeds: expected 1 to %d, found %u", UINT8_MAX, stability->seeds);
-    ok = ok && run_frame(&m, pipeline, 0, &part, err) && (m.surfaces = glint_study_surfaces(capture, err)) &&
+    ok = ok && run_frame(&m, pipeline, 0, &part, err) && (m.labels = glint_study_labels(capture, effect, err)) &&
          begin_measuring(&m, err);
     for (uint32_t seed = 1; ok && seed <= stability->seeds; seed++)
         ok = run_frame(&m, pipeline, seed, &part, err) && compare_all(&m, err);

@@ -18,7 +18,7 @@ enum glint_pass_role {
     GLINT_ROLE_SURVEY_OPEN_FACES,    /* where active cube maps have texels without a finite distance */
     GLINT_ROLE_SURVEY_SKY_FACES,     /* where their alpha lets the sky show */
     GLINT_ROLE_SURVEY_REACHED_FACES, /* the faces that mirror rays reach */
-    GLINT_ROLE_COMPOSED,             /* the reflection that the slot composes into the picture */
+    GLINT_ROLE_COMPOSED,             /* the picture, into which the slot composes the results of effects */
     GLINT_ROLE_LOBE,           /* the parameter that names the lobe that rays are drawn from: truth.reflection.LOBE */
     GLINT_ROLE_DEFINES_RESULT, /* a parameter that defines which image is estimated, not how well: the reference adopts it */
     /* Images of rays, one ray a texel. */
@@ -131,6 +131,52 @@ const struct glint_pass *glint_passes(size_t *count);
 const struct glint_pass *glint_pass_find(const char *slot, const char *variant);
 /* Whether a parameter of the pass is ASSUMED: it replaces information that captures do not contain, such as a thickness. */
 bool glint_pass_assumes(const struct glint_pass *pass, const struct glint_row *parameter);
+
+/* ---- Effects ---- */
+
+/* The pixels of a picture in which an effect is judged. */
+enum glint_judged {
+    GLINT_JUDGED_REFLECTING, /* surfaces with specular or metalness */
+    GLINT_JUDGED_SURFACES    /* all but sky */
+};
+enum { GLINT_EFFECT_RESULTS = 4, GLINT_EFFECT_CLASSES = 3 };
+/* A family of slots that makes one term of the picture, from the rows of passes/EFFECT/effect.h. The slots are those whose passes name it as
+   their `effect`. */
+struct glint_effect {
+    const char *name; /* of its folder: "reflection" */
+    const char *title, *noun, *about;
+    const char *results[GLINT_EFFECT_RESULTS]; /* images that may be its result, the preferred first; NULL behind the last */
+    const char *channels;                      /* of the truth, and as many of the result: "R G B" */
+    const char *truth;                         /* the part, or with truth_has_choices its name before ".CHOICE" */
+    enum glint_pass_role truth_by;             /* the parameter whose choice that is */
+    bool truth_has_choices;
+    const char *rays; /* the part whose distance.Z is where rays of class 1 truly end, or NULL */
+    enum glint_judged judged;
+    const char *fact; /* of passes/facts.h: without it a frame does not call for the effect */
+    const char *class_title, *class_part, *class_channel; /* what pixels are classed by */
+    struct {
+        const char *name;
+        double most; /* the highest value of the class */
+    } classes[GLINT_EFFECT_CLASSES]; /* name: NULL behind the last */
+    const char *term;                /* how the composed picture changes by it */
+};
+/* All effects, by the place that each declares. */
+const struct glint_effect *glint_effects(size_t *count);
+/* NULL if there is none of that name: passes/prepare and passes/compose, which effects share, are no effects. */
+const struct glint_effect *glint_effect_find(const char *name);
+/* Labels of pixels. Arrays of GLINT_CLASS_COUNT figures hold that of all pixels in element 0, and those of the classes from 1 on. */
+enum {
+    GLINT_CLASS_NONE,                              /* not judged: in no figure */
+    GLINT_CLASS_FIRST,                             /* the first class; the others follow */
+    GLINT_CLASS_COUNT = 1 + GLINT_EFFECT_CLASSES,
+    GLINT_CLASS_UNKNOWN = GLINT_CLASS_COUNT        /* judged, and in no class */
+};
+size_t glint_effect_class_count(const struct glint_effect *effect);
+/* "all" for 0, else the name of a class. */
+const char *glint_effect_class_name(const struct glint_effect *effect, size_t label);
+/* The class of a value; NaN is in the last one. */
+size_t glint_effect_class_of(const struct glint_effect *effect, double value);
+
 /* The rows of capture images. */
 const struct glint_row *glint_capture_images(size_t *count);
 /* What a capture need not have, by role ("cubemap") and the beginning of its channels ("distance"; "": the part itself), and in one sentence
