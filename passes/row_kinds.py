@@ -80,6 +80,12 @@ KINDS = [
          row='.name = #$image, .glsl = #$kind, .optional = true, .format = GLINT_FORMAT_##$format, .size = GLINT_SIZE_##$size, '
              '.fallback = (double)($fallback)',
          bindings=OPTIONAL, as_kind='READ'),
+    Kind('READ_BESIDE', 'kind, image, format, size, fallback, others',
+         'An OPTIONAL_READ of an image of the capture, which is read only where a pass of the pipeline makes one of the others: names between '
+         'spaces. Otherwise the capture is not asked for it.',
+         row='.name = #$image, .glsl = #$kind, .optional = true, .format = GLINT_FORMAT_##$format, .size = GLINT_SIZE_##$size, '
+             '.fallback = (double)($fallback), .beside = $others',
+         bindings=OPTIONAL, as_kind='READ'),
     Kind('READ_OWN', 'kind, name, image', 'All levels of an image that this pass writes, to read; `name` is the binding\'s.',
          row='.name = #$name, .image = #$image, .glsl = #$kind', bindings=BINDING.replace('$image', '$name')),
     Kind('HISTORY', 'kind, name, image',
@@ -155,6 +161,10 @@ KINDS = [
          'out. Of an image that the pass makes: false when no pass that runs reads it; it is not made then, and must not be written.',
          row='.name = #$fact', bindings='layout(constant_id = __LINE__) const bool fact_##$fact = true;'),
     Kind('NEEDS', 'fact', 'The pass is needed only when this fact holds for the capture.', row='.name = #$fact'),
+    Kind('CALLED_BY', 'fact, image',
+         'Of a pass with such rows one has to call for it: one whose fact holds and whose image, an OPTIONAL_READ, is made by a pass of the pipeline. '
+         'That image is then required, as with READ. If the pipeline makes none of the images, the first row counts.',
+         row='.name = #$fact, .image = #$image'),
     Kind('NEEDS_BY', 'fact, parameter', 'NEEDS of a fact about a parameter of the pass.',
          row='.name = #$fact, .image = #$parameter', as_kind='NEEDS'),
     Kind('WITHOUT', 'image, what', 'What the pass does where the capture does not have this image, which it reads. The plan says so. Passes that read the image without '

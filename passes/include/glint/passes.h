@@ -91,6 +91,7 @@ struct glint_row {
     const char *role;     /* CAPTURE: the part's role; `source` lists its channels, "-" for a component that stays 0 */
     bool required;        /* CAPTURE: false: the image holds its fallback value if the capture lacks the part */
     bool optional; /* READ: no pass has to make the image; this row then states its format, size and fallback value */
+    const char *beside; /* READ of an image of the capture: made images beside which it is read, or NULL (READ_BESIDE) */
     const char *image; /* READ_OWN, HISTORY: the image; NULL: `name` */
     const char
         *assigned; /* REFERENCE_SET: an assignment for glint_pipeline_set. DISPATCH_LEVELS: a parameter, or NULL */
