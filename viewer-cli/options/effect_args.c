@@ -11,8 +11,7 @@ static const struct glint_effect *named(const char *name, struct glint_error *er
     const struct glint_effect *all = glint_effects(&count), *effect = glint_effect_find(name);
     struct glint_nearest near = glint_nearest_to(name);
     for (size_t i = 0; i < count; i++) glint_nearest_offer(&near, all[i].name);
-    if (!effect)
-        glint_fail(err, GLINT_ERROR_USAGE, "there is no effect %s%s", name, glint_nearest_or_known(&near));
+    if (!effect) glint_fail(err, GLINT_ERROR_USAGE, "there is no effect %s%s", name, glint_nearest_or_known(&near));
     return effect;
 }
 
@@ -50,8 +49,9 @@ size_t effects_find(const struct effect_search *search, const struct glint_effec
     const struct glint_effect *effects = glint_effects(&all);
     if (search->name) {
         if (!(found[0] = named(search->name, err))) return 0;
-        return is_made(search, found[0]) || glint_fail(err, GLINT_ERROR_USAGE, "--effect %s: no slot of the pipeline makes %s",
-                                                       search->name, found[0]->noun);
+        return is_made(search, found[0]) ||
+               glint_fail(err, GLINT_ERROR_USAGE, "--effect %s: no slot of the pipeline makes %s", search->name,
+                          found[0]->noun);
     }
     for (size_t e = 0; e < all && made < EFFECTS_MAX; e++)
         if (is_made(search, &effects[e])) found[made++] = &effects[e];
@@ -70,8 +70,8 @@ size_t effects_find(const struct effect_search *search, const struct glint_effec
 }
 
 const struct glint_effect *effect_find(const struct command *command, const char *name,
-                                       const struct glint_pipeline *pipeline, bool reference,
-                                       const struct list *truths, struct glint_error *err) {
+                                       const struct glint_pipeline *pipeline, bool reference, const struct list *truths,
+                                       struct glint_error *err) {
     const struct effect_search search = {name, &pipeline, 1, reference, truths};
     const struct glint_effect *found[EFFECTS_MAX];
     const size_t count = effects_find(&search, found, err);

@@ -91,7 +91,8 @@ struct glint_row {
     const char *role;     /* CAPTURE: the part's role; `source` lists its channels, "-" for a component that stays 0 */
     bool required;        /* CAPTURE: false: the image holds its fallback value if the capture lacks the part */
     bool optional; /* READ: no pass has to make the image; this row then states its format, size and fallback value */
-    const char *beside; /* READ of an image of the capture: made images beside which it is read, or NULL (READ_BESIDE) */
+    const char
+        *beside;       /* READ of an image of the capture: made images beside which it is read, or NULL (READ_BESIDE) */
     const char *image; /* READ_OWN, HISTORY: the image; NULL: `name` */
     const char
         *assigned; /* REFERENCE_SET: an assignment for glint_pipeline_set. DISPATCH_LEVELS: a parameter, or NULL */
@@ -146,10 +147,11 @@ enum { GLINT_EFFECT_RESULTS = 4, GLINT_EFFECT_CLASSES = 3 };
 struct glint_effect {
     const char *name; /* of its folder: "reflection" */
     const char *title, *noun, *about;
-    const char *results[GLINT_EFFECT_RESULTS]; /* images that may be its result, the preferred first; NULL behind the last */
-    const char *channels;                      /* of the truth, and as many of the result: "R G B" */
-    const char *truth;                         /* the part, or with truth_has_choices its name before ".CHOICE" */
-    enum glint_pass_role truth_by;             /* the parameter whose choice that is */
+    const char
+        *results[GLINT_EFFECT_RESULTS]; /* images that may be its result, the preferred first; NULL behind the last */
+    const char *channels;               /* of the truth, and as many of the result: "R G B" */
+    const char *truth;                  /* the part, or with truth_has_choices its name before ".CHOICE" */
+    enum glint_pass_role truth_by;      /* the parameter whose choice that is */
     bool truth_has_choices;
     const char *rays; /* the part whose distance.Z is where rays of class 1 truly end, or NULL */
     enum glint_judged judged;
@@ -157,7 +159,7 @@ struct glint_effect {
     const char *class_title, *class_part, *class_channel; /* what pixels are classed by */
     struct {
         const char *name;
-        double most; /* the highest value of the class */
+        double most;                 /* the highest value of the class */
     } classes[GLINT_EFFECT_CLASSES]; /* name: NULL behind the last */
     const char *term;                /* how the composed picture changes by it */
 };
@@ -167,10 +169,10 @@ const struct glint_effect *glint_effects(size_t *count);
 const struct glint_effect *glint_effect_find(const char *name);
 /* Labels of pixels. Arrays of GLINT_CLASS_COUNT figures hold that of all pixels in element 0, and those of the classes from 1 on. */
 enum {
-    GLINT_CLASS_NONE,                              /* not judged: in no figure */
-    GLINT_CLASS_FIRST,                             /* the first class; the others follow */
+    GLINT_CLASS_NONE,  /* not judged: in no figure */
+    GLINT_CLASS_FIRST, /* the first class; the others follow */
     GLINT_CLASS_COUNT = 1 + GLINT_EFFECT_CLASSES,
-    GLINT_CLASS_UNKNOWN = GLINT_CLASS_COUNT        /* judged, and in no class */
+    GLINT_CLASS_UNKNOWN = GLINT_CLASS_COUNT /* judged, and in no class */
 };
 size_t glint_effect_class_count(const struct glint_effect *effect);
 /* "all" for 0, else the name of a class. */
