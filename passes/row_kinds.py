@@ -5,6 +5,7 @@ A declaration is read several times, each time with other macros of the same nam
     names.h                 C, first reading: names that the second one uses as constants
     rows.h                  C, second reading: each row becomes a struct glint_row
     row_kinds.h             C, public: enum glint_row_kind
+    effect_rows.h           C: EFFECT_KINDS, with which EFFECT/effect.h becomes a struct glint_effect
     shared/bindings.glsl    GLSL, first reading: images become bindings, constants specialization constants
     shared/push_begin.glsl  GLSL, second reading: push constants
 
@@ -78,6 +79,12 @@ KINDS = [
          'A READ of an image that need not exist. has_NAME is false in the shader when no pass makes it, and its fallback value is bound.',
          row='.name = #$image, .glsl = #$kind, .optional = true, .format = GLINT_FORMAT_##$format, .size = GLINT_SIZE_##$size, '
              '.fallback = (double)($fallback)',
+         bindings=OPTIONAL, as_kind='READ'),
+    Kind('READ_BESIDE', 'kind, image, format, size, fallback, others',
+         'An OPTIONAL_READ of an image of the capture, which is read only where a pass of the pipeline makes one of the others: names between '
+         'spaces. Otherwise the capture is not asked for it.',
+         row='.name = #$image, .glsl = #$kind, .optional = true, .format = GLINT_FORMAT_##$format, .size = GLINT_SIZE_##$size, '
+             '.fallback = (double)($fallback), .beside = $others',
          bindings=OPTIONAL, as_kind='READ'),
     Kind('READ_OWN', 'kind, name, image', 'All levels of an image that this pass writes, to read; `name` is the binding\'s.',
          row='.name = #$name, .image = #$image, .glsl = #$kind', bindings=BINDING.replace('$image', '$name')),
@@ -154,6 +161,10 @@ KINDS = [
          'out. Of an image that the pass makes: false when no pass that runs reads it; it is not made then, and must not be written.',
          row='.name = #$fact', bindings='layout(constant_id = __LINE__) const bool fact_##$fact = true;'),
     Kind('NEEDS', 'fact', 'The pass is needed only when this fact holds for the capture.', row='.name = #$fact'),
+    Kind('CALLED_BY', 'fact, image',
+         'Of a pass with such rows one has to call for it: one whose fact holds and whose image, an OPTIONAL_READ, is made by a pass of the pipeline. '
+         'That image is then required, as with READ. If the pipeline makes none of the images, the first row counts.',
+         row='.name = #$fact, .image = #$image'),
     Kind('NEEDS_BY', 'fact, parameter', 'NEEDS of a fact about a parameter of the pass.',
          row='.name = #$fact, .image = #$parameter', as_kind='NEEDS'),
     Kind('WITHOUT', 'image, what', 'What the pass does where the capture does not have this image, which it reads. The plan says so. Passes that read the image without '
@@ -186,4 +197,26 @@ KINDS = [
          row='.name = #$parameter, .image = #$slot, .assigned = #$value'),
     Kind('REFERENCE_WITH', 'slot, why', 'Neither this slot nor the one named is exchanged for its reference without the other.',
          row='.name = #$slot, .help = $why'),
+]
+
+# The rows of EFFECT/effect.h, which declares an effect. `row` is an initialiser of struct glint_effect (include/glint/passes.h).
+EFFECT_KINDS = [
+    Kind('EFFECT', 'place, title, noun, about',
+         'Its place among the effects: where a command handles one, the first counts. Its title, what texts call its result, and what it is.',
+         row='.title = $title, .noun = $noun, .about = $about,'),
+    Kind('RESULTS', '...', 'The images that may be its result, in the order of preference: the first that the run makes in full resolution.',
+         row='.results = {__VA_ARGS__},'),
+    Kind('TRUTH', 'part, channels',
+         'The part of a capture that holds the true result, and its channels, as many as are judged of the result. A channel `weight` is 0 where the '
+         'truth is unknown, `error` its relative standard error; it need have neither.', row='.truth = $part, .channels = $channels,'),
+    Kind('TRUTH_BY', 'role, part, channels', 'TRUTH of which there are several, each called after a choice of the parameter with this ROLE: PART.CHOICE.',
+         row='.truth = $part, .channels = $channels, .truth_by = GLINT_ROLE_##$role, .truth_has_choices = true,'),
+    Kind('RAYS', 'part', 'The part whose distance.Z is where the rays of surfaces of the first class truly end.', row='.rays = $part,'),
+    Kind('JUDGED_IN', 'pixels', 'The pixels that count: enum glint_judged.', row='.judged = GLINT_JUDGED_##$pixels,'),
+    Kind('CALLED_FOR', 'fact', 'The fact (facts.h) without which a frame does not call for the effect.', row='.fact = #$fact,'),
+    Kind('CLASSES', 'title, part, channel, classes',
+         'Groups of pixels with figures of their own, by a channel of the capture: at most GLINT_EFFECT_CLASSES, each a CLASS. In captures without the '
+         'channel no pixel has a class.', row='.class_title = $title, .class_part = $part, .class_channel = $channel, .classes = {$classes},'),
+    Kind('CLASS', 'name, most', 'A class, and its highest value; INFINITY for the last one.', row='{$name, $most},'),
+    Kind('TERM', 'text', 'How the composed picture changes by it.', row='.term = $text,'),
 ]

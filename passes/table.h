@@ -10,6 +10,34 @@ const struct glint_pass *glint_pass_find(const char *slot, const char *variant) 
     return NULL;
 }
 
+const struct glint_effect *glint_effects(size_t *count) {
+    *count = sizeof effect_table / sizeof effect_table[0];
+    return effect_table;
+}
+
+const struct glint_effect *glint_effect_find(const char *name) {
+    for (size_t i = 0; i < sizeof effect_table / sizeof effect_table[0]; i++)
+        if (strcmp(effect_table[i].name, name) == 0) return &effect_table[i];
+    return NULL;
+}
+
+size_t glint_effect_class_count(const struct glint_effect *effect) {
+    size_t count = 0;
+    while (count < GLINT_EFFECT_CLASSES && effect->classes[count].name) count++;
+    return count;
+}
+
+const char *glint_effect_class_name(const struct glint_effect *effect, size_t label) {
+    return label ? effect->classes[label - 1].name : "all";
+}
+
+size_t glint_effect_class_of(const struct glint_effect *effect, double value) {
+    const size_t last = glint_effect_class_count(effect);
+    size_t label = 1;
+    while (label < last && !(value <= effect->classes[label - 1].most)) label++;
+    return label;
+}
+
 bool glint_pass_assumes(const struct glint_pass *pass, const struct glint_row *parameter) {
     for (size_t i = 0; i < pass->row_count; i++)
         if (pass->rows[i].kind == GLINT_ROW_ASSUMED && strcmp(pass->rows[i].name, parameter->name) == 0) return true;

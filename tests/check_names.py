@@ -1,19 +1,18 @@
-"""Neither replay/ nor study/ names a slot, a variant or an image: what they look for is declared as a row ROLE and found by kind.
+"""Neither replay/ nor study/ names an effect, a slot, a variant or an image: what they look for is declared as a row ROLE, or in the rows of
+an effect.h, and found by kind.
 Fails on every such name there, in strings and in identifiers. A name of several words, such as screen_trace, counts wherever it stands, in
 "screen_trace.steps" and in SCREEN_TRACE_STEPS, too. A name of one word is often an English word: it counts where it is a whole string, and a slot's
-also in "blur=plus" and has_blur. What is exempt is listed below, and the list only shrinks."""
+or an effect's also in "blur=plus" and has_blur. What is exempt is listed below, and the list only shrinks."""
 import pathlib
 import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 # Words with another meaning in these files.
-EXCEPTIONS = {
-    "study/metrics/metrics.c": {"rough"},  # a class of surfaces
-}
-# Slots whose names are also what replay/ calls things of its own: the survey, and layers of a capture. In identifiers, includes and keys of run.json
-# they are that; in any other string they are the slots.
-OWN_WORDS = {"survey", "planar", "water"}
+EXCEPTIONS = {}
+# Slots and effects whose names are also what replay/ calls things of its own: the survey, layers of a capture, dispatches. In identifiers, includes
+# and keys of run.json they are that; in any other string they are the slots and effects.
+OWN_WORDS = {"survey", "planar", "water", "indirect"}
 # Roles and size classes, some of which are called after images.
 DECLARED = re.compile(r"^GLINT_(ROLE|SIZE)_[A-Z_]+$")
 # JSON keys are the terms of run.json. These calls take literal keys; the argument of json_string is a value.
@@ -22,12 +21,15 @@ STRING = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
 
 
 def registry():
-    """Every name that the passes declare, and which of them are slots."""
+    """Every name that the passes declare, and which of them are slots or effects."""
     names, slots = set(), set()
     for path in (ROOT / "passes").rglob("*.pass.h"):
         slot, variant = path.parent.name, path.name.removesuffix(".pass.h")
         names |= {slot, variant, f"{slot}/{variant}"}
         slots.add(slot)
+    effects = {path.parent.name for path in (ROOT / "passes").glob("*/effect.h")}
+    names |= effects
+    slots |= effects
     for path in (ROOT / "passes").rglob("*.h"):
         text = path.read_text(encoding="utf-8")
         names.update(re.findall(r"^(?:WRITE|DIAGNOSTIC)\(\w+,\s*(\w+),", text, re.M))

@@ -74,7 +74,7 @@ static struct frame frame_of(struct glint_replay *replay, struct glint_capture *
             (2 * (i / frame.width) + (pick[i] >> 1 & 1)) * full_width + 2 * (i % frame.width) + (pick[i] & 1);
         memcpy(frame.found + 3 * i, found + 4 * i, 3 * sizeof *found);
         memcpy(frame.truth + 3 * i, truth + 3 * pixel, 3 * sizeof *truth);
-        const bool smooth = normal[4 * i + 3] <= (float)GLINT_MIRROR_ROUGHNESS && pick[i] < 4;
+        const bool smooth = normal[4 * i + 3] <= (float)glint_effect_find("reflection")->classes[0].most && pick[i] < 4;
         frame.fell[i] = smooth && (end[i] == END_shadow_region || end[i] == END_fallback);
         frame.best[i] = frame.best[i] == NO_CUBEMAP ? NO_CUBEMAP : active[frame.best[i]];
     }

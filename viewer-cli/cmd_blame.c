@@ -31,6 +31,7 @@ static const struct argp_option options[] = {
     {"output",    'o',           "FOLDER",        0, "Folder for all results, with a page and charts that are updated during the work; an interrupted call resumes from it", 0},
     {"metric",    KEY_METRIC,    "NAME",          0, "Error metric that is attributed to the slots (default symmetric): symmetric, relative_mse, rmse, clean_relative_mse, "
         "clean_rmse, flip or hdr_flip", 0},
+    EFFECT_OPTION,
     {"reference", KEY_REFERENCE, "RUN|truth",     0, "Errors are measured against this: the run of glint reference (once for each capture), or the truth in the capture "
         "(default: a reference is traced once and kept in the folder; the error against the truth is reported too)", 0},
     {"rays",      KEY_RAYS,      "N",             0, "Rays per pixel of the reference that is traced (default 64)", 0},
@@ -130,7 +131,9 @@ static bool begin_blame(struct arguments *a, struct glint_error *err) {
     a->pipeline.without_fog = fogged != NULL; /* of all answers, so that shares of different ones can be compared */
     if (!blame->base || !pipeline_args_apply(&a->pipeline, blame->base, err)) return false;
     pipeline_note_fog(&cmd_blame, blame->base, fogged);
-    if (!(blame->players = glint_players_create(blame->base, blame->player_rays, err))) return false;
+    if (!answer_args_effect(&blame->against, &cmd_blame, blame->base, &blame->captures, err) ||
+        !(blame->players = glint_players_create(blame->base, blame->against.effect, blame->player_rays, err)))
+        return false;
     blame->count = glint_players_count(blame->players);
     return (blame->device = pipeline_args_device(&a->pipeline, err)) && blame_open(blame, &a->pipeline.shader, err);
 }

@@ -8,11 +8,12 @@
 #include "io/pipe.h"
 #include "draw/view/png_file.h"
 #include "io/output.h"
+#include "options/effect_args.h"
 #include "options/pipeline_args.h"
 
 struct arguments {
     struct list captures, presets, settings;
-    const char *out, *device;
+    const char *out, *device, *effect;
     uint32_t rounds;
     bool json;
 };
@@ -23,6 +24,7 @@ enum { KEY_PRESETS = 256, KEY_REPEAT };
 static const struct argp_option options[] = {
     {"output",  'o',         "FOLDER",     0, "Folder for the table (table.json, table.csv), a sheet of pictures (sheet.png) and a page (index.html)", 0},
     {"presets", KEY_PRESETS, "PRESET|FILE,...", 0, "Presets to compare (default: all but reference), of ", 0},
+    EFFECTS_OPTION,
     {"set",     KEY_SET,     "PRESET:SLOT.PARAM=VALUE", 0, "Set a parameter of one preset; glint passes SLOT lists them", 0},
     {"repeat",  KEY_REPEAT,  "N",          0, "Timed rounds; every round runs each preset once (default 3)", 0},
     {"device",  'd',         "INDEX|NAME", 0, "Vulkan device to use; glint devices lists them (default: $GLINT_DEVICE, else the first usable one in that list)", 0},
@@ -45,6 +47,7 @@ static const struct arg_target targets[] = {
     STORED('d', struct arguments, device),
     STORED('j', struct arguments, json),
     STORED_NAMES(KEY_PRESETS, struct arguments, presets),
+    STORED(KEY_EFFECT, struct arguments, effect),
     STORED(KEY_SET, struct arguments, settings),
     STORED_NUMBER(KEY_REPEAT, struct arguments, rounds, 1, 100000),
     STORED(ARGP_KEY_ARG, struct arguments, captures),
@@ -126,33 +129,49 @@ static bool make_folders(const char *folder, struct glint_error *err) {
 }
 
 /* Each capture gets the same share of the sheet and of the page. */
-static struct contest_pictures *begin_pictures(const struct arguments *a, struct sheet *sheet, uint32_t columns,
+static struct contest_pictures *begin_pictures(const struct arguments *a, const struct glint_effect *effect,
+                                               const char *folder, struct sheet *sheet, uint32_t columns,
                                                struct glint_error *err) {
     const size_t count = a->captures.count, cells = CONTEST_ROWS * (size_t)columns;
     struct contest_pictures *pictures = calloc(count, sizeof *pictures);
     if (!pictures) glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    if (!pictures || !sheet_init(sheet, columns, CONTEST_ROWS * (uint32_t)count, err) || !make_folders(a->out, err)) {
+    if (!pictures || !sheet_init(sheet, columns, CONTEST_ROWS * (uint32_t)count, err) || !make_folders(folder, err)) {
         free(pictures);
         return NULL;
     }
     for (size_t i = 0; i < count; i++)
-        pictures[i] = (struct contest_pictures){.cells = &sheet->cells[i * cells],
+        pictures[i] = (struct contest_pictures){.effect = effect,
+                                                .cells = &sheet->cells[i * cells],
                                                 .columns = columns,
                                                 .capture = i,
-                                                .folder = a->out,
+                                                .folder = folder,
                                                 .values_bytes = PAGE_VALUE_BYTES / (count * cells),
                                                 .rows = json_pack("[[], [], []]")};
     return pictures;
 }
 
-static enum status compare(struct contest *contest, const struct arguments *a, struct glint_error *err) {
+/* FOLDER, or FOLDER/EFFECT when there are several. */
+static bool effect_folder(const struct arguments *a, const struct glint_effect *effect, bool several, char path[4096],
+                          struct glint_error *err) {
+    path[0] = '\0';
+    if (!a->out) return true;
+    return snprintf(path, 4096, "%s%s%s", a->out, several ? "/" : "", several ? effect->name : "") < 4096 ||
+           glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", a->out);
+}
+
+/* Compares the results of one effect; `json` collects it, or is NULL. */
+static enum status compare(struct contest *contest, const struct arguments *a, bool several, json_t *json,
+                           struct glint_error *err) {
+    char folder[4096];
     struct sheet sheet = {0};
     struct progress progress;
     struct contest_pictures *pictures = NULL;
     struct showing *showings = calloc(a->captures.count * contest->count + 1, sizeof *showings);
     const struct contest_table table = {contest, a->captures.items, showings, a->captures.count};
-    bool ok = showings || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    if (ok && a->out) ok = (pictures = begin_pictures(a, &sheet, (uint32_t)contest->count + 1, err)) != NULL;
+    bool ok = (showings || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory")) &&
+              effect_folder(a, contest->effect, several, folder, err);
+    if (ok && a->out)
+        ok = (pictures = begin_pictures(a, contest->effect, folder, &sheet, (uint32_t)contest->count + 1, err)) != NULL;
     progress_begin(&progress);
     struct missing missing = {0};
     contest->progress = &progress;
@@ -160,11 +179,11 @@ static enum status compare(struct contest *contest, const struct arguments *a, s
     for (size_t i = 0; ok && i < a->captures.count; i++)
         ok = run_capture(contest, a->captures.items[i], &showings[i * contest->count], pictures ? &pictures[i] : NULL,
                          err);
-    if (ok && a->out) ok = write_all(a->out, &table, &sheet, pictures, err);
+    if (ok && a->out) ok = write_all(folder, &table, &sheet, pictures, err);
     progress_end(&progress);
     enum status status = ok ? STATUS_DONE : command_fail(&cmd_compare, err);
     missing_note(&cmd_compare, &missing, 0);
-    if (ok && a->json) status = print_json(contest_json(&table));
+    if (ok && json) json_array_append_new(json, contest_json(&table));
     else if (ok) contest_print(&table);
     if (ok && status == STATUS_DONE) status = report_failures(&table);
     for (size_t i = 0; showings && i < a->captures.count * contest->count; i++) showing_finish(&showings[i]);
@@ -173,6 +192,31 @@ static enum status compare(struct contest *contest, const struct arguments *a, s
     free(pictures);
     sheet_finish(&sheet);
     return status;
+}
+
+/* One effect after the other. JSON is an object if there is one, else a list of them. */
+static enum status compare_all(struct contest *contest, const struct arguments *a, struct glint_error *err) {
+    const struct glint_effect *effects[EFFECTS_MAX];
+    const struct glint_pipeline **pipelines = calloc(contest->count + 1, sizeof *pipelines);
+    for (size_t i = 0; pipelines && i < contest->count; i++) pipelines[i] = contest->contestants[i].pipeline;
+    const struct effect_search search = {a->effect, pipelines, contest->count, false, &a->captures};
+    const size_t count = pipelines ? effects_find(&search, effects, err) : 0;
+    free(pipelines);
+    if (!count) return command_fail(&cmd_compare, err);
+    json_t *json = a->json ? json_array() : NULL;
+    enum status status = STATUS_DONE;
+    for (size_t e = 0; e < count && status != STATUS_INTERRUPTED; e++) {
+        contest_judge(contest, effects[e]);
+        if (count > 1 && !json) printf("%s%s\n\n", e ? "\n" : "", effects[e]->title);
+        const enum status own = compare(contest, a, count > 1, json, err);
+        if (own > status) status = own;
+    }
+    if (!json) return status;
+    const size_t compared = json_array_size(json);
+    json_t *printed = count > 1 ? json_incref(json) : json_incref(json_array_get(json, 0));
+    json_decref(json);
+    const enum status shown = compared ? print_json(printed) : status;
+    return shown > status ? shown : status;
 }
 
 static enum status cmd_compare_run(int argc, char **argv) {
@@ -184,7 +228,7 @@ static enum status cmd_compare_run(int argc, char **argv) {
     bool ok = contest_begin(&contest, a.presets.items, &a.settings, &err);
     if (ok) pipeline_note_fog(&cmd_compare, contest.contestants[0].pipeline, captures_fogged(&a.captures));
     ok = ok && (contest.device = glint_device_create(&device, &err)) != NULL;
-    enum status status = ok ? compare(&contest, &a, &err) : command_fail(&cmd_compare, &err);
+    enum status status = ok ? compare_all(&contest, &a, &err) : command_fail(&cmd_compare, &err);
     contest_finish(&contest);
     glint_device_destroy(&contest.device);
     list_free(&a.captures);
@@ -198,11 +242,14 @@ const struct command cmd_compare = {
     .arguments = "F... --presets A,B,...",
     .summary = "compare presets on the same captures",
     .description =
-        "Runs several presets on captures and prints for each: the error of the reflection against the truth in the "
-        "capture, the coverage (the share of pixels for which the preset finds a reflection), separately for "
-        "mirror-like, glossy and rough surfaces, the end reasons, steps and texture fetches of rays, and the time of "
+        "Runs several presets on captures and prints for each: the error of an effect's result against the truth in "
+        "the "
+        "capture, the coverage (the share of pixels for which the preset finds one), separately for the effect's "
+        "classes of pixels, such as mirror-like, glossy and rough surfaces, the end reasons, steps and texture fetches "
+        "of rays, and the time of "
         "all passes, measured in alternating rounds. Passes that a scene does not need are not run, and listed. Fog "
-        "is off, because the truth has none.",
+        "is off, because the truth has none. Several effects are compared one after the other, each with its own "
+        "table, or in a folder FOLDER/EFFECT of its own.",
     .options = options,
     .targets = targets,
     .operand = "capture",

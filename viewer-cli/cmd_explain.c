@@ -8,12 +8,13 @@
 #include "explain/explain.h"
 #include "glint/reference.h"
 #include "io/table.h"
+#include "options/effect_args.h"
 #include "options/run_source.h"
 
 enum { TRIES = 64 };
 
 struct arguments {
-    const char *run, *capture, *device, *against, *out;
+    const char *run, *capture, *device, *against, *out, *effect;
     int32_t pixel[2];
     bool has_pixel, json, overwrite;
     uint32_t tries;
@@ -24,7 +25,8 @@ enum { KEY_CAPTURE = 256, KEY_AGAINST, KEY_TRIES };
 /* clang-format off */
 static const struct argp_option options[] = {
     {"capture", KEY_CAPTURE, "F",         0, "The capture that the run was made of, if it is no longer where run.json says", 0},
-    {"against", KEY_AGAINST, "RUN",       0, "Compare with the reflection of this run, such as one of glint reference (default: the truth in the capture, where it has one)", 0},
+    {"against", KEY_AGAINST, "RUN",       0, "Compare with the result of this run, such as one of glint reference (default: the truth in the capture, where it has one)", 0},
+    {"effect",  KEY_EFFECT,  "EFFECT",    0, "Effect that is explained, of those that glint passes lists (default: the first whose result the run holds)", 0},
     {"tries",   KEY_TRIES,   "N",         0, "Try at most N single changes of parameters and variants, 0 to 1000; each replays what it changes (default 64)", 0},
     {"output",  'o',         "FILE.html", 0, "Write the sentences and all that was tried as a page", 0},
     OVERWRITE_OPTION,
@@ -44,6 +46,7 @@ static const struct example examples[] = {
 static const struct arg_target targets[] = {
     STORED(KEY_CAPTURE, struct arguments, capture),
     STORED(KEY_AGAINST, struct arguments, against),
+    STORED(KEY_EFFECT, struct arguments, effect),
     STORED_NUMBER(KEY_TRIES, struct arguments, tries, 0, EXPLAIN_TRIES_MAX),
     STORED_OUTPUT('o', struct arguments, out, OUTPUT_HTML),
     STORED(KEY_OVERWRITE, struct arguments, overwrite),
@@ -74,19 +77,20 @@ static bool load_truth(struct explain *e, const char *against, struct glint_erro
     struct glint_error cause = {0};
     if (against) {
         struct glint_run *run = glint_run_open(against, err);
-        const bool ok = run && glint_study_run_reflection(run, &e->true_pixels, err) &&
-                        glint_study_run_error(run, &e->true_error, err);
+        const bool ok = run && glint_study_run_result(run, e->effect, &e->true_pixels, err) &&
+                        glint_study_run_error(run, e->effect, &e->true_error, err);
         glint_run_close(&run);
         if (!ok) return false;
-    } else if (!glint_study_truth(e->opened->capture, e->opened->pipeline, &e->true_pixels, &e->true_error, &cause)) {
+    } else if (!glint_study_truth(e->opened->capture, e->effect, e->opened->pipeline, &e->true_pixels, &e->true_error,
+                                  &cause)) {
         if (cause.code == GLINT_ERROR_FORMAT) return true; /* the capture has none */
         if (err) *err = cause;
         return false;
     }
     if (e->true_pixels.width != e->probe.full[0] || e->true_pixels.height != e->probe.full[1])
-        return glint_fail(err, GLINT_ERROR_USAGE, "%s: the reflection is %u x %u, expected %u x %u",
-                          against ? against : "the capture's truth", e->true_pixels.width, e->true_pixels.height,
-                          e->probe.full[0], e->probe.full[1]);
+        return glint_fail(err, GLINT_ERROR_USAGE, "%s: the %s is %u x %u, expected %u x %u",
+                          against ? against : "the capture's truth", e->effect->noun, e->true_pixels.width,
+                          e->true_pixels.height, e->probe.full[0], e->probe.full[1]);
     e->truth = against ? against : "truth";
     /* The truth has no fog, and a reference may have none. */
     e->without_fog = !against && glint_capture_frame(e->opened->capture)->has_fog && pipeline_fog(e->opened->pipeline);
@@ -124,11 +128,11 @@ static bool write_page(const struct explain *e, const char *path, const json_t *
         page_column(table, "change", "");
         page_column(table, "now", "");
         page_column(table, "symmetric error", "|");
-        if (e->goal == EXPLAIN_REFLECTION) page_column(table, "of the pixels around it", "|");
+        if (e->goal == EXPLAIN_RESULT) page_column(table, "of the pixels around it", "|");
         for (size_t t = 0; t < e->tried; t++) {
             json_t *row =
                 json_pack("[s, s, o]", e->tries[t].change, e->tries[t].before, json_number(e->tries[t].error));
-            if (e->goal == EXPLAIN_REFLECTION) json_array_append_new(row, json_number(e->tries[t].around));
+            if (e->goal == EXPLAIN_RESULT) json_array_append_new(row, json_number(e->tries[t].around));
             page_row(table, row);
         }
     }
@@ -179,7 +183,12 @@ static bool explain_pixel(struct explain *e, const struct arguments *a, const st
 
 static enum status explain_run(const struct arguments *a, struct opened *opened, const struct run_source *source,
                                struct glint_error *err) {
-    struct explain e = {.run = a->run,
+    struct glint_run *run = glint_run_open(a->run, err);
+    const struct glint_effect *effect = run ? effect_of_run(a->effect, run, err) : NULL;
+    glint_run_close(&run);
+    if (!effect) return command_fail(&cmd_explain, err);
+    struct explain e = {.effect = effect,
+                        .run = a->run,
                         .opened = opened,
                         .limit = a->tries,
                         .options = {.all = source->all,
@@ -227,7 +236,7 @@ const struct command cmd_explain = {
         "Replays a run with one pixel recorded and says which tracer ended its ray, where and why, where its colour "
         "came "
         "from, what filters made of it, and how far it is from what is right: the same ray of the reference tracers, "
-        "which skip nothing, and the true reflection, where the capture holds it or --against names a run of glint "
+        "which skip nothing, and the true result, where the capture holds it or --against names a run of glint "
         "reference. If the pixel is wrong, single changes are tried, first of what decides about this ray: every "
         "number "
         "at four times and a quarter of its value, every other choice, and at last other variants. Where the ray is "

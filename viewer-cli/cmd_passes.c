@@ -186,6 +186,15 @@ static void print_pass(const struct glint_pass *pass, const char *previous_slot,
         if (pass->rows[i].image) printf(" (limit: %s)", pass->rows[i].image);
         any = true;
     }
+    for (size_t i = 0, first = 1; i < pass->row_count; i++) {
+        if (pass->rows[i].kind != GLINT_ROW_CALLED_BY) continue;
+        printf("%s%s (for %s)",
+               !first ? " or "
+               : any  ? ", and "
+                      : "Runs only if the survey finds: ",
+               pass->rows[i].name, pass->rows[i].image);
+        any = true, first = 0;
+    }
     for (size_t i = 0; i < pass->row_count; i++)
         if (pass->rows[i].kind == GLINT_ROW_ALIAS)
             printf("; otherwise %s is %s", pass->rows[i].image, pass->rows[i].name);
@@ -242,7 +251,8 @@ static json_t *reference_json(const struct glint_pass *pass) {
 }
 
 static json_t *pass_json(const struct glint_pass *pass) {
-    json_t *reads = json_array(), *writes = json_array(), *parameters = json_array(), *needs = json_array();
+    json_t *reads = json_array(), *writes = json_array(), *parameters = json_array(), *needs = json_array(),
+           *called = json_array();
     for (size_t i = 0; i < pass->row_count; i++) {
         const struct glint_row *row = &pass->rows[i];
         const char *slot = "";
@@ -252,11 +262,13 @@ static json_t *pass_json(const struct glint_pass *pass) {
         } else if (glint_row_is_output(row)) json_array_append_new(writes, image_json(row, pass->slot));
         else if (glint_row_is_parameter(row)) json_array_append_new(parameters, parameter_json(pass, row));
         else if (row->kind == GLINT_ROW_NEEDS) json_array_append_new(needs, json_string(row->name));
+        else if (row->kind == GLINT_ROW_CALLED_BY)
+            json_array_append_new(called, json_pack("{s:s, s:s}", "fact", row->name, "image", row->image));
     }
-    return json_pack("{s:s, s:s, s:s, s:s, s:s, s:s, s:b, s:o, s:o, s:o, s:o, s:o}", "effect", pass->effect, "slot",
-                     pass->slot, "variant", pass->variant, "slot_title", slot_title(pass), "title", pass->title,
-                     "source", pass->source, "host", pass->host != NULL, "needs", needs, "reads", reads, "writes",
-                     writes, "parameters", parameters, "reference", reference_json(pass));
+    return json_pack("{s:s, s:s, s:s, s:s, s:s, s:s, s:b, s:o, s:o, s:o, s:o, s:o, s:o}", "effect", pass->effect,
+                     "slot", pass->slot, "variant", pass->variant, "slot_title", slot_title(pass), "title", pass->title,
+                     "source", pass->source, "host", pass->host != NULL, "needs", needs, "called_by", called, "reads",
+                     reads, "writes", writes, "parameters", parameters, "reference", reference_json(pass));
 }
 
 /* The effect whose name follows `name` in the alphabet, NULL after the last one; NULL asks for the first. */
@@ -266,6 +278,22 @@ static const char *next_effect(const struct glint_pass *passes, size_t count, co
         if ((!name || strcmp(passes[i].effect, name) > 0) && (!next || strcmp(passes[i].effect, next) < 0))
             next = passes[i].effect;
     return next;
+}
+
+/* The effects that are declared; other folders hold what they share. */
+static void print_effects(void) {
+    static const char *const titles[] = {"<effect", "<what it is", "<composed picture", NULL};
+    struct table *table = table_create(titles);
+    size_t count;
+    const struct glint_effect *effects = glint_effects(&count);
+    for (size_t e = 0; e < count; e++) {
+        table_cell(table, "%s", effects[e].name);
+        table_cell(table, "%s", effects[e].about);
+        table_cell(table, "%s", effects[e].term);
+    }
+    putchar('\n');
+    table_print(table, stdout);
+    table_destroy(&table);
 }
 
 static void print_list(const struct glint_pass *passes, size_t count) {
@@ -282,6 +310,53 @@ static void print_list(const struct glint_pass *passes, size_t count) {
         }
     table_print(table, stdout);
     table_destroy(&table);
+    print_effects();
+}
+
+/* Its slots in the order in which they are listed. */
+static void print_slots(const struct glint_effect *effect, const char *code) {
+    size_t count;
+    const struct glint_pass *passes = glint_passes(&count);
+    const char *slot = NULL;
+    for (size_t i = 0; i < count; i++) {
+        if (strcmp(passes[i].effect, effect->name) != 0 || (slot && !strcmp(slot, passes[i].slot))) continue;
+        printf("%s%s%s%s", slot ? ", " : "", code, passes[i].slot, code);
+        slot = passes[i].slot;
+    }
+}
+
+/* What the effect's own declaration says. */
+static void print_effect(const struct glint_effect *effect, bool markdown) {
+    const char *item = markdown ? "- " : "", *code = markdown ? "`" : "";
+    const size_t classes = glint_effect_class_count(effect);
+    printf("%s\n\n%sresult: ", effect->about, item);
+    for (size_t k = 0; k < GLINT_EFFECT_RESULTS && effect->results[k]; k++)
+        printf("%s%s%s%s", k ? ", else " : "", code, effect->results[k], code);
+    printf("\n%scomposed picture: %s\n", item, effect->term);
+    printf("%struth: %s%s%s%s (%s)\n", item, code, effect->truth, effect->truth_has_choices ? ".*" : "", code,
+           effect->channels);
+    printf("%scalled for by: %s%s%s\n", item, code, effect->fact, code);
+    printf("%sjudged in: %s", item,
+           effect->judged == GLINT_JUDGED_REFLECTING ? "pixels that reflect" : "all pixels but sky");
+    if (classes) printf(", in classes by %s%s %s%s: ", code, effect->class_part, effect->class_channel, code);
+    for (size_t k = 0; k < classes; k++) {
+        printf("%s%s", k ? ", " : "", effect->classes[k].name);
+        if (isfinite(effect->classes[k].most)) printf(" up to %s", number_text(effect->classes[k].most));
+    }
+    printf("\n%sslots: ", item);
+    print_slots(effect, code);
+    puts("\n");
+}
+
+static json_t *effect_json(const struct glint_effect *effect) {
+    json_t *results = json_array(), *classes = json_array();
+    for (size_t k = 0; k < GLINT_EFFECT_RESULTS && effect->results[k]; k++)
+        json_array_append_new(results, json_string(effect->results[k]));
+    for (size_t k = 1; k <= glint_effect_class_count(effect); k++)
+        json_array_append_new(classes, json_string(glint_effect_class_name(effect, k)));
+    return json_pack("{s:s, s:s, s:s, s:o, s:s, s:s, s:s, s:s, s:o}", "effect", effect->name, "title", effect->title,
+                     "about", effect->about, "results", results, "truth", effect->truth, "channels", effect->channels,
+                     "called_for_by", effect->fact, "term", effect->term, "classes", classes);
 }
 
 static void print_handbook(const struct glint_pass *passes, size_t count, const char *what, bool markdown) {
@@ -289,7 +364,9 @@ static void print_handbook(const struct glint_pass *passes, size_t count, const 
         const char *slot = NULL;
         for (size_t i = 0; i < count; i++) {
             if (strcmp(passes[i].effect, effect) != 0 || !selected(&passes[i], what)) continue;
-            if (!slot && markdown) printf("## Effect `%s`\n\n", effect);
+            const struct glint_effect *declared = glint_effect_find(effect);
+            if (!slot && markdown) printf(declared ? "## Effect `%s`\n\n" : "## Shared: `%s`\n\n", effect);
+            if (!slot && declared && (!what || !strcmp(what, effect))) print_effect(declared, markdown);
             print_pass(&passes[i], slot, markdown);
             slot = passes[i].slot;
         }
@@ -311,7 +388,7 @@ static const char introduction[] =
     "the terms.\n\n"
     "- **Runs only if the survey finds**: the [facts](glossary.md#fact) without which a plan leaves the pass out.\n"
     "- **size**: `full` is the size of the picture and `half` that of the pipeline, which `downsample/none` makes "
-    "full, too.\n"
+    "full, too; `quarter` is half of that, and so on.\n"
     "- **fallback**: the value of the image where a texel has no result, and everywhere if the pass does not run.\n"
     "- **source**: the [document](sources.md) that a value comes from. *Not printed*: it has the parameter without a "
     "value.\n"
@@ -328,7 +405,12 @@ static enum status cmd_passes_run(int argc, char **argv) {
         json_t *list = json_array();
         for (size_t i = 0; i < count; i++)
             if (selected(&passes[i], a.what)) json_array_append_new(list, pass_json(&passes[i]));
-        return print_json(json_pack("{s:o}", "passes", list));
+        json_t *effects = json_array();
+        size_t effect_count;
+        const struct glint_effect *effect = glint_effects(&effect_count);
+        for (size_t e = 0; e < effect_count; e++)
+            if (!a.what || !strcmp(a.what, effect[e].name)) json_array_append_new(effects, effect_json(&effect[e]));
+        return print_json(json_pack("{s:o, s:o}", "effects", effects, "passes", list));
     }
     if (!a.what && !a.markdown) {
         print_list(passes, count);
@@ -341,11 +423,11 @@ static enum status cmd_passes_run(int argc, char **argv) {
 
 const struct command cmd_passes = {
     .name = "passes",
-    .arguments = "[EFFECT|SLOT[/VARIANT]]",
+    .arguments = "[GROUP|SLOT[/VARIANT]]",
     .summary = "document the passes, their images and parameters",
-    .description =
-        "Lists all passes. With an effect, a slot or a variant, prints which images it reads and writes, with unit "
-        "and meaning, and its parameters with default, range, unit and source, as used by --set.",
+    .description = "Lists all passes and effects. With an effect or another group of slots, a slot or a variant, "
+                   "prints which images it reads and writes, with unit "
+                   "and meaning, and its parameters with default, range, unit and source, as used by --set.",
     .options = options,
     .targets = targets,
     .parse = cmd_passes_parse,

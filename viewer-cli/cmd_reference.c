@@ -4,13 +4,14 @@
 
 #include "command.h"
 #include "glint/reference.h"
+#include "options/effect_args.h"
 #include "options/opened.h"
 #include "io/progress.h"
 #include "io/table.h"
 
 struct arguments {
     struct pipeline_args pipeline;
-    const char *capture, *out, *like;
+    const char *capture, *out, *like, *effect;
     uint32_t rays, sensitivity;
     double noise;
     bool overwrite, json, progress;
@@ -24,9 +25,10 @@ static const struct argp_option options[] = {
     {"output",      'o',             "RUN",  0, "Run folder for the reference, readable by --against reference=RUN and glint view. An interrupted reference resumes from "
         "it, and a larger --rays adds rays to a complete one", 0},
     {"rays",        KEY_RAYS,        "N",    0, "Rays per pixel, rounded up to a multiple of 16 (default 64; with --noise at most 16384)", 0},
-    {"noise",       KEY_NOISE,       "E",    0, "Stop when the noise is at most this fraction of the mean reflection, such as 0.01 for 1 %", 0},
+    {"noise",       KEY_NOISE,       "E",    0, "Stop when the noise is at most this fraction of the mean result, such as 0.01 for 1 %", 0},
     {"sensitivity", KEY_SENSITIVITY, "RAYS", OPTION_ARG_OPTIONAL, "Also trace with each assumption that the capture cannot settle, such as the thickness of objects, halved and doubled, "
         "with this number of rays per pixel (default 32)", 0},
+    EFFECT_OPTION,
     {"like",        KEY_LIKE,        "PRESET|FILE", 0, "Make the reference for this preset: with the lobe that it samples and with its fog", 0},
     USE_OPTION,
     {"set",         KEY_SET,         "SLOT.PARAM=VALUE", 0, "Set a parameter, such as pipeline.fog=false to compare with the truth, which has no fog", 0},
@@ -52,6 +54,7 @@ static const struct arg_target targets[] = {
     STORED('o', struct arguments, out),
     STORED('j', struct arguments, json),
     STORED_NUMBER(KEY_RAYS, struct arguments, rays, 1, GLINT_REFERENCE_RAYS_MAX),
+    STORED(KEY_EFFECT, struct arguments, effect),
     STORED(KEY_LIKE, struct arguments, like),
     STORED(KEY_PROGRESS, struct arguments, progress),
     STORED(KEY_OVERWRITE, struct arguments, overwrite),
@@ -93,13 +96,14 @@ static void number_or_dash(struct table *table, bool there, double value) {
     else table_cell(table, "%s", "–");
 }
 
-static void print_noise(const struct glint_reference_state *state, const struct missing *missing) {
+static void print_noise(const struct glint_effect *effect, const struct glint_reference_state *state,
+                        const struct missing *missing) {
     static const char *const titles[] = {"<surfaces", ">mean", ">noise", ">relative %", ">missing information", NULL};
     struct table *table = table_create(titles);
-    for (int k = 0; k < GLINT_SURFACE_COUNT; k++) {
+    for (size_t k = 0; k <= glint_effect_class_count(effect); k++) {
         const struct glint_reference_noise *noise = &state->noise[k];
         if (noise->pixels == 0) continue;
-        table_cell(table, "%s", glint_surface_name((enum glint_surface)k));
+        table_cell(table, "%s", glint_effect_class_name(effect, k));
         table_cell(table, "%.5f", noise->mean);
         table_cell(table, "%.5f", noise->error);
         table_cell(table, "%.2f", 100 * noise->relative);
@@ -142,35 +146,34 @@ static void print_sensitivity(const struct glint_reference_sensitivity *s) {
              "noise of their difference adds");
 }
 
-static json_t *missing_json(const struct missing *missing) {
+static json_t *missing_json(const struct glint_effect *effect, const struct missing *missing) {
     json_t *rows = json_array();
-    for (int k = 0; k < GLINT_SURFACE_COUNT; k++) {
+    for (size_t k = 0; k <= glint_effect_class_count(effect); k++) {
         const struct glint_image_error *e = &missing->errors.of[k];
         if (e->pixels == 0) continue;
-        json_array_append_new(rows,
-                              json_pack("{s:s, s:I, s:o, s:o, s:o, s:o, s:o}", "surfaces",
-                                        glint_surface_name((enum glint_surface)k), "pixels", (json_int_t)e->pixels,
-                                        "mean_error", json_number(e->mean), "rmse", json_number(e->rmse), "noise",
-                                        json_number(e->truth_noise), "clean_rmse", json_number(e->clean_rmse),
-                                        "clean_relative_mse", json_number(e->clean_relative_mse)));
+        json_array_append_new(rows, json_pack("{s:s, s:I, s:o, s:o, s:o, s:o, s:o}", "surfaces",
+                                              glint_effect_class_name(effect, k), "pixels", (json_int_t)e->pixels,
+                                              "mean_error", json_number(e->mean), "rmse", json_number(e->rmse), "noise",
+                                              json_number(e->truth_noise), "clean_rmse", json_number(e->clean_rmse),
+                                              "clean_relative_mse", json_number(e->clean_relative_mse)));
     }
     return rows;
 }
 
 static bool compare_with_truth(const struct glint_reference *reference, struct glint_capture *capture,
-                               const struct glint_pipeline *pipeline, struct missing *missing,
-                               struct glint_error *err) {
+                               const struct glint_effect *effect, const struct glint_pipeline *pipeline,
+                               struct missing *missing, struct glint_error *err) {
     struct glint_error no_truth = {0};
     struct glint_pixels truth = {0}, own = {0};
     float *truth_error = NULL, *own_error = NULL;
-    uint8_t *surfaces = NULL;
-    missing->known = glint_study_truth(capture, pipeline, &truth, &truth_error, &no_truth);
+    uint8_t *labels = NULL;
+    missing->known = glint_study_truth(capture, effect, pipeline, &truth, &truth_error, &no_truth);
     missing->fog = glint_capture_frame(capture)->has_fog && pipeline_fog(pipeline);
     bool ok = !missing->known ||
-              ((surfaces = glint_study_surfaces(capture, err)) != NULL &&
+              ((labels = glint_study_labels(capture, effect, err)) != NULL &&
                glint_reference_pixels(reference, &own, &own_error, err) &&
-               glint_study_reference_bias(&own, own_error, &truth, truth_error, surfaces, &missing->errors, err));
-    free(surfaces);
+               glint_study_reference_bias(&own, own_error, &truth, truth_error, labels, &missing->errors, err));
+    free(labels);
     free(truth_error);
     free(own_error);
     glint_pixels_finish(&truth);
@@ -179,24 +182,25 @@ static bool compare_with_truth(const struct glint_reference *reference, struct g
 }
 
 /* The library's JSON of the reference, and its error against the truth. */
-static enum status print_as_json(const struct glint_reference *reference, const struct arguments *a,
-                                 const struct missing *missing) {
+static enum status print_as_json(const struct glint_reference *reference, const struct glint_effect *effect,
+                                 const struct arguments *a, const struct missing *missing) {
     char *text = glint_reference_json(reference);
     json_t *json = text ? json_loads(text, 0, NULL) : NULL;
     free(text);
     if (!json) return STATUS_CHECK;
+    json_object_set_new(json, "effect", json_string(effect->name));
     json_object_set_new(json, "capture", json_string(a->capture));
     if (a->out) json_object_set_new(json, "run", json_string(a->out));
-    if (missing->known) json_object_set_new(json, "missing_information", missing_json(missing));
+    if (missing->known) json_object_set_new(json, "missing_information", missing_json(effect, missing));
     return print_json(json);
 }
 
-static void print_all(const struct glint_reference *reference, const struct arguments *a,
-                      const struct glint_device_info *device, const struct missing *missing,
+static void print_all(const struct glint_reference *reference, const struct glint_effect *effect,
+                      const struct arguments *a, const struct glint_device_info *device, const struct missing *missing,
                       const struct glint_reference_sensitivity *sensitivity) {
     const struct glint_reference_state *state = glint_reference_state(reference);
     printf("%s on %s: %u rays per pixel in %s\n\n", a->capture, device->name, state->rays, time_text(state->seconds));
-    print_noise(state, missing);
+    print_noise(effect, state, missing);
     if (a->noise > 0 && state->noise[0].relative > a->noise)
         printf("the noise is still above the requested %g %%: use more --rays\n", 100 * a->noise);
     if (a->sensitivity) print_sensitivity(sensitivity);
@@ -215,12 +219,13 @@ static void note_interrupted(const struct glint_reference_state *state, const ch
     else if (!traced) command_note(&cmd_reference, "interrupted before the first ray of all pixels: nothing is kept");
 }
 
-static enum status trace_reference(const struct arguments *a, const struct opened *opened, struct glint_error *err) {
+static enum status trace_reference(const struct arguments *a, const struct glint_effect *effect,
+                                   const struct opened *opened, struct glint_error *err) {
     struct glint_replay *replay = opened->replay;
     struct glint_capture *capture = opened->capture;
     const struct glint_pipeline *pipeline = opened->pipeline;
     const struct glint_reference_options options = {
-        .folder = a->out, .overwrite = a->overwrite, .all = a->pipeline.replay.all};
+        .effect = effect, .folder = a->out, .overwrite = a->overwrite, .all = a->pipeline.replay.all};
     struct glint_reference_sensitivity sensitivity = {0};
     struct missing missing = {0};
     struct progress progress;
@@ -234,11 +239,11 @@ static enum status trace_reference(const struct arguments *a, const struct opene
     bool ok = reference && glint_reference_trace(reference, a->rays, a->noise, progress_report, &progress, err) &&
               (!a->sensitivity ||
                glint_reference_sensitivity(reference, a->sensitivity, progress_report, &progress, &sensitivity, err)) &&
-              compare_with_truth(reference, capture, pipeline, &missing, err);
+              compare_with_truth(reference, capture, effect, pipeline, &missing, err);
     progress_end(&progress);
     if (!ok) status = command_fail(&cmd_reference, err);
-    else if (a->json) status = print_as_json(reference, a, &missing);
-    else print_all(reference, a, glint_device_get_info(opened->device), &missing, &sensitivity);
+    else if (a->json) status = print_as_json(reference, effect, a, &missing);
+    else print_all(reference, effect, a, glint_device_get_info(opened->device), &missing, &sensitivity);
     if (reference && status == STATUS_INTERRUPTED && a->out) note_interrupted(glint_reference_state(reference), a->out);
     glint_reference_destroy(&reference);
     return status;
@@ -262,8 +267,10 @@ static enum status cmd_reference_run(int argc, char **argv) {
     command_parse(&cmd_reference, argc, argv, &a);
     struct glint_error err = {0};
     struct opened opened = {.pipeline = create_pipeline(&a, &err)};
-    const bool ok = opened.pipeline && opened_init(&opened, &a.pipeline, a.capture, &err);
-    const enum status status = ok ? trace_reference(&a, &opened, &err) : command_fail(&cmd_reference, &err);
+    const struct glint_effect *effect =
+        opened.pipeline ? effect_find(&cmd_reference, a.effect, opened.pipeline, true, NULL, &err) : NULL;
+    const bool ok = effect && opened_init(&opened, &a.pipeline, a.capture, &err);
+    const enum status status = ok ? trace_reference(&a, effect, &opened, &err) : command_fail(&cmd_reference, &err);
     opened_finish(&opened);
     pipeline_args_finish(&a.pipeline);
     return status;

@@ -36,11 +36,12 @@ static const struct argp_option options[] = {
     {"no-cache",    KEY_NO_CACHE,    NULL,   0, "Run every pass even if nothing changed, and every frame even if it is complete", 0},
     {"cache",       KEY_CACHE,       "DIR",  0, "Folder in which results for cube maps are kept for later calls, up to 4 GiB; none disables it. Not used with --no-cache "
         "and --repeat (default: $GLINT_CACHE, else $XDG_CACHE_HOME/glint, else ~/.cache/glint)", 0},
-    {"against",     KEY_AGAINST,     "truth|reference|both", 0, "Compare with a better solution. truth: the path-traced reflection and mirror rays in the capture (truth.*); turns on "
+    {"against",     KEY_AGAINST,     "truth|reference|both", 0, "Compare with a better solution. truth: the path-traced result of each effect in the capture (truth.*), for reflections mirror rays, too; turns on "
         "--diagnostics; use downsample.jitter=false to compare rays. reference: the preset reference on the same capture; "
         "reference=RUN: a run of glint reference. both (or both=RUN): both, and the difference between truth and reference. The "
         "truth has no fog: with truth, both and a RUN without fog it is left out here, too. With -o the run gets images of the error, "
-        "error and flip, and reference_error and reference_flip", 0},
+        "error and flip, and reference_error and reference_flip; EFFECT_ precedes the names if several effects are compared", 0},
+    EFFECTS_OPTION,
     METRIC_OPTIONS,
     {"watch",       KEY_WATCH,       NULL,   0, "Replay again whenever the preset file or a shader changes: RUN contains the newest version, RUN/first the first one, "
         "and RUN/watch.html compares both and reloads itself. Shaders that do not compile are ignored until they do. Stop with "
@@ -72,6 +73,7 @@ static const char *const precisions[] = {"half", "float", NULL};
 static const struct arg_target targets[] = {
     STORED('o', struct arguments, out),
     STORED('j', struct arguments, json),
+    STORED(KEY_EFFECT, struct arguments, against.name),
     STORED_NUMBER(KEY_REPEAT, struct arguments, pipeline.replay.repeat, 1, 100000),
     STORED_NUMBER(KEY_WARMUP, struct arguments, pipeline.replay.warmup, 1, 100000),
     STORED(KEY_DIAGNOSTICS, struct arguments, pipeline.replay.diagnostics),
@@ -200,7 +202,10 @@ static void print_run(const char *capture, const char *folder, const struct comp
     putchar('\n');
     if (folder) printf("run: %s\n", folder);
     else puts("nothing written (-o RUN keeps the images)");
-    if (compared) against_print(compared);
+    for (size_t e = 0; e < job->against->effect_count; e++) {
+        if (compared[e].several) printf("\n%s\n", compared[e].effect->title);
+        against_print(&compared[e]);
+    }
 }
 
 static json_t *bad_values_json(const struct found *found) {
@@ -217,8 +222,9 @@ static json_t *bad_values_json(const struct found *found) {
 }
 
 static json_t *run_json(const char *capture, const char *folder, const struct comparison *compared,
-                        const struct found *found, const struct glint_replay *replay,
-                        const struct glint_device_info *device) {
+                        const struct found *found, const struct job *job) {
+    const struct glint_replay *replay = job->replay;
+    const struct glint_device_info *device = glint_device_get_info(job->device);
     json_t *passes = json_array(), *seconds = json_object();
     size_t count = 0;
     const struct glint_pass_result *results = glint_replay_results(replay, &count);
@@ -237,7 +243,7 @@ static json_t *run_json(const char *capture, const char *folder, const struct co
         json_pack("{s:s, s:s?, s:{s:s, s:s, s:b}, s:o, s:o}", "capture", capture, "run", folder, "device", "name",
                   device->name, "type", device->type, "cpu", device->is_cpu, "passes", passes, "seconds", seconds);
     json_object_set_new(run, "bad_values", bad_values_json(found));
-    if (compared) against_json(compared, run);
+    for (size_t e = 0; e < job->against->effect_count; e++) against_json(&compared[e], run);
     return run;
 }
 
@@ -295,7 +301,8 @@ static bool replay_one(struct job *job, const char *path, const char *folder, co
     options.history = history;
     struct progress progress;
     struct pipe pipe;
-    struct comparison comparison = {0}, *compared = job->against->truth || job->against->reference ? &comparison : NULL;
+    const size_t effects = job->against->effect_count; /* 0: nothing is compared */
+    struct comparison compared[EFFECTS_MAX] = {{.several = false}};
     const char *file = pipe_input(&pipe, path, err);
     struct glint_capture *capture = file ? glint_capture_open(file, NULL, err) : NULL;
     if (!capture) {
@@ -312,20 +319,20 @@ static bool replay_one(struct job *job, const char *path, const char *folder, co
     bool ok = glint_replay_load(job->replay, capture, err) &&
               glint_replay_run(job->replay, job->pipeline, &options, progress_report, &progress, err);
     ok = ok &&
-         (!folder || (report_keep_errors(folder, NULL, err) &&
+         (!folder || (report_keep_errors(folder, NULL, 0, err) &&
                       glint_replay_write(job->replay, folder, progress_report, &progress, err))) &&
-         glint_replay_bad_values(job->replay, &found.bad, &found.count, err) &&
-         (!compared || against_compare(job->against, job->replay, capture, job->pipeline, compared, err)) &&
-         (!compared || !folder ||
-          (report_keep_errors(folder, compared, err) && against_write_images(compared, folder, err)));
+         glint_replay_bad_values(job->replay, &found.bad, &found.count, err);
+    for (size_t e = 0; ok && e < effects; e++)
+        ok = against_compare(job->against, e, job->replay, capture, job->pipeline, &compared[e], err);
+    ok = ok &&
+         (!effects || !folder ||
+          (report_keep_errors(folder, compared, effects, err) && against_write_images(compared, effects, folder, err)));
     progress_end(&progress);
     if (ok) warn(job);
-    if (ok && job->runs)
-        json_array_append_new(
-            job->runs, run_json(path, folder, compared, &found, job->replay, glint_device_get_info(job->device)));
+    if (ok && job->runs) json_array_append_new(job->runs, run_json(path, folder, compared, &found, job));
     else if (ok) print_run(path, folder, compared, &found, job);
-    if (ok && compared) ok = against_valid(compared, path, err);
-    comparison_finish(&comparison);
+    for (size_t e = 0; ok && e < effects; e++) ok = against_valid(&compared[e], path, err);
+    for (size_t e = 0; e < effects; e++) comparison_finish(&compared[e]);
     glint_replay_load(job->replay, NULL, NULL);
     glint_capture_close(&capture);
     pipe_finish(&pipe);
@@ -410,7 +417,7 @@ static enum status cmd_replay_run(int argc, char **argv) {
     if (job.pipeline && job.device) job.replay = glint_replay_create(job.device, &err);
     if (job.device && a.watch) {
         status = watch_run(&(struct watch){&cmd_replay, &a.pipeline, a.captures.items[0], a.out, cache, job.device});
-    } else if (job.replay && against_begin(&a.against, job.device, job.pipeline, &err)) {
+    } else if (job.replay && against_begin(&a.against, job.device, job.pipeline, &a.captures, &err)) {
         if (a.json) job.runs = json_array();
         status = replay_all(&job);
         if (job.runs && print_json(json_pack("{s:o}", "runs", job.runs)) != STATUS_DONE) status = STATUS_CHECK;

@@ -3,12 +3,12 @@
 #include <unistd.h>
 
 #include "command.h"
-#include "options/args.h"
+#include "options/effect_args.h"
 #include "report/shot.h"
 
 struct arguments {
     struct list folders, images;
-    const char *out;
+    const char *out, *effect;
     bool overwrite;
     uint32_t chart;
 };
@@ -19,6 +19,7 @@ enum { KEY_IMAGES = 256, KEY_CHART };
 static const struct argp_option options[] = {
     {"output", 'o',        "FILE",     0, "File to write: FILE.html for the page, FILE.svg for one of its charts", 0},
     OVERWRITE_OPTION,
+    {"effect", KEY_EFFECT, "EFFECT",   0, "Effect whose result, error and flicker the page of a shot shows, of those that glint passes lists (default: the first whose result the shot holds)", 0},
     {"images", KEY_IMAGES, "IMAGE,...", 0, "Images of the runs to show (default: all of full or half resolution)", 0},
     {"chart",  KEY_CHART,  "N",        0, "Number of the chart that FILE.svg contains (default 1)", 0},
     {0},
@@ -36,6 +37,7 @@ static const struct example examples[] = {
 static const struct arg_target targets[] = {
     STORED_OUTPUT('o', struct arguments, out, OUTPUT_HTML | OUTPUT_SVG),
     STORED(KEY_OVERWRITE, struct arguments, overwrite),
+    STORED(KEY_EFFECT, struct arguments, effect),
     STORED_NAMES(KEY_IMAGES, struct arguments, images),
     STORED_NUMBER(KEY_CHART, struct arguments, chart, 1, 1000),
     STORED(ARGP_KEY_ARG, struct arguments, folders),
@@ -59,7 +61,7 @@ static bool has_page(const char *folder) {
 static json_t *make_document(const struct arguments *a, struct glint_error *err) {
     const char *const *folders = a->folders.items;
     if (a->folders.count == 1 && has_page(folders[0])) return page_load(folders[0], err);
-    if (a->folders.count == 1 && report_is_shot(folders[0])) return report_shot(folders[0], err);
+    if (a->folders.count == 1 && report_is_shot(folders[0])) return report_shot(folders[0], a->effect, err);
     for (size_t i = 0; i < a->folders.count; i++)
         if (has_page(folders[i]) || report_is_shot(folders[i])) {
             glint_fail(err, GLINT_ERROR_USAGE, "%s contains %s: report it separately", folders[i],
@@ -116,7 +118,8 @@ const struct command cmd_report = {
         "several runs, side by side with the differences. Studies such as sweeps keep their page in their folder; it "
         "is written again from there. A folder that glint replay wrote with several captures becomes a page that plays "
         "its "
-        "frames and draws the error of the reflection and its flicker over them. Click a picture to enlarge it, and "
+        "frames and draws the error of an effect's result and its flicker over them. Click a picture to enlarge it, "
+        "and "
         "use the arrow keys to flip through the "
         "others in place.",
     .options = options,

@@ -1,5 +1,6 @@
 /* glint stability: measures how rounding of the captured values changes each pixel, pass by pass. */
 #include "command.h"
+#include "options/effect_args.h"
 #include "options/opened.h"
 #include "io/progress.h"
 #include "stability/stability.h"
@@ -8,7 +9,7 @@ struct arguments {
     struct pipeline_args pipeline;
     struct list inputs;
     struct glint_stability_options options;
-    const char *capture, *out;
+    const char *capture, *out, *effect;
     double fail_above, fail_percent;
     bool fails, json;
 };
@@ -19,6 +20,7 @@ enum { KEY_SEEDS = 256, KEY_PERTURB, KEY_BOUND, KEY_FAIL_ABOVE, KEY_FAIL_PERCENT
 static const struct argp_option options[] = {
     {"output",  'o',         "FOLDER",        0, "Folder for the results: layers of each pass for glint view, stability.json, and a sheet, stability.png", 0},
     {"seeds",   KEY_SEEDS,   "N",             0, "Number of perturbed replays (default 8)", 0},
+    EFFECT_OPTION,
     {"perturb", KEY_PERTURB, "PART[:CHANNEL],...", 0, "Perturb only these values: gbuffer:depth, gbuffer:normal, lit, cubemap:distance ... (default: all)", 0},
     {"precision", KEY_PRECISION, "half|float", 0, "float (default): all images in float, so that only arithmetic is measured; half: images in their declared formats", 0},
     {"bound",   KEY_BOUND,   "X",             0, "Count pixels with an amplification above X as ill-conditioned (default 10, or the value of --fail-above)", 0},
@@ -45,6 +47,7 @@ static const struct arg_target targets[] = {
     STORED('o', struct arguments, out),
     STORED('j', struct arguments, json),
     STORED_NUMBER(KEY_SEEDS, struct arguments, options.seeds, 1, 255),
+    STORED(KEY_EFFECT, struct arguments, effect),
     STORED_NAMES(KEY_PERTURB, struct arguments, inputs),
     PIPELINE_TARGETS(struct arguments, pipeline),
     {0},
@@ -119,6 +122,7 @@ static enum status measure_stability(struct arguments *a, struct opened *opened,
     progress_end(&progress);
     const struct stability_report found = {.stability = &stability,
                                            .capture = a->capture,
+                                           .effect = a->options.effect,
                                            .preset = glint_pipeline_name(opened->pipeline),
                                            .device = glint_device_get_info(opened->device)->name,
                                            .inputs = a->options.inputs,
@@ -133,7 +137,8 @@ static enum status cmd_stability_run(int argc, char **argv) {
     struct glint_error err = {0};
     struct opened opened = {0};
     command_parse(&cmd_stability, argc, argv, &a);
-    const bool ok = opened_init(&opened, &a.pipeline, a.capture, &err);
+    bool ok = opened_init(&opened, &a.pipeline, a.capture, &err);
+    if (ok) ok = (a.options.effect = effect_find(&cmd_stability, a.effect, opened.pipeline, false, NULL, &err)) != NULL;
     const enum status status = ok ? measure_stability(&a, &opened, &err) : command_fail(&cmd_stability, &err);
     opened_finish(&opened);
     pipeline_args_finish(&a.pipeline);

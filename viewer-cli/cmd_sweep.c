@@ -29,6 +29,7 @@ static const struct argp_option options[] = {
     {"seed",      KEY_SEED,      "N",             0, "Seed of --sample (default 1)", 0},
     {"repeat",    KEY_REPEAT,    "N",             0, "Timed rounds; every round runs each point once (default 3; 0: no times)", 0},
     {"whole",     KEY_WHOLE,     NULL,            0, "Run all passes of each point in every round, instead of sharing the passes that points have in common", 0},
+    EFFECT_OPTION,
     {"reference", KEY_REFERENCE, "RUN|truth",     0, "Errors are measured against this: the run of glint reference (once for each capture), or the truth in the capture "
         "(default: a reference is traced once and kept in the folder)", 0},
     {"rays",      KEY_RAYS,      "N",             0, "Rays per pixel of the reference that is traced (default 64)", 0},
@@ -127,6 +128,7 @@ static bool begin_sweep(struct arguments *a, struct glint_error *err) {
     a->pipeline.without_fog = fogged != NULL;
     if (!(sweep->base = pipeline_args_create(&a->pipeline, err))) return false;
     pipeline_note_fog(&cmd_sweep, sweep->base, fogged);
+    if (!answer_args_effect(&sweep->against, &cmd_sweep, sweep->base, &sweep->captures, err)) return false;
     sweep->space = a->hypercube ? glint_space_create_hypercube(sweep->base, a->axes.items, a->hypercube, a->seed, err)
                                 : glint_space_create(sweep->base, a->axes.items, err);
     char sample[64] = "grid";

@@ -42,7 +42,7 @@ static const struct argp_option options[] = {
     {"cost",      KEY_COST,      "ms|fetches",   0, "Cost that --error minimizes (default ms)", 0},
     {"slots",     KEY_SLOTS,     "SLOT,...",     0, "Count only the time of these slots (default: all per-frame passes)", 0},
     {"vary",      KEY_VARY,      "NAME[=VALUES]", 0, "Parameters to tune: SLOT.PARAM in its declared range, SLOT.PARAM=A..B, SLOT.PARAM=A,B, SLOT=VARIANT,VARIANT, "
-        "pipeline.rays=A..B (default: all parameters that can influence the reflection)", 0},
+        "pipeline.rays=A..B (default: all parameters that can influence the result of the effect)", 0},
     {"output",    'o',           "PRESET.json",  0, "Preset to write, with a record of how it was found; --preset reads it", 0},
     OVERWRITE_OPTION,
     {"folder",    KEY_FOLDER,    "FOLDER",       0, "Folder for evaluations, references and the page (default: PRESET.tune). A search resumes from it, and a search with "
@@ -61,6 +61,7 @@ static const struct argp_option options[] = {
     {"seed",      KEY_SEED,      "N",            0, "Seed of the restarts of the search (default 1)", 0},
     {"rounds",    KEY_ROUNDS,    "N",            0, "Timed rounds of each evaluation, alternating with the start preset (default 3)", 0},
     {"repeat",    KEY_REPEAT,    "N",            0, "Timed rounds of the final comparison (default 15; 0: no times)", 0},
+    EFFECT_OPTION,
     {"reference", KEY_REFERENCE, "RUN|truth",    0, "Errors are measured against this: the run of glint reference (once for each capture, including the held-out ones), or "
         "the truth in the capture (default: a reference is traced once and kept in the folder)", 0},
     {"rays",      KEY_RAYS,      "N",            0, "Rays per pixel of the reference that is traced (default 64)", 0},
@@ -187,6 +188,7 @@ static bool begin_tune(struct arguments *a, struct glint_error *err) {
     a->pipeline.without_fog = fogged != NULL;
     if (!choose_metric(a, err) || !(tune->base = pipeline_args_create(&a->pipeline, err))) return false;
     pipeline_note_fog(&cmd_tune, tune->base, fogged);
+    if (!answer_args_effect(&tune->against, &cmd_tune, tune->base, &tune->captures, err)) return false;
     /* What --vary names is checked before the reference is traced; without it, the axes depend on what ran. */
     const bool named = tune->vary.count > 0;
     if ((named && !tune_make_axes(tune, err)) || !(tune->device = pipeline_args_device(&a->pipeline, err)) ||
@@ -194,7 +196,8 @@ static bool begin_tune(struct arguments *a, struct glint_error *err) {
         return false;
     if (!tune->axis_count)
         return glint_fail(err, GLINT_ERROR_USAGE,
-                          "none of the parameters that may be tuned changes the reflection of these captures");
+                          "none of the parameters that may be tuned changes the %s of these captures",
+                          tune->against.effect->noun);
     const uint32_t usual = 150 + 3 * (uint32_t)tune->axis_count;
     if (!tune->tries) tune->tries = usual;
     if (tune->tries < 3 * tune->axis_count)
@@ -293,9 +296,10 @@ const struct command cmd_tune = {
     .summary = "find the best parameters within a budget of time or error",
     .description =
         "Searches the parameters of a preset for the least error within a budget, or for the least cost within an "
-        "error limit, and writes the result as a preset. The error is that of the reflection against the reference, "
+        "error limit, and writes the result as a preset. The error is that of the effect's result against the "
+        "reference, "
         "averaged over the captures. Parameters that cannot matter are left out and listed with the reason: those of "
-        "passes that do not run, of work on cube maps that is not done every frame, of passes after the reflection, "
+        "passes that do not run, of work on cube maps that is not done every frame, of passes after the result, "
         "those that would change the reference, and assumptions that the reference has to make as well. Each "
         "remaining parameter is first moved alone, and those without effect are left out too. A step is an eighth of "
         "the range, or a factor of two in ranges over several decades. With --budget-fetches, the same seed always "

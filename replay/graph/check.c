@@ -49,7 +49,10 @@ static void check_row(const struct glint_pass *pass, const struct glint_row *row
         expect(own && captured && own->format == captured->format && own->size == captured->size, pass, "ALIAS",
                row->image, "an image that the pass writes and one of the capture with the same format and size",
                faults);
-    else if (row->kind == GLINT_ROW_READ_OWN) {
+    else if (row->kind == GLINT_ROW_CALLED_BY) {
+        const struct glint_row *read = glint_pass_row(pass, GLINT_ROW_READ, row->image);
+        expect(read && read->optional, pass, "CALLED_BY", row->image, "an optional image that the pass reads", faults);
+    } else if (row->kind == GLINT_ROW_READ_OWN) {
         expect(own, pass, "READ_OWN", row->image, "an image that the pass writes", faults);
         if (own) graph_check_kind(pass, row, own, faults);
     } else if (row->kind == GLINT_ROW_ACCUMULATE)

@@ -74,7 +74,32 @@ static void use_alias(struct graph_pass *pass) {
     text_list(pass->reason, sizeof pass->reason, text);
 }
 
-/* Decides by its rows NEEDS and FACT whether the pass runs and which facts are false. The reason states the figures. */
+/* Of the pass's rows CALLED_BY that count, one has to hold. Those that do, or all if none does, state their figures in the reason. */
+static bool decide_by_callers(const struct graph *graph, struct graph_pass *pass, const struct facts *facts,
+                              struct faults *faults, struct glint_error *err) {
+    char texts[2][sizeof pass->reason] = {"", ""}, reason[192];
+    bool called = false;
+    for (size_t r = 0; r < pass->pass->row_count; r++) {
+        const struct glint_row *row = &pass->pass->rows[r];
+        struct glint_error own = {0};
+        if (row->kind != GLINT_ROW_CALLED_BY || !graph_calls(graph, pass->pass, row->image)) continue;
+        if (facts->about(row->name) == FACT_UNKNOWN) {
+            faults_add(faults, GLINT_ERROR_USAGE, "%s/%s is called by an unknown fact '%s'", pass->pass->slot,
+                       pass->pass->variant, row->name);
+            continue;
+        }
+        const bool holds = facts->holds(facts->user, row->name, reason, sizeof reason, &own);
+        if (own.code != GLINT_OK) return glint_fail(err, own.code, "%s", own.message);
+        called |= holds;
+        if (!strstr(texts[holds], reason)) text_list(texts[holds], sizeof texts[holds], reason);
+    }
+    if (!pass->runs || (!texts[0][0] && !texts[1][0])) return true;
+    if (!called) pass->runs = false, pass->reason[0] = 0;
+    text_list(pass->reason, sizeof pass->reason, texts[called]);
+    return true;
+}
+
+/* Decides by its rows NEEDS, CALLED_BY and FACT whether the pass runs and which facts are false. The reason states the figures. */
 static bool decide_by_facts(const struct graph *graph, struct graph_pass *pass, const struct graph_inputs *inputs,
                             struct faults *faults, struct glint_error *err) {
     const struct facts *facts = &inputs->facts;
@@ -111,6 +136,7 @@ static bool decide_by_facts(const struct graph *graph, struct graph_pass *pass, 
         if (row->kind == GLINT_ROW_NEEDS && holds == pass->runs && !repeated)
             text_list(pass->reason, sizeof pass->reason, reason);
     }
+    if (!decide_by_callers(graph, pass, facts, faults, err)) return false;
     if (!pass->runs) use_alias(pass);
     if (!pass->reason[0]) snprintf(pass->reason, sizeof pass->reason, "always runs");
     return true;

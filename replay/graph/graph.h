@@ -105,6 +105,8 @@ struct graph_image *graph_bound(const struct graph *graph, const struct glint_ro
 const struct glint_row *graph_row(const struct graph *graph, const char *name, const struct glint_pass **pass);
 /* The index of the pass that writes the image, or pass_count. */
 size_t graph_maker(const struct graph *graph, const char *image);
+/* Whether the pass has a row CALLED_BY of the image that counts in this pipeline. */
+bool graph_calls(const struct graph *graph, const struct glint_pass *pass, const char *image);
 /* Whether pass `later` reads as history an image that pass `earlier` writes. */
 bool pass_reads_history(const struct glint_pass *later, const struct glint_pass *earlier);
 /* The number of rays that a pass runs for in each frame. */

@@ -60,6 +60,39 @@ static void complain_missing(const struct graph_pass *reader, const char *image,
                    reader->pass->variant, image);
 }
 
+static bool is_made(const struct graph *graph, const char *image) {
+    return graph_maker(graph, image) < graph->pass_count;
+}
+
+bool graph_calls(const struct graph *graph, const struct glint_pass *pass, const char *image) {
+    const struct glint_row *first = glint_pass_row(pass, GLINT_ROW_CALLED_BY, NULL);
+    bool any = false;
+    if (!glint_pass_row(pass, GLINT_ROW_CALLED_BY, image)) return false;
+    for (size_t r = 0; r < pass->row_count; r++)
+        any |= pass->rows[r].kind == GLINT_ROW_CALLED_BY && is_made(graph, pass->rows[r].image);
+    return any ? is_made(graph, image) : strcmp(first->image, image) == 0;
+}
+
+/* Whether the pipeline makes one of the images of a row READ_BESIDE. */
+static bool is_beside(const struct graph *graph, const char *others) {
+    char name[64];
+    for (const char *at = others; *at; at += strspn(at, " ")) {
+        const size_t length = strcspn(at, " ");
+        snprintf(name, sizeof name, "%.*s", (int)length, at);
+        if (is_made(graph, name)) return true;
+        at += length;
+    }
+    return false;
+}
+
+/* The row itself if its image need not exist in this pipeline; NULL: it has to. */
+static const struct glint_row *optional_row(const struct graph *graph, const struct glint_pass *pass,
+                                            const struct glint_row *row) {
+    const bool required =
+        !row->optional || (row->beside ? is_beside(graph, row->beside) : graph_calls(graph, pass, row->name));
+    return required ? NULL : row;
+}
+
 /* Finds the source of an image that pass `reader` reads, and adds it to the graph's images. `optional`: the row with the fallback value
    if no pass writes it, or NULL. */
 static void link_read(struct graph *graph, size_t reader, const char *name, const struct glint_row *optional,
@@ -184,7 +217,7 @@ static void link_images(struct graph *graph, const struct graph_inputs *inputs, 
             const struct glint_row *row = &pass->pass->rows[r];
             const char *names[2];
             for (size_t n = glint_row_reads(row, names); n-- > 0;)
-                link_read(graph, i, names[n], row->optional && n == 0 ? row : NULL, inputs, faults);
+                link_read(graph, i, names[n], n == 0 ? optional_row(graph, pass->pass, row) : NULL, inputs, faults);
             const struct graph_image *read = row->kind == GLINT_ROW_READ ? graph_find(graph, row->name) : NULL;
             if (read && read->source == SOURCE_RUN && size_is_array(read->row->size))
                 link_read(graph, i, cubemap_order_image(), NULL, inputs, faults); /* contains the number of cube maps */

@@ -11,7 +11,8 @@ static bool asks_about_faces(const struct graph *graph) {
     for (size_t i = 0; i < graph->pass_count; i++)
         for (size_t r = 0; graph->passes[i].runs && r < graph->passes[i].pass->row_count; r++) {
             const struct glint_row *row = &graph->passes[i].pass->rows[r];
-            if (row->kind != GLINT_ROW_FACT && row->kind != GLINT_ROW_NEEDS) continue;
+            if (row->kind != GLINT_ROW_FACT && row->kind != GLINT_ROW_NEEDS && row->kind != GLINT_ROW_CALLED_BY)
+                continue;
             const enum fact_about about = survey_fact_about(row->name);
             if (about == FACT_FACES || about == FACT_FACES_AND_PIXELS) return true;
         }

@@ -12,7 +12,7 @@ enum { WHY_SIZE = 600 };
 struct exchange {
     const char *slot;
     const struct glint_pass *pass[MODES]; /* NULL if that pipeline does not have the slot */
-    bool matters;                         /* the reflection depends on it */
+    bool matters;                         /* the effect's result depends on it */
     bool differs;                         /* variant or values differ */
     uint32_t depth;                       /* length of the longest chain of slots that it depends on */
     size_t group;                         /* index of the first slot that must be exchanged together with it */
@@ -26,6 +26,7 @@ struct player {
 };
 
 struct glint_players {
+    const struct glint_effect *effect;
     struct glint_pipeline *pipeline[MODES];
     struct exchange slots[SLOTS_MAX];
     size_t slot_count;

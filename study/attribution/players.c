@@ -133,8 +133,16 @@ static bool find_players(struct glint_players *players, struct glint_error *err)
     return own == theirs || add_player(players, &rays, err);
 }
 
-struct glint_players *glint_players_create(const struct glint_pipeline *pipeline, uint32_t rays,
-                                           struct glint_error *err) {
+static bool is_made(const struct glint_players *players, struct glint_error *err) {
+    for (int mode = 0; mode < MODES; mode++)
+        if (!glint_study_made(players->pipeline[mode], players->effect))
+            return glint_fail(err, GLINT_ERROR_USAGE, "%s: no pass of it makes %s",
+                              glint_pipeline_name(players->pipeline[mode]), players->effect->noun);
+    return true;
+}
+
+struct glint_players *glint_players_create(const struct glint_pipeline *pipeline, const struct glint_effect *effect,
+                                           uint32_t rays, struct glint_error *err) {
     struct glint_players *players = calloc(1, sizeof *players);
     if (!players) {
         glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
@@ -142,10 +150,11 @@ struct glint_players *glint_players_create(const struct glint_pipeline *pipeline
     }
     char assignment[64];
     snprintf(assignment, sizeof assignment, "pipeline.rays=%u", rays);
+    players->effect = effect;
     bool ok = (players->pipeline[MODE_OWN] = glint_pipeline_copy(pipeline, err)) &&
               (players->pipeline[MODE_REFERENCE] = glint_study_reference(pipeline, err)) &&
               (!rays || glint_pipeline_set(players->pipeline[MODE_REFERENCE], assignment, err)) &&
-              find_slots(players, err);
+              is_made(players, err) && find_slots(players, err);
     for (size_t i = 0; ok && i < players->slot_count; i++)
         players->slots[i].differs = slot_differs(players, &players->slots[i]);
     if (ok) players_find_groups(players);
@@ -227,7 +236,7 @@ struct glint_pipeline *glint_players_pipeline(const struct glint_players *player
         const bool exchange = is_exchanged(players, slot, exchanged);
         const struct glint_pass *pass = slot->pass[exchange ? MODE_REFERENCE : MODE_OWN];
         if (!slot->matters && slot != composer)
-            pass = NULL; /* passes after the composer do not affect the reflection */
+            pass = NULL; /* passes after the composer, and those of other effects, do not affect the result */
         if (exchange || !pass) ok = use_variant(pipeline, slot->slot, pass, err);
         if (ok && pass) ok = set_values(players, slot, exchanged, pipeline, err);
     }

@@ -92,23 +92,18 @@ static bool may_depend_on(const struct exchange *slot, const struct exchange *ma
     return false;
 }
 
-static bool makes_reflection(const struct exchange *slot, const struct exchange *composer) {
+static bool makes_result(const struct exchange *slot, const struct glint_effect *effect) {
     for (int mode = 0; mode < MODES; mode++)
-        for (size_t r = 0; r < row_count(slot, mode); r++) {
-            const struct glint_row *row = &slot->pass[mode]->rows[r];
-            if (row->kind != GLINT_ROW_WRITE || row->size != GLINT_SIZE_FULL || strcmp(row->unit, "radiance") != 0)
-                continue;
-            for (int reader = 0; reader < MODES; reader++)
-                if (composer->pass[reader] && glint_pass_row(composer->pass[reader], GLINT_ROW_READ, row->name))
-                    return true;
+        for (size_t k = 0; slot->pass[mode] && k < GLINT_EFFECT_RESULTS && effect->results[k]; k++) {
+            const struct glint_row *row = glint_pass_output(slot->pass[mode], effect->results[k]);
+            if (row && row->size == GLINT_SIZE_FULL) return true;
         }
     return false;
 }
 
 static void find_what_matters(struct glint_players *players) {
-    const struct exchange *composer = players_with_role(players, GLINT_ROLE_COMPOSED);
     for (size_t i = 0; i < players->slot_count; i++)
-        players->slots[i].matters = !composer || makes_reflection(&players->slots[i], composer);
+        players->slots[i].matters = makes_result(&players->slots[i], players->effect);
     for (bool more = true; more;) {
         more = false;
         for (size_t i = 0; i < players->slot_count; i++)

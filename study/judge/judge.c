@@ -18,7 +18,7 @@ struct glint_judge {
     struct glint_judge_options options;
     struct glint_replay *replay;
     struct glint_capture *capture;
-    uint8_t *surfaces;
+    uint8_t *labels;
     size_t pixels;
     struct target *targets;
     uint32_t round;
@@ -41,6 +41,8 @@ struct glint_judge *glint_judge_create(struct glint_device *device, const struct
     }
     judge->device = device;
     judge->options = *options;
+    size_t effects;
+    if (!judge->options.effect) judge->options.effect = glint_effects(&effects);
     if (!judge->options.keep_bytes) judge->options.keep_bytes = quarter < most ? quarter : most;
     judge->round = 1;
     if (!(judge->replay = glint_replay_create(device, err))) glint_judge_destroy(&judge);
@@ -49,8 +51,8 @@ struct glint_judge *glint_judge_create(struct glint_device *device, const struct
 
 static void unload_capture(struct glint_judge *judge) {
     targets_finish(&judge->targets);
-    free(judge->surfaces);
-    judge->surfaces = NULL;
+    free(judge->labels);
+    judge->labels = NULL;
     judge->capture = NULL;
     judge->measured_count = 0;
 }
@@ -72,7 +74,7 @@ bool glint_judge_load(struct glint_judge *judge, struct glint_capture *capture, 
     const struct glint_part_info *gbuffer = glint_capture_find(capture, GLINT_PART_GBUFFER);
     judge->capture = capture;
     judge->pixels = (size_t)gbuffer->width * gbuffer->height;
-    return (judge->surfaces = glint_study_surfaces(capture, err)) != NULL;
+    return (judge->labels = glint_study_labels(capture, judge->options.effect, err)) != NULL;
 }
 
 struct glint_replay *glint_judge_replay(struct glint_judge *judge) {
@@ -81,8 +83,11 @@ struct glint_replay *glint_judge_replay(struct glint_judge *judge) {
 struct glint_capture *glint_judge_capture(const struct glint_judge *judge) {
     return judge->capture;
 }
-const uint8_t *glint_judge_surfaces(const struct glint_judge *judge) {
-    return judge->surfaces;
+const struct glint_effect *glint_judge_effect(const struct glint_judge *judge) {
+    return judge->options.effect;
+}
+const uint8_t *glint_judge_labels(const struct glint_judge *judge) {
+    return judge->labels;
 }
 
 static const struct target *get_target(struct glint_judge *judge, enum glint_target kind,
@@ -103,23 +108,25 @@ const struct glint_pixels *glint_judge_target(struct glint_judge *judge, enum gl
 
 void glint_verdict_finish(struct glint_verdict *verdict) {
     for (int k = 0; k < GLINT_TARGET_COUNT; k++) glint_metric_table_finish(&verdict->errors[k]);
-    glint_pixels_finish(&verdict->reflection);
+    glint_pixels_finish(&verdict->result);
     free(verdict->coverage);
     free(verdict->passes);
     *verdict = (struct glint_verdict){0};
 }
 
-/* Reads the reflection and its coverage. If the passes that make it were dropped, it is black with no coverage. */
-static bool read_reflection(struct glint_judge *judge, struct glint_verdict *verdict, struct glint_error *err) {
+/* Reads the result and its coverage. If the passes that make it were dropped, it is 0 with no coverage. */
+static bool read_result(struct glint_judge *judge, struct glint_verdict *verdict, struct glint_error *err) {
     const struct glint_part_info *gbuffer = glint_capture_find(judge->capture, GLINT_PART_GBUFFER);
     struct glint_error own = {0};
-    if (glint_study_reflection(judge->replay, &verdict->reflection, &own))
-        return (verdict->coverage = glint_study_coverage(judge->replay, &verdict->reflection, err)) != NULL;
+    const struct glint_effect *effect = judge->options.effect;
+    if (glint_study_result(judge->replay, effect, &verdict->result, &own))
+        return (verdict->coverage = glint_study_coverage(judge->replay, effect, &verdict->result, err)) != NULL;
     if (own.code != GLINT_ERROR_USAGE) return glint_fail(err, own.code, "%s", own.message);
-    verdict->reflection =
-        (struct glint_pixels){gbuffer->width, gbuffer->height, 3, calloc(3 * judge->pixels, sizeof(float))};
+    const uint32_t channels = glint_effect_channels(effect, NULL);
+    verdict->result = (struct glint_pixels){gbuffer->width, gbuffer->height, channels,
+                                            calloc(channels * judge->pixels, sizeof(float))};
     verdict->coverage = calloc(judge->pixels, 1);
-    return (verdict->reflection.values && verdict->coverage) || no_memory(err, "judge");
+    return (verdict->result.values && verdict->coverage) || no_memory(err, "judge");
 }
 
 static bool read_passes(struct glint_judge *judge, struct glint_verdict *verdict, struct glint_error *err) {
@@ -139,18 +146,20 @@ static bool read_passes(struct glint_judge *judge, struct glint_verdict *verdict
 
 static bool compare_with_target(struct glint_judge *judge, const struct target *target, struct glint_verdict *verdict,
                                 struct glint_error *err) {
-    const struct glint_classes classes = glint_surface_classes(judge->surfaces);
+    const struct glint_classes classes = glint_study_classes_of(judge->options.effect, judge->labels);
+    const char *channels;
+    glint_effect_channels(judge->options.effect, &channels);
     const struct glint_metric_options options = {.metrics = judge->options.metrics,
-                                                 .found_channels = "R G B",
-                                                 .truth_channels = "R G B",
-                                                 .mask = judge->surfaces,
+                                                 .found_channels = channels,
+                                                 .truth_channels = channels,
+                                                 .mask = judge->labels,
                                                  .classes = &classes,
                                                  .class_sets = 1,
                                                  .truth_error = target->error,
                                                  .resamples = judge->options.resamples,
                                                  .seed = judge->options.seed,
                                                  .keep_resampled = judge->options.keep_resampled};
-    return glint_metrics_compare(&verdict->reflection, &target->pixels, &options, &verdict->errors[target->kind], err);
+    return glint_metrics_compare(&verdict->result, &target->pixels, &options, &verdict->errors[target->kind], err);
 }
 
 /* Counts end reasons, with the errors of the rays' pixels against the truth, or against the reference if there is no truth. */
@@ -159,13 +168,16 @@ static bool count_rays(struct glint_judge *judge, const struct glint_pipeline *p
     uint8_t *compared = target ? malloc(judge->pixels + 1) : NULL;
     if (target && !compared) return no_memory(err, "judge");
     for (size_t i = 0; compared && i < judge->pixels; i++)
-        compared[i] = verdict->coverage[i] && judge->surfaces[i] != GLINT_SURFACE_NONE &&
+        compared[i] = verdict->coverage[i] && judge->labels[i] != GLINT_CLASS_NONE &&
                       !(target->error && isinf(target->error[i])); /* the target is unknown there */
-    bool ok = glint_study_ends(judge->replay, judge->surfaces, &verdict->reflection, target ? &target->pixels : NULL,
-                               compared, &verdict->ends, err);
-    const double rays = (double)verdict->ends.rays * glint_pipeline_rays(pipeline) / (double)judge->pixels;
-    verdict->steps_px = verdict->ends.steps * rays;
-    verdict->fetches_px = verdict->ends.fetches * rays;
+    bool ok = glint_study_ends(judge->replay, judge->options.effect, judge->labels, &verdict->result,
+                               target ? &target->pixels : NULL, compared, &verdict->ends, err);
+    const struct glint_ends *ends = &verdict->ends;
+    const double rays = glint_pipeline_rays(pipeline), traced = (double)ends->rays * rays / (double)judge->pixels;
+    verdict->steps_px =
+        ends->steps * traced + (ends->more_steps[0] + ends->more_steps[1] * rays) / (double)judge->pixels;
+    verdict->fetches_px =
+        ends->fetches * traced + (ends->more_fetches[0] + ends->more_fetches[1] * rays) / (double)judge->pixels;
     free(compared);
     return ok;
 }
@@ -193,7 +205,7 @@ bool glint_judge_evaluate(struct glint_judge *judge, const struct glint_pipeline
     bool ok = get_targets(judge, pipeline, verdict, targets, progress, user, err);
     const double start = glint_now_seconds();
     ok = ok && glint_replay_run(judge->replay, pipeline, &options, progress, user, err) &&
-         read_reflection(judge, verdict, err) && read_passes(judge, verdict, err);
+         read_result(judge, verdict, err) && read_passes(judge, verdict, err);
     const double ran = glint_now_seconds();
     for (int k = 0; ok && k < GLINT_TARGET_COUNT; k++)
         ok = !targets[k] || compare_with_target(judge, targets[k], verdict, err);

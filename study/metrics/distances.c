@@ -1,4 +1,4 @@
-/* Errors of distances by class of surface. */
+/* Errors of distances by class of pixel. */
 #include "distances.h"
 
 #include <math.h>
@@ -13,13 +13,13 @@ double distance_relative_error(double found, double truth) {
     return fabs(found - truth) / truth;
 }
 
-/* `values` is scratch memory for `count` values; surface 0 means all surfaces. */
-static struct glint_distance_error distance_error(const float *found, const float *truth, const uint8_t *surfaces,
-                                                  size_t count, uint8_t surface, double *values) {
+/* `values` is scratch memory for `count` values; label 0 means all. */
+static struct glint_distance_error distance_error(const float *found, const float *truth, const uint8_t *labels,
+                                                  size_t count, uint8_t label, double *values) {
     struct glint_distance_error e = {0};
     size_t n = 0, right = 0;
     for (size_t i = 0; i < count; i++) {
-        if (!(truth[i] > 0) || surfaces[i] == GLINT_SURFACE_NONE || (surface && surfaces[i] != surface)) continue;
+        if (!(truth[i] > 0) || labels[i] == GLINT_CLASS_NONE || (label && labels[i] != label)) continue;
         values[n] = distance_relative_error((double)found[i], (double)truth[i]);
         right += values[n++] <= 0.05;
         e.invalid += !(found[i] >= 0);
@@ -33,13 +33,13 @@ static struct glint_distance_error distance_error(const float *found, const floa
     return e;
 }
 
-bool glint_study_distances(const float *found, const float *truth, const uint8_t *surfaces, size_t count,
+bool glint_study_distances(const float *found, const float *truth, const uint8_t *labels, size_t count,
                            struct glint_distance_errors *errors, struct glint_error *err) {
     double *values = malloc((count + 1) * sizeof *values);
     *errors = (struct glint_distance_errors){0};
     if (!values) return glint_fail(err, GLINT_ERROR_MEMORY, "distances to compare: out of memory");
-    for (uint8_t k = 0; k < GLINT_SURFACE_COUNT; k++)
-        errors->of[k] = distance_error(found, truth, surfaces, count, k, values);
+    for (uint8_t k = 0; k < GLINT_CLASS_COUNT; k++)
+        errors->of[k] = distance_error(found, truth, labels, count, k, values);
     free(values);
     return true;
 }

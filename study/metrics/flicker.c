@@ -3,9 +3,15 @@
 
 #include "glint/metrics.h"
 
+/* The channels that are compared: those of colour, or the only one. */
+static uint32_t channels_of(const struct glint_pixels *pixels) {
+    return pixels->components < 3 ? 1 : 3;
+}
+
 static bool is_finite(const struct glint_pixels *pixels, size_t i) {
     bool finite = true;
-    for (uint32_t k = 0; k < 3; k++) finite &= isfinite(pixels->values[i * pixels->components + k]) != 0;
+    for (uint32_t k = 0; k < channels_of(pixels); k++)
+        finite &= isfinite(pixels->values[i * pixels->components + k]) != 0;
     return finite;
 }
 
@@ -16,7 +22,7 @@ struct sums {
 
 static void add_pixel(struct sums *sums, const struct glint_pixels found[2], const struct glint_pixels *truth,
                       const float *const *error, size_t i) {
-    for (uint32_t k = 0; k < 3; k++) {
+    for (uint32_t k = 0; k < channels_of(&found[0]); k++) {
         double change[2] = {0, 0};
         for (int frame = 0; frame < 2; frame++) {
             const double sign = frame ? 1 : -1;
@@ -53,17 +59,18 @@ bool glint_study_flicker(const struct glint_pixels found[2], const struct glint_
     for (int frame = 0; frame < 2; frame++) {
         const struct glint_pixels *of[2] = {&found[frame], truth ? &truth[frame] : first};
         for (int k = 0; k < 2; k++)
-            if (of[k]->width != first->width || of[k]->height != first->height || of[k]->components < 3)
+            if (of[k]->width != first->width || of[k]->height != first->height ||
+                channels_of(of[k]) != channels_of(first))
                 return glint_fail(err, GLINT_ERROR_USAGE,
-                                  "expected images of %u x %u with three channels, found %u x %u with %u", first->width,
-                                  first->height, of[k]->width, of[k]->height, of[k]->components);
+                                  "expected images of %u x %u with %u channels, found %u x %u with %u", first->width,
+                                  first->height, channels_of(first), of[k]->width, of[k]->height, of[k]->components);
     }
     for (size_t i = 0; i < (size_t)first->width * first->height; i++) {
         if (!is_compared(found, truth, truth_error, mask, i)) continue;
         add_pixel(&sums, found, truth, truth_error, i);
         flicker->pixels++;
     }
-    const double values = 3 * (double)flicker->pixels;
+    const double values = channels_of(first) * (double)flicker->pixels;
     flicker->picture = sqrt(sums.picture / values);
     flicker->truth = truth ? sqrt(sums.truth / values) : (double)NAN;
     flicker->beside = truth ? sqrt(sums.difference / values) : (double)NAN;

@@ -1,4 +1,4 @@
-/* The metrics by name, and errors by class of surface. */
+/* The metrics by name, and errors by class of pixel. */
 #include "glint/metrics.h"
 
 #include <stdio.h>
@@ -60,24 +60,6 @@ void glint_pixels_finish(struct glint_pixels *pixels) {
     *pixels = (struct glint_pixels){0};
 }
 
-static const char *const surface_names[GLINT_SURFACE_COUNT] = {"all", "mirror-like", "glossy", "rough"};
-
-const char *glint_surface_name(enum glint_surface surface) {
-    return surface < GLINT_SURFACE_COUNT ? surface_names[surface] : NULL;
-}
-
-struct glint_classes glint_surface_classes(const uint8_t *labels) {
-    struct glint_classes classes = {
-        .title = "surface", .count = GLINT_SURFACE_COUNT - 1, .labels = (uint8_t *)(uintptr_t)labels};
-    memcpy(classes.names, surface_names + 1, classes.count * sizeof *classes.names);
-    return classes;
-}
-
-enum glint_surface glint_surface_of(double roughness) {
-    if (roughness <= GLINT_MIRROR_ROUGHNESS) return GLINT_SURFACE_MIRROR;
-    return roughness <= GLINT_GLOSSY_ROUGHNESS ? GLINT_SURFACE_GLOSSY : GLINT_SURFACE_ROUGH;
-}
-
 static struct glint_image_error error_of(const struct glint_metric_row *row) {
     struct glint_image_error e = {.pixels = row->pixels, .invalid = row->invalid};
     if (row->pixels == 0) return e;
@@ -93,7 +75,7 @@ static struct glint_image_error error_of(const struct glint_metric_row *row) {
 }
 
 bool glint_study_image(const struct glint_pixels *found, const struct glint_pixels *truth, uint32_t channels,
-                       const uint8_t *surfaces, const float *truth_error, struct glint_image_errors *errors,
+                       const uint8_t *labels, const float *truth_error, struct glint_image_errors *errors,
                        struct glint_error *err) {
     static const char *const names[] = {"", "R", "R G", "R G B", "R G B A"};
     struct glint_metric_table table;
@@ -101,13 +83,13 @@ bool glint_study_image(const struct glint_pixels *found, const struct glint_pixe
     if (channels == 0 || channels > 4 || channels > found->components || channels > truth->components)
         return glint_fail(err, GLINT_ERROR_USAGE, "images to compare: expected %u channels, found %u and %u", channels,
                           found->components, truth->components);
-    const struct glint_classes classes = glint_surface_classes(surfaces);
+    const struct glint_classes classes = {.count = GLINT_EFFECT_CLASSES, .labels = (uint8_t *)(uintptr_t)labels};
     const struct glint_metric_options options = {.metrics = GLINT_METRICS_CHEAP & ~(1u << GLINT_METRIC_PSNR),
                                                  .found_channels = names[channels],
                                                  .truth_channels = names[channels],
-                                                 .mask = surfaces,
+                                                 .mask = labels,
                                                  .classes = &classes,
-                                                 .class_sets = surfaces ? 1 : 0,
+                                                 .class_sets = labels ? 1 : 0,
                                                  .truth_error = truth_error};
     if (!glint_metrics_compare(found, truth, &options, &table, err)) return false;
     for (size_t k = 0; k < table.count; k++) errors->of[k] = error_of(&table.rows[k]);

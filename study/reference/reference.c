@@ -8,11 +8,24 @@
 
 static const double SAVE_SECONDS = 5; /* the work that a crash may lose */
 
-static bool any_reflects(const struct glint_reference *reference) {
+static bool any_judged(const struct glint_reference *reference) {
     const struct glint_part_info *part = glint_capture_find(reference->capture, GLINT_PART_GBUFFER);
     for (size_t i = 0; i < (size_t)part->width * part->height; i++)
-        if (reference->surfaces[i] != GLINT_SURFACE_NONE) return true;
+        if (reference->labels[i] != GLINT_CLASS_NONE) return true;
     return false;
+}
+
+static bool find_result(struct glint_reference *reference, const struct glint_effect *effect,
+                        const struct glint_pipeline *pipeline, struct glint_error *err) {
+    size_t effects;
+    reference->effect = effect ? effect : glint_effects(&effects);
+    reference->result = glint_study_made(pipeline, reference->effect);
+    if (!reference->result)
+        return glint_fail(err, GLINT_ERROR_USAGE, "%s: no pass of it makes %s", glint_pipeline_name(pipeline),
+                          reference->effect->noun);
+    study_split_channels(reference->result->channels, &reference->channels);
+    reference->judged = glint_effect_channels(reference->effect, NULL);
+    return true;
 }
 
 struct glint_reference *glint_reference_create(struct glint_replay *replay, struct glint_capture *capture,
@@ -28,11 +41,14 @@ struct glint_reference *glint_reference_create(struct glint_replay *replay, stru
     reference->all = options && options->all;
     reference->keep_bytes = options ? options->keep_bytes : 0;
     reference->at_once = options ? options->at_once : 0;
-    bool ok = (reference->pipeline = glint_pipeline_copy(pipeline, err)) != NULL &&
-              (reference->surfaces = glint_study_surfaces(capture, err)) != NULL;
-    if (ok && !any_reflects(reference))
-        ok = glint_fail(err, GLINT_ERROR_FORMAT, "%s: nothing in it reflects, so there is no reflection to trace",
-                        glint_capture_path(capture));
+    bool ok = find_result(reference, options ? options->effect : NULL, pipeline, err) &&
+              (reference->pipeline = glint_pipeline_copy(pipeline, err)) != NULL &&
+              (reference->labels = glint_study_labels(capture, reference->effect, err)) != NULL;
+    if (ok && !any_judged(reference))
+        ok = glint_fail(err, GLINT_ERROR_FORMAT, "%s: %s, so there is no %s to trace", glint_capture_path(capture),
+                        reference->effect->judged == GLINT_JUDGED_REFLECTING ? "nothing in it reflects"
+                                                                             : "it shows nothing but sky",
+                        reference->effect->noun);
     if (ok && options && options->folder) {
         reference->folder = strdup(options->folder);
         ok = (reference->folder || glint_fail(err, GLINT_ERROR_MEMORY, "reference: out of memory")) &&
@@ -52,7 +68,7 @@ void glint_reference_destroy(struct glint_reference **pointer) {
     json_decref(reference->settings);
     json_decref(reference->sensitivity);
     json_decref(reference->record);
-    free(reference->surfaces);
+    free(reference->labels);
     free(reference->folder);
     free(reference);
 }
@@ -143,15 +159,16 @@ bool glint_reference_pixels(const struct glint_reference *reference, struct glin
     *pixels = (struct glint_pixels){0};
     if (error) *error = NULL;
     if (reference->halves.rays == 0) return glint_fail(err, GLINT_ERROR_USAGE, "the reference has no rays yet");
-    return reference_mean(&reference->halves, pixels, error, err);
+    return reference_mean(&reference->halves, reference->judged, pixels, error, err);
 }
 
 bool glint_study_reference_bias(const struct glint_pixels *reference, const float *reference_error,
-                                const struct glint_pixels *truth, const float *truth_error, const uint8_t *surfaces,
+                                const struct glint_pixels *truth, const float *truth_error, const uint8_t *labels,
                                 struct glint_image_errors *errors, struct glint_error *err) {
     const size_t pixels = (size_t)truth->width * truth->height;
     if (reference->width != truth->width || reference->height != truth->height)
-        return glint_study_image(reference, truth, 3, surfaces, truth_error, errors, err); /* fails with a message */
+        return glint_study_image(reference, truth, truth->components, labels, truth_error, errors,
+                                 err); /* fails with a message */
     float *both = calloc(pixels + 1, sizeof *both);
     if (!both) return glint_fail(err, GLINT_ERROR_MEMORY, "reference: out of memory");
     for (size_t i = 0; i < pixels; i++) {
@@ -167,7 +184,7 @@ bool glint_study_reference_bias(const struct glint_pixels *reference, const floa
         if (isinf(of_truth)) both[i] = INFINITY; /* the truth is unknown there */
         else if (truth2 > 0) both[i] = (float)sqrt(of_truth * of_truth + of_own * of_own * own2 / truth2);
     }
-    bool ok = glint_study_image(reference, truth, 3, surfaces, both, errors, err);
+    bool ok = glint_study_image(reference, truth, truth->components, labels, both, errors, err);
     free(both);
     return ok;
 }

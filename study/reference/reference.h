@@ -5,8 +5,9 @@
 #include <jansson.h>
 
 #include "glint/reference.h"
+#include "values.h"
 
-/* Both halves' means of R G B A. */
+/* Both halves' means of the result. */
 struct halves {
     struct glint_pixels of[2], batch[2];
     uint32_t rays;       /* rays a pixel in each half */
@@ -22,7 +23,13 @@ bool halves_trace(struct halves *halves, const struct glint_reference *reference
                   glint_progress progress, void *user, struct glint_error *err);
 void halves_finish(struct halves *halves);
 
+enum { REFERENCE_HALF_A, REFERENCE_HALF_B, REFERENCE_ERROR, REFERENCE_MEAN, REFERENCE_IMAGES };
+
 struct glint_reference {
+    const struct glint_effect *effect;
+    const struct glint_row *result;     /* the row of the image that the pipeline makes as the effect's result */
+    struct study_channel_list channels; /* its channels */
+    uint32_t judged;                    /* how many of them are judged; others, such as alpha, follow them */
     struct glint_replay *replay;
     struct glint_capture *capture;
     struct glint_pipeline *pipeline;
@@ -30,7 +37,7 @@ struct glint_reference {
     bool all;
     uint64_t keep_bytes;
     uint32_t at_once;
-    uint8_t *surfaces;
+    uint8_t *labels;
     struct halves halves;
     struct glint_reference_state state;
     json_t *settings;    /* everything that its rays depend on; NULL without a folder */
@@ -40,7 +47,8 @@ struct glint_reference {
 
 /* reference_rays.c */
 /* (A + B)/2 and its relative standard error. */
-bool reference_mean(const struct halves *halves, struct glint_pixels *mean, float **error, struct glint_error *err);
+bool reference_mean(const struct halves *halves, uint32_t judged, struct glint_pixels *mean, float **error,
+                    struct glint_error *err);
 bool reference_measure(struct glint_reference *reference, struct glint_error *err);
 
 /* reference_json.c */
@@ -49,7 +57,8 @@ bool reference_settings(struct glint_reference *reference, struct glint_error *e
 json_t *reference_json(const struct glint_reference *reference);
 /* Fails with a message that names the first setting that differs. */
 bool reference_same_settings(const char *where, const json_t *there, const json_t *here, struct glint_error *err);
-json_t *reference_sensitivity_json(const struct glint_reference_sensitivity *sensitivity);
+json_t *reference_sensitivity_json(const struct glint_effect *effect,
+                                   const struct glint_reference_sensitivity *sensitivity);
 
 /* reference_folder.c */
 bool reference_resume(struct glint_reference *reference, bool overwrite, struct glint_error *err);

@@ -12,40 +12,49 @@
 #include "no_memory.h"
 #include "values.h"
 
-enum { IMAGES = 4 };
-/* The mean comes last, since the last image of a run is its reflection. */
+/* What follows the name of the result in the names of the images. The mean has the name of the result itself. */
 static const struct {
-    const char *name, *channels, *unit, *meaning;
-} images[IMAGES] = {
-    {"reflection_a", "R G B A", "radiance", "mean of one half of the rays"},
-    {"reflection_b", "R G B A", "radiance", "mean of the other half, which shares no random number with the first"},
-    {"reflection_error", "error", "1",
-     "relative standard error of the mean, estimated from the difference of both halves"},
-    {NULL, "R G B A", "radiance", "mean of both halves"},
+    const char *suffix, *meaning;
+} images[REFERENCE_IMAGES] = {
+    [REFERENCE_HALF_A] = {"_a", "mean of one half of the rays"},
+    [REFERENCE_HALF_B] = {"_b", "mean of the other half, which shares no random number with the first"},
+    [REFERENCE_ERROR] = {"_error", "relative standard error of the mean, estimated from the difference of both halves"},
+    [REFERENCE_MEAN] = {"", "mean of both halves"},
 };
 
-/* The mean has the name of the reflection itself. */
-static const char *image_name(int i) {
-    const char *name = images[i].name;
-    if (!name) glint_pass_with_role(GLINT_ROLE_COMPOSED, &name);
+struct image_name {
+    char text[96];
+};
+static struct image_name image_name(const char *result, int i) {
+    struct image_name name;
+    snprintf(name.text, sizeof name.text, "%.80s%s", result, images[i].suffix);
     return name;
+}
+
+static const char *image_unit(const struct glint_reference *reference, int i) {
+    return i == REFERENCE_ERROR ? "1" : reference->result->unit;
+}
+static const char *image_channels(const struct glint_reference *reference, int i) {
+    return i == REFERENCE_ERROR ? "error" : reference->result->channels;
 }
 
 /* ---- Reading ---- */
 
-static bool read_half(struct glint_run *run, const char *folder, const char *name, const struct glint_part_info *part,
-                      struct glint_pixels *pixels, struct glint_error *err) {
-    const struct glint_run_image *image = glint_run_find(run, name);
-    if (!image || image->width != part->width || image->height != part->height || image->components != 4)
-        return glint_fail(err, GLINT_ERROR_FORMAT, "%s: image %s: expected R G B A of %u × %u", folder, name,
-                          part->width, part->height);
-    *pixels = (struct glint_pixels){part->width, part->height, 4, study_run_values(run, image, err)};
+static bool read_half(struct glint_reference *reference, struct glint_run *run, int half, struct glint_error *err) {
+    const struct glint_part_info *part = glint_capture_find(reference->capture, GLINT_PART_GBUFFER);
+    const struct image_name name = image_name(reference->result->name, half);
+    const struct glint_run_image *image = glint_run_find(run, name.text);
+    const uint32_t components = reference->channels.count;
+    if (!image || image->width != part->width || image->height != part->height || image->components != components)
+        return glint_fail(err, GLINT_ERROR_FORMAT, "%s: image %s: expected %s of %u × %u", reference->folder, name.text,
+                          reference->result->channels, part->width, part->height);
+    struct glint_pixels *pixels = &reference->halves.of[half];
+    *pixels = (struct glint_pixels){part->width, part->height, components, study_run_values(run, image, err)};
     return pixels->values != NULL;
 }
 
 static bool read_folder(struct glint_reference *reference, struct glint_run *run, struct glint_error *err) {
     const char *folder = reference->folder;
-    const struct glint_part_info *part = glint_capture_find(reference->capture, GLINT_PART_GBUFFER);
     reference->record = json_loads(glint_run_json(run), 0, NULL);
     const json_t *own = json_object_get(reference->record, "reference");
     const json_int_t rays = json_integer_value(json_object_get(own, "rays"));
@@ -61,8 +70,7 @@ static bool read_folder(struct glint_reference *reference, struct glint_run *run
     reference->halves.rays = (uint32_t)rays / 2;
     reference->state.seconds = json_number_value(json_object_get(own, "seconds"));
     reference->sensitivity = json_incref(json_object_get(own, "sensitivity"));
-    return read_half(run, folder, image_name(0), part, &reference->halves.of[0], err) &&
-           read_half(run, folder, image_name(1), part, &reference->halves.of[1], err) &&
+    return read_half(reference, run, REFERENCE_HALF_A, err) && read_half(reference, run, REFERENCE_HALF_B, err) &&
            reference_measure(reference, err);
 }
 
@@ -88,8 +96,11 @@ bool reference_resume(struct glint_reference *reference, bool overwrite, struct 
     return ok && reference_resume_round(reference, err);
 }
 
-bool glint_study_run_error(struct glint_run *run, float **error, struct glint_error *err) {
-    const struct glint_run_image *image = glint_run_find(run, image_name(2));
+bool glint_study_run_error(struct glint_run *run, const struct glint_effect *effect, float **error,
+                           struct glint_error *err) {
+    const struct glint_run_image *result = glint_study_run_result_image(run, effect);
+    const struct glint_run_image *image =
+        result ? glint_run_find(run, image_name(result->name, REFERENCE_ERROR).text) : NULL;
     *error = NULL;
     if (!image) return true;
     if (image->components != 1)
@@ -124,12 +135,15 @@ bool reference_note(struct glint_reference *reference, struct glint_error *err) 
     if (!record) return text && no_memory(err, "reference");
     json_t *own = reference_json(reference);
     json_t *list = json_array(), *last = last_run_pass(record);
-    for (int i = 0; i < IMAGES; i++)
+    for (int i = 0; i < REFERENCE_IMAGES; i++) {
+        const struct image_name name = image_name(reference->result->name, i);
         json_array_append_new(
-            list, json_pack("{ss ss* ss ss ss ss si si ss}", "name", image_name(i), "file", NULL, "part", image_name(i),
-                            "channels", images[i].channels, "unit", images[i].unit, "meaning", images[i].meaning,
-                            "width", (int)reference->halves.of[0].width, "height", (int)reference->halves.of[0].height,
-                            "format", i == 2 ? "R32F" : "RGBA32F"));
+            list,
+            json_pack("{ss ss* ss ss ss ss si si ss}", "name", name.text, "file", NULL, "part", name.text, "channels",
+                      image_channels(reference, i), "unit", image_unit(reference, i), "meaning", images[i].meaning,
+                      "width", (int)reference->halves.of[0].width, "height", (int)reference->halves.of[0].height,
+                      "format", i == REFERENCE_ERROR || reference->channels.count == 1 ? "R32F" : "RGBA32F"));
+    }
     json_object_del(record, "first_ray");
     bool ok = own && last && json_object_set_new(record, "rays", json_integer(reference->state.rays)) == 0 &&
               json_object_set_new(record, "reference", own) == 0 && json_object_set_new(last, "images", list) == 0;
@@ -138,39 +152,47 @@ bool reference_note(struct glint_reference *reference, struct glint_error *err) 
     return ok || no_memory(err, "reference");
 }
 
-static void fill_part(const struct glint_pixels *pixels, int i, struct glint_exr_channel channels[4],
-                      struct glint_exr_attribute attributes[3], struct glint_exr_part *part) {
-    static const char *const rgba[] = {"R", "G", "B", "A"};
-    const char *const texts[3][2] = {
-        {"glint.image", image_name(i)}, {"glint.unit", images[i].unit}, {"glint.meaning", images[i].meaning}};
+/* An image of the file, with what its part refers to. */
+struct stored_image {
+    struct image_name name;
+    struct glint_exr_channel channels[4];
+    struct glint_exr_attribute attributes[3];
+};
+
+static void fill_part(const struct glint_reference *reference, const struct glint_pixels *pixels, int i,
+                      struct stored_image *stored, struct glint_exr_part *part) {
+    stored->name = image_name(reference->result->name, i);
+    const char *const texts[3][2] = {{"glint.image", stored->name.text},
+                                     {"glint.unit", image_unit(reference, i)},
+                                     {"glint.meaning", images[i].meaning}};
     for (uint32_t k = 0; k < pixels->components; k++)
-        channels[k] = (struct glint_exr_channel){.name = pixels->components == 4 ? rgba[k] : images[i].channels,
-                                                 .stored = GLINT_STORED_FLOAT,
-                                                 .data = pixels->values + k,
-                                                 .x_stride_bytes = pixels->components * sizeof(float)};
+        stored->channels[k] = (struct glint_exr_channel){.name = i == REFERENCE_ERROR ? image_channels(reference, i)
+                                                                                      : reference->channels.names[k],
+                                                         .stored = GLINT_STORED_FLOAT,
+                                                         .data = pixels->values + k,
+                                                         .x_stride_bytes = pixels->components * sizeof(float)};
     for (int t = 0; t < 3; t++)
-        attributes[t] = (struct glint_exr_attribute){
+        stored->attributes[t] = (struct glint_exr_attribute){
             .name = texts[t][0], .type = GLINT_EXR_STRING, .string = texts[t][1], .count = 1};
-    *part = (struct glint_exr_part){.name = image_name(i),
+    *part = (struct glint_exr_part){.name = stored->name.text,
                                     .width = pixels->width,
                                     .height = pixels->height,
-                                    .channels = channels,
+                                    .channels = stored->channels,
                                     .channel_count = pixels->components,
-                                    .attributes = attributes,
+                                    .attributes = stored->attributes,
                                     .attribute_count = 3,
                                     .compression = GLINT_ZIP};
 }
 
 static bool write_images(const struct glint_reference *reference, const char *path, struct glint_error *err) {
     const struct halves *halves = &reference->halves;
-    struct glint_exr_channel channels[IMAGES][4];
-    struct glint_exr_attribute attributes[IMAGES][3];
-    struct glint_exr_part parts[IMAGES];
+    struct stored_image stored[REFERENCE_IMAGES];
+    struct glint_exr_part parts[REFERENCE_IMAGES];
     struct glint_pixels mean = {0}, error = {halves->of[0].width, halves->of[0].height, 1, NULL};
-    bool ok = reference_mean(halves, &mean, &error.values, err);
-    const struct glint_pixels *const pixels[IMAGES] = {&halves->of[0], &halves->of[1], &error, &mean};
-    for (int i = 0; ok && i < IMAGES; i++) fill_part(pixels[i], i, channels[i], attributes[i], &parts[i]);
-    ok = ok && glint_exr_write(path, parts, IMAGES, 0, err);
+    bool ok = reference_mean(halves, reference->judged, &mean, &error.values, err);
+    const struct glint_pixels *const pixels[REFERENCE_IMAGES] = {&halves->of[0], &halves->of[1], &error, &mean};
+    for (int i = 0; ok && i < REFERENCE_IMAGES; i++) fill_part(reference, pixels[i], i, &stored[i], &parts[i]);
+    ok = ok && glint_exr_write(path, parts, REFERENCE_IMAGES, 0, err);
     glint_pixels_finish(&mean);
     glint_pixels_finish(&error);
     return ok;

@@ -41,8 +41,9 @@ bool reference_settings(struct glint_reference *reference, struct glint_error *e
         json_t *settings = pass_settings(reference, pass, err);
         ok = settings && json_object_set_new(passes, pass->slot, settings) == 0;
     }
-    json_t *all = ok ? json_pack("{ss ss ss ss sb sO}", "capture", hash, "device", device->name, "driver",
-                                 device->driver_version, "tool", GLINT_VERSION, "all", reference->all, "passes", passes)
+    json_t *all = ok ? json_pack("{ss ss ss ss ss sb sO}", "effect", reference->effect->name, "capture", hash, "device",
+                                 device->name, "driver", device->driver_version, "tool", GLINT_VERSION, "all",
+                                 reference->all, "passes", passes)
                      : NULL;
     /* Written and read once, so that numbers are rounded as in a file. */
     char *text = all ? json_dumps(all, JSON_REAL_PRECISION(REFERENCE_DIGITS)) : NULL;
@@ -53,32 +54,35 @@ bool reference_settings(struct glint_reference *reference, struct glint_error *e
     return reference->settings || (ok && no_memory(err, "reference"));
 }
 
-static json_t *noise_json(const struct glint_reference_state *state) {
+static json_t *noise_json(const struct glint_reference *reference) {
+    const struct glint_reference_state *state = &reference->state;
+    const struct glint_effect *effect = reference->effect;
     json_t *rows = json_array();
-    for (int k = 0; k < GLINT_SURFACE_COUNT; k++)
+    for (size_t k = 0; k <= glint_effect_class_count(effect); k++)
         json_array_append_new(rows,
-                              json_pack("{ss sI sf sf sf}", "surfaces", glint_surface_name((enum glint_surface)k),
-                                        "pixels", (json_int_t)state->noise[k].pixels, "mean", state->noise[k].mean,
-                                        "error", state->noise[k].error, "relative", state->noise[k].relative));
+                              json_pack("{ss sI sf sf sf}", "surfaces", glint_effect_class_name(effect, k), "pixels",
+                                        (json_int_t)state->noise[k].pixels, "mean", state->noise[k].mean, "error",
+                                        state->noise[k].error, "relative", state->noise[k].relative));
     return rows;
 }
 
-static json_t *changes_json(const struct glint_reference_assumption *row) {
+static json_t *changes_json(const struct glint_effect *effect, const struct glint_reference_assumption *row) {
     json_t *rows = json_array();
-    for (int k = 0; k < GLINT_SURFACE_COUNT; k++)
-        json_array_append_new(rows, json_pack("{ss sf sf sf sf}", "surfaces", glint_surface_name((enum glint_surface)k),
+    for (size_t k = 0; k <= glint_effect_class_count(effect); k++)
+        json_array_append_new(rows, json_pack("{ss sf sf sf sf}", "surfaces", glint_effect_class_name(effect, k),
                                               "mean", row->of[k].mean, "rmse", row->of[k].rmse, "noise",
                                               row->of[k].noise, "relative", row->of[k].relative));
     return rows;
 }
 
-json_t *reference_sensitivity_json(const struct glint_reference_sensitivity *sensitivity) {
+json_t *reference_sensitivity_json(const struct glint_effect *effect,
+                                   const struct glint_reference_sensitivity *sensitivity) {
     json_t *rows = json_array();
     for (size_t i = 0; i < sensitivity->count; i++) {
         const struct glint_reference_assumption *row = &sensitivity->rows[i];
         json_array_append_new(rows, json_pack("{ss ss sf sf sb so* ss*}", "slot", row->pass->slot, "parameter",
                                               row->row->name, "value", row->value, "tried", row->tried, "ran", row->ran,
-                                              "change", row->ran ? changes_json(row) : NULL, "reason",
+                                              "change", row->ran ? changes_json(effect, row) : NULL, "reason",
                                               row->ran ? NULL : row->reason));
     }
     return json_pack("{si so}", "rays", (int)sensitivity->rays, "rows", rows);
@@ -87,7 +91,7 @@ json_t *reference_sensitivity_json(const struct glint_reference_sensitivity *sen
 json_t *reference_json(const struct glint_reference *reference) {
     const struct glint_reference_state *state = &reference->state;
     return json_pack("{si sf so sO* sO*}", "rays", (int)state->rays, "seconds", state->seconds, "noise",
-                     noise_json(state), "sensitivity", reference->sensitivity, "settings", reference->settings);
+                     noise_json(reference), "sensitivity", reference->sensitivity, "settings", reference->settings);
 }
 
 char *glint_reference_json(const struct glint_reference *reference) {

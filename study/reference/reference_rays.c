@@ -37,16 +37,15 @@ uint32_t halves_next(const struct halves *halves, const struct glint_reference *
 static bool trace_rays(const struct glint_reference *reference, struct glint_pipeline *pipeline, uint32_t first,
                        uint32_t count, struct glint_pixels *pixels, glint_progress progress, void *user,
                        struct glint_error *err) {
-    const char *reflection[] = {NULL, NULL};
-    glint_pass_with_role(GLINT_ROLE_COMPOSED, &reflection[0]);
+    const char *const result[] = {reference->result->name, NULL};
     const struct glint_replay_options options = {
-        .outputs = reflection, .all = reference->all, .float_precision = true, .keep_bytes = reference->keep_bytes};
+        .outputs = result, .all = reference->all, .float_precision = true, .keep_bytes = reference->keep_bytes};
     char rays[64], from[64];
     snprintf(rays, sizeof rays, "pipeline.rays=%u", count);
     snprintf(from, sizeof from, "pipeline.first_ray=%u", first);
     return glint_pipeline_set(pipeline, rays, err) && glint_pipeline_set(pipeline, from, err) &&
            glint_replay_run(reference->replay, pipeline, &options, progress, user, err) &&
-           glint_study_reflection(reference->replay, pixels, err);
+           glint_study_result(reference->replay, reference->effect, pixels, err);
 }
 
 static size_t count_invalid(const struct glint_pixels *pixels) {
@@ -86,8 +85,8 @@ bool halves_run(struct halves *halves, const struct glint_reference *reference, 
     const size_t invalid = count_invalid(&more);
     if (invalid) {
         glint_pixels_finish(&more);
-        return glint_fail(err, GLINT_ERROR_FORMAT, "reference: the reflection is NaN or infinite in %zu pixels",
-                          invalid);
+        return glint_fail(err, GLINT_ERROR_FORMAT, "reference: the %s is NaN or infinite in %zu pixels",
+                          reference->effect->noun, invalid);
     }
     add_mean(&halves->batch[half], begun, &more, count);
     halves->batched[half] += count;
@@ -111,7 +110,8 @@ bool halves_trace(struct halves *halves, const struct glint_reference *reference
     return true;
 }
 
-bool reference_mean(const struct halves *halves, struct glint_pixels *mean, float **error, struct glint_error *err) {
+bool reference_mean(const struct halves *halves, uint32_t judged, struct glint_pixels *mean, float **error,
+                    struct glint_error *err) {
     const struct glint_pixels *a = &halves->of[0], *b = &halves->of[1];
     const size_t pixels = (size_t)a->width * a->height;
     *mean = (struct glint_pixels){a->width, a->height, a->components, NULL};
@@ -124,7 +124,7 @@ bool reference_mean(const struct halves *halves, struct glint_pixels *mean, floa
             const size_t at = i * a->components + k;
             const double of_a = (double)a->values[at], of_b = (double)b->values[at];
             mean->values[at] = (float)(0.5 * (of_a + of_b));
-            if (k >= 3) continue; /* alpha */
+            if (k >= judged) continue; /* alpha */
             off2 += 0.25 * (of_a - of_b) * (of_a - of_b);
             value2 += 0.25 * (of_a + of_b) * (of_a + of_b);
         }
@@ -136,9 +136,10 @@ bool reference_mean(const struct halves *halves, struct glint_pixels *mean, floa
 bool reference_measure(struct glint_reference *reference, struct glint_error *err) {
     const struct halves *halves = &reference->halves;
     struct glint_image_errors errors;
-    if (!glint_study_image(&halves->of[0], &halves->of[1], 3, reference->surfaces, NULL, &errors, err)) return false;
+    if (!glint_study_image(&halves->of[0], &halves->of[1], reference->judged, reference->labels, NULL, &errors, err))
+        return false;
     reference->state.rays = 2 * halves->rays;
-    for (int k = 0; k < GLINT_SURFACE_COUNT; k++) {
+    for (int k = 0; k < GLINT_CLASS_COUNT; k++) {
         const struct glint_image_error *e = &errors.of[k];
         struct glint_reference_noise *noise = &reference->state.noise[k];
         *noise = (struct glint_reference_noise){

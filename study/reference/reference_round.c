@@ -11,7 +11,7 @@
 #include "glint/exr.h"
 
 enum { ATTRIBUTES = 4 };
-static const char *const part_names[2] = {"batch_a", "batch_b"}, *const rgba[4] = {"R", "G", "B", "A"};
+static const char *const part_names[2] = {"batch_a", "batch_b"};
 
 static bool file_path(const struct glint_reference *reference, char path[4096], struct glint_error *err) {
     return snprintf(path, 4096, "%s/unfinished.exr", reference->folder) < 4096 ||
@@ -38,11 +38,11 @@ bool reference_save_round(struct glint_reference *reference, struct glint_error 
     size_t count = 0;
     for (int h = 0; h < 2 && halves->batched[h]; h++, count++) {
         const struct glint_pixels *pixels = &halves->batch[h];
-        for (uint32_t k = 0; k < 4; k++)
-            channels[h][k] = (struct glint_exr_channel){.name = rgba[k],
+        for (uint32_t k = 0; k < pixels->components; k++)
+            channels[h][k] = (struct glint_exr_channel){.name = reference->channels.names[k],
                                                         .stored = GLINT_STORED_FLOAT,
                                                         .data = pixels->values + k,
-                                                        .x_stride_bytes = 4 * sizeof(float)};
+                                                        .x_stride_bytes = pixels->components * sizeof(float)};
         attributes[h][0] =
             (struct glint_exr_attribute){.name = "settings", .type = GLINT_EXR_STRING, .string = settings, .count = 1};
         static const char *const names[] = {"rays", "after", "seconds"};
@@ -53,7 +53,7 @@ bool reference_save_round(struct glint_reference *reference, struct glint_error 
                                            .width = pixels->width,
                                            .height = pixels->height,
                                            .channels = channels[h],
-                                           .channel_count = 4,
+                                           .channel_count = pixels->components,
                                            .attributes = attributes[h],
                                            .attribute_count = ATTRIBUTES,
                                            .compression = GLINT_ZIP};
@@ -82,21 +82,22 @@ static bool same_settings(const struct glint_reference *reference, const struct 
            glint_fail(err, GLINT_ERROR_USAGE, "%s: holds another reference: %s", reference->folder, differs.message);
 }
 
-static bool read_batch(struct glint_exr *exr, size_t i, const char *path, const struct glint_part_info *gbuffer,
+static bool read_batch(const struct glint_reference *reference, struct glint_exr *exr, size_t i, const char *path,
                        struct glint_pixels *pixels, struct glint_error *err) {
+    const struct glint_part_info *gbuffer = glint_capture_find(reference->capture, GLINT_PART_GBUFFER);
+    const struct study_channel_list *channels = &reference->channels;
     const struct glint_exr_part_info *part = glint_exr_part(exr, i);
     if (part->width != gbuffer->width || part->height != gbuffer->height)
         return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part %s: expected %u × %u pixels, found %u × %u", path,
                           part->name, gbuffer->width, gbuffer->height, part->width, part->height);
-    *pixels = (struct glint_pixels){part->width, part->height, 4, NULL};
-    pixels->values = malloc((size_t)part->width * part->height * 4 * sizeof *pixels->values);
+    *pixels = (struct glint_pixels){part->width, part->height, channels->count, NULL};
+    pixels->values = malloc((size_t)part->width * part->height * channels->count * sizeof *pixels->values);
     if (!pixels->values) return glint_fail(err, GLINT_ERROR_MEMORY, "reference: out of memory");
-    return glint_exr_read(exr, i, rgba, 4, GLINT_F32, pixels->values, 0, err);
+    return glint_exr_read(exr, i, channels->names, channels->count, GLINT_F32, pixels->values, 0, err);
 }
 
 static bool read_round(struct glint_reference *reference, struct glint_exr *exr, const char *path,
                        struct glint_error *err) {
-    const struct glint_part_info *gbuffer = glint_capture_find(reference->capture, GLINT_PART_GBUFFER);
     struct halves *halves = &reference->halves;
     const size_t count = glint_exr_part_count(exr);
     for (size_t i = 0; i < count && i < 2; i++) {
@@ -108,7 +109,7 @@ static bool read_round(struct glint_reference *reference, struct glint_exr *exr,
             (i == 0 && count == 2 && rays != GLINT_REFERENCE_BATCH) || (i == 1 && rays == GLINT_REFERENCE_BATCH))
             return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part %s: expected a part of a round, found %g rays", path,
                               part->name, rays);
-        if (!read_batch(exr, i, path, gbuffer, &halves->batch[i], err)) return false;
+        if (!read_batch(reference, exr, i, path, &halves->batch[i], err)) return false;
         halves->batched[i] = (uint32_t)rays;
         reference->state.seconds = fmax(reference->state.seconds, number_of(part, "seconds"));
     }

@@ -41,17 +41,18 @@ static bool trace_rounds(const struct glint_reference *reference, struct glint_p
 
 /* Replaces the halves of `changed` by their differences D to those of `base`. The mean change is (D_A + D_B)/2 and its noise (D_A - D_B)/2. The
    difference of their squares is D_A · D_B, which noise does not bias since that of both halves is independent. */
-static bool compare_halves(const struct halves *base, struct halves *changed, const uint8_t *surfaces,
+static bool compare_halves(const struct glint_reference *reference, const struct halves *base, struct halves *changed,
                            struct glint_reference_assumption *row, struct glint_error *err) {
+    const uint32_t judged = reference->judged;
     struct glint_pixels mean = {0}, before = {0};
     struct glint_image_errors noise, change;
-    bool ok = reference_mean(changed, &mean, NULL, err) && reference_mean(base, &before, NULL, err) &&
-              glint_study_image(&mean, &before, 3, surfaces, NULL, &change, err);
+    bool ok = reference_mean(changed, judged, &mean, NULL, err) && reference_mean(base, judged, &before, NULL, err) &&
+              glint_study_image(&mean, &before, judged, reference->labels, NULL, &change, err);
     for (int h = 0; ok && h < 2; h++)
         for (size_t i = 0; i < (size_t)mean.width * mean.height * mean.components; i++)
             changed->of[h].values[i] -= base->of[h].values[i];
-    ok = ok && glint_study_image(&changed->of[0], &changed->of[1], 3, surfaces, NULL, &noise, err);
-    for (int k = 0; ok && k < GLINT_SURFACE_COUNT; k++) {
+    ok = ok && glint_study_image(&changed->of[0], &changed->of[1], judged, reference->labels, NULL, &noise, err);
+    for (int k = 0; ok && k < GLINT_CLASS_COUNT; k++) {
         const double all = change.of[k].rmse, own = 0.5 * noise.of[k].rmse;
         struct glint_reference_change *found = &row->of[k];
         *found = (struct glint_reference_change){
@@ -73,7 +74,7 @@ static bool trace_assumption(const struct glint_reference *reference, uint32_t r
     snprintf(part->text, sizeof part->text, "%s %g", row->row->name, row->tried);
     bool ok = pipeline && glint_pipeline_set(pipeline, assignment, err) &&
               trace_rounds(reference, pipeline, rays, *part, &halves, err) &&
-              compare_halves(base, &halves, reference->surfaces, row, err);
+              compare_halves(reference, base, &halves, row, err);
     halves_finish(&halves);
     glint_pipeline_destroy(&pipeline);
     return ok;
@@ -82,7 +83,7 @@ static bool trace_assumption(const struct glint_reference *reference, uint32_t r
 /* Stores the result, also in the folder. */
 static bool store_sensitivity(struct glint_reference *reference, const struct glint_reference_sensitivity *sensitivity,
                               struct glint_error *err) {
-    json_t *found = reference_sensitivity_json(sensitivity);
+    json_t *found = reference_sensitivity_json(reference->effect, sensitivity);
     bool ok = found != NULL;
     if (ok) {
         json_decref(reference->sensitivity);

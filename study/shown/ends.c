@@ -1,4 +1,4 @@
-/* Coverage of a run's reflection, and why its rays ended, according to the run's own images. */
+/* Coverage of an effect's result, and why its rays ended, according to the run's own images. */
 #include "glint/probe.h"
 #include "glint/study.h"
 #include "values.h"
@@ -20,21 +20,25 @@ static size_t texel_of(const struct glint_image *image, size_t pixel, uint32_t w
     return y * image->width + x;
 }
 
-uint8_t *glint_study_coverage(struct glint_replay *replay, const struct glint_pixels *reflection,
-                              struct glint_error *err) {
+static bool belongs_to(const struct glint_pass *pass, const struct glint_effect *effect) {
+    return strcmp(pass->effect, effect->name) == 0;
+}
+
+uint8_t *glint_study_coverage(struct glint_replay *replay, const struct glint_effect *effect,
+                              const struct glint_pixels *result, struct glint_error *err) {
     const struct glint_image *image = study_image(replay, GLINT_ROLE_CONTRIBUTION);
-    size_t pixels = (size_t)reflection->width * reflection->height;
+    size_t pixels = (size_t)result->width * result->height;
     uint8_t *coverage = malloc(pixels);
     float *contribution = NULL;
-    if (!coverage) glint_fail(err, GLINT_ERROR_MEMORY, "reflection: out of memory");
+    if (!coverage) glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", effect->noun);
+    if (image && !belongs_to(image->pass, effect)) image = NULL;
     if (coverage && image && !(contribution = study_values(replay, image, GLINT_F32, err))) {
         free(coverage);
         return NULL;
     }
     for (size_t i = 0; coverage && i < pixels; i++) {
-        float part = reflection->components > 3 ? reflection->values[i * reflection->components + 3] : 1;
-        if (contribution)
-            part *= contribution[texel_of(image, i, reflection->width, reflection->height) * image->components];
+        float part = result->components > 3 ? result->values[i * result->components + 3] : 1;
+        if (contribution) part *= contribution[texel_of(image, i, result->width, result->height) * image->components];
         coverage[i] = part >= 0.5F;
     }
     free(contribution);
@@ -61,13 +65,14 @@ static const struct glint_image *diagnostic_image(struct glint_replay *replay, c
 }
 
 /* Finds passes with end reasons, in order of execution. A pass whose images have another size traces other rays and is left out. */
-static bool find_tracers(struct glint_replay *replay, struct tracer *tracers, size_t *count, struct glint_error *err) {
+static bool find_tracers(struct glint_replay *replay, const struct glint_effect *effect, struct tracer *tracers,
+                         size_t *count, struct glint_error *err) {
     size_t passes = 0;
     const struct glint_pass_result *results = glint_replay_results(replay, &passes);
     *count = 0;
     for (size_t p = 0; p < passes; p++) {
         const struct glint_row *row = glint_pass_row(results[p].pass, GLINT_ROW_TRACER, NULL);
-        if (!results[p].ran || !row || *count == TRACERS) continue;
+        if (!results[p].ran || !row || !belongs_to(results[p].pass, effect) || *count == TRACERS) continue;
         struct tracer *t = &tracers[*count];
         const struct glint_image *first = *count ? tracers[0].end : NULL;
         t->end = glint_replay_find_image(replay, row->image);
@@ -89,9 +94,9 @@ static size_t end_group(const struct tracer *tracers, size_t count, size_t texel
     return 0;
 }
 
-/* Clears rays that do not start from a reflecting surface. A ray starts at the pixel that was picked in its texel. */
-static bool clear_hidden_rays(struct glint_replay *replay, struct tracer *tracers, size_t count,
-                              const uint8_t *surfaces, const struct glint_pixels *full, struct glint_error *err) {
+/* Clears rays that do not start from a pixel that is judged. A ray starts at the pixel that was picked in its texel. */
+static bool clear_hidden_rays(struct glint_replay *replay, struct tracer *tracers, size_t count, const uint8_t *labels,
+                              const struct glint_pixels *full, struct glint_error *err) {
     const struct glint_image *image = study_image(replay, GLINT_ROLE_RAY_PICK), *end = tracers[0].end;
     uint32_t *pick = image ? study_values(replay, image, GLINT_U32, err) : NULL;
     const uint32_t scale = end->width == full->width && end->height == full->height ? 1 : 2;
@@ -99,8 +104,7 @@ static bool clear_hidden_rays(struct glint_replay *replay, struct tracer *tracer
     for (size_t i = 0; i < (size_t)end->width * end->height; i++) {
         const uint32_t picked = pick ? pick[i] & 7 : 0, at = scale == 2 && picked < 4 ? picked : 0;
         uint32_t x = scale * (uint32_t)(i % end->width) + (at & 1), y = scale * (uint32_t)(i / end->width) + (at >> 1);
-        if (x < full->width && y < full->height && surfaces[(size_t)y * full->width + x] != GLINT_SURFACE_NONE)
-            continue;
+        if (x < full->width && y < full->height && labels[(size_t)y * full->width + x] != GLINT_CLASS_NONE) continue;
         for (size_t t = 0; t < count; t++) tracers[t].reasons[i] = 0;
     }
     free(pick);
@@ -127,11 +131,13 @@ struct group {
 };
 
 static double symmetric_error(const struct glint_pixels *found, const struct glint_pixels *truth, size_t i) {
+    const uint32_t least = found->components < truth->components ? found->components : truth->components,
+                   channels = least < 3 ? least : 3;
     double sum = 0;
-    for (uint32_t k = 0; k < 3; k++) {
+    for (uint32_t k = 0; k < channels; k++) {
         double a = (double)found->values[i * found->components + k],
                b = (double)truth->values[i * truth->components + k];
-        sum += fabs(a - b) / (fabs(a) + fabs(b) + GLINT_SYMMETRIC_EPSILON) / 3;
+        sum += fabs(a - b) / (fabs(a) + fabs(b) + GLINT_SYMMETRIC_EPSILON) / channels;
     }
     return sum;
 }
@@ -154,18 +160,40 @@ static void fill_end_rows(const struct tracer *tracers, size_t count, const stru
     }
 }
 
-bool glint_study_ends(struct glint_replay *replay, const uint8_t *surfaces, const struct glint_pixels *found,
-                      const struct glint_pixels *truth, const uint8_t *compared, struct glint_ends *ends,
-                      struct glint_error *err) {
+/* Sums what passes of the effect that trace no rays count in a unit. */
+static bool sum_without_rays(struct glint_replay *replay, const struct glint_effect *effect, const char *unit,
+                             double sums[2], struct glint_error *err) {
+    size_t count = 0;
+    const struct glint_pass_result *results = glint_replay_results(replay, &count);
+    for (size_t p = 0; p < count; p++) {
+        const struct tracer counts = {.pass = results[p].pass};
+        if (!results[p].ran || !belongs_to(counts.pass, effect) || glint_pass_row(counts.pass, GLINT_ROW_TRACER, NULL))
+            continue;
+        const struct glint_image *image = diagnostic_image(replay, &counts, unit);
+        uint32_t *values = image ? study_values(replay, image, GLINT_U32, err) : NULL;
+        if (image && !values) return false;
+        double *sum = &sums[glint_pass_row(counts.pass, GLINT_ROW_PER_RAY, NULL) != NULL];
+        for (size_t i = 0; image && i < (size_t)image->width * image->height; i++)
+            *sum += (double)values[i * image->components];
+        free(values);
+    }
+    return true;
+}
+
+bool glint_study_ends(struct glint_replay *replay, const struct glint_effect *effect, const uint8_t *labels,
+                      const struct glint_pixels *found, const struct glint_pixels *truth, const uint8_t *compared,
+                      struct glint_ends *ends, struct glint_error *err) {
     struct tracer tracers[TRACERS] = {0};
     struct group groups[TRACERS * REASONS] = {0};
     size_t count = 0;
     double steps = 0, fetches = 0;
     *ends = (struct glint_ends){0};
-    bool ok = find_tracers(replay, tracers, &count, err) &&
-              (!surfaces || !count || clear_hidden_rays(replay, tracers, count, surfaces, found, err)) &&
+    bool ok = find_tracers(replay, effect, tracers, &count, err) &&
+              (!labels || !count || clear_hidden_rays(replay, tracers, count, labels, found, err)) &&
               sum_diagnostic(replay, tracers, count, "steps", &steps, err) &&
-              sum_diagnostic(replay, tracers, count, "fetches", &fetches, err);
+              sum_diagnostic(replay, tracers, count, "fetches", &fetches, err) &&
+              sum_without_rays(replay, effect, "steps", ends->more_steps, err) &&
+              sum_without_rays(replay, effect, "fetches", ends->more_fetches, err);
     size_t texels = ok && count ? (size_t)tracers[0].end->width * tracers[0].end->height : 0;
     for (size_t i = 0; i < texels; i++) {
         size_t g = end_group(tracers, count, i);
@@ -197,8 +225,8 @@ static uint8_t ray_source(const struct tracer *tracers, size_t group) {
     return reason == GLINT_END_FALLBACK ? SOURCE_FALLBACK : SOURCE_MISS;
 }
 
-bool glint_study_source(struct glint_replay *replay, uint32_t width, uint32_t height, struct glint_classes *source,
-                        struct glint_error *err) {
+bool glint_study_source(struct glint_replay *replay, const struct glint_effect *effect, uint32_t width, uint32_t height,
+                        struct glint_classes *source, struct glint_error *err) {
     struct tracer tracers[TRACERS] = {0};
     size_t count = 0, pixels = (size_t)width * height;
     *source =
@@ -208,9 +236,9 @@ bool glint_study_source(struct glint_replay *replay, uint32_t width, uint32_t he
                                 glint_probe_label("end reason", GLINT_END_SKY).name, "nothing found"},
                                SOURCES,
                                NULL};
-    bool ok = find_tracers(replay, tracers, &count, err);
+    bool ok = find_tracers(replay, effect, tracers, &count, err);
     if (ok && count && !(source->labels = malloc(pixels)))
-        ok = glint_fail(err, GLINT_ERROR_MEMORY, "sources of reflections: out of memory");
+        ok = glint_fail(err, GLINT_ERROR_MEMORY, "classes: out of memory");
     for (size_t i = 0; ok && count && i < pixels; i++)
         source->labels[i] = ray_source(tracers, end_group(tracers, count, texel_of(tracers[0].end, i, width, height)));
     for (size_t t = 0; t < TRACERS; t++) free(tracers[t].reasons);

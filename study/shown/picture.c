@@ -14,8 +14,7 @@ const struct glint_image *glint_study_picture(struct glint_replay *replay) {
     bool composed = false;
     for (size_t i = 0; i < count; i++) {
         composed = composed || glint_pass_role(results[i].pass, GLINT_ROLE_COMPOSED);
-        const struct glint_image *image =
-            composed && results[i].shown ? study_radiance(replay, results[i].pass, NULL) : NULL;
+        const struct glint_image *image = composed && results[i].shown ? study_radiance(replay, results[i].pass) : NULL;
         if (image) last = image;
     }
     return last;
@@ -51,7 +50,7 @@ bool glint_study_overlay_error(const struct glint_pixels *picture, struct glint_
     uint8_t *mask = calloc(pixels, 1);
     struct glint_image_errors errors = {0};
     bool ok = z && (mask || glint_fail(err, GLINT_ERROR_MEMORY, "part %s: out of memory", part));
-    for (size_t i = 0; ok && i < pixels; i++) mask[i] = z[i] < INFINITY ? GLINT_SURFACE_MIRROR : GLINT_SURFACE_NONE;
+    for (size_t i = 0; ok && i < pixels; i++) mask[i] = z[i] < INFINITY ? GLINT_CLASS_FIRST : GLINT_CLASS_NONE;
     ok = ok && glint_study_image(picture, &truth, 3, mask, NULL, &errors, err);
     *error = errors.of[0];
     free(mask);

@@ -44,7 +44,7 @@ static void label_rows(void *user, size_t first, size_t last) {
     for (size_t i = first * r->width; i < last * r->width; i++) {
         const float *g = r->gbuffer + i * CHANNELS;
         double way[3], cosine = 0, square = 0;
-        if (r->sets[GLINT_CLASSES_SURFACE].labels[i] == GLINT_SURFACE_NONE) continue;
+        if (r->sets[GLINT_CLASSES_EFFECT].labels[i] == GLINT_CLASS_NONE) continue;
         direction_of(r, i % r->width, i / r->width, way);
         for (int k = 0; k < 3; k++) {
             cosine -= way[k] * (double)g[NORMAL + k];
@@ -59,14 +59,13 @@ static void label_rows(void *user, size_t first, size_t last) {
 }
 
 /* The labels of the first partition must be set; so the G-buffer exists. */
-static bool label_all(struct glint_capture *capture, struct glint_classes *sets, size_t count,
-                      struct glint_error *err) {
+static bool label_all(struct glint_capture *capture, const struct glint_effect *effect, struct glint_classes *sets,
+                      size_t count, struct glint_error *err) {
     static const char *const distance[] = {"distance.Z"};
     const struct glint_part_info *part = glint_capture_find(capture, GLINT_PART_GBUFFER);
     const size_t pixels = (size_t)part->width * part->height;
     float *gbuffer = study_channels(capture, GLINT_PART_GBUFFER, channels, CHANNELS, err);
-    float *hits =
-        gbuffer && count > GLINT_CLASSES_HIT ? study_channels(capture, "truth.mirror", distance, 1, err) : NULL;
+    float *hits = gbuffer && count > GLINT_CLASSES_HIT ? study_channels(capture, effect->rays, distance, 1, err) : NULL;
     bool ok = gbuffer && (hits || count <= GLINT_CLASSES_HIT);
     for (size_t k = 1; ok && k < count; k++)
         if (!(sets[k].labels = calloc(pixels, 1))) ok = glint_fail(err, GLINT_ERROR_MEMORY, "classes: out of memory");
@@ -79,13 +78,13 @@ static bool label_all(struct glint_capture *capture, struct glint_classes *sets,
     return ok;
 }
 
-bool glint_study_classes(struct glint_capture *capture, struct glint_classes sets[GLINT_CAPTURE_CLASSES], size_t *count,
-                         struct glint_error *err) {
-    *count = glint_capture_find(capture, "truth.mirror") ? GLINT_CAPTURE_CLASSES : GLINT_CLASSES_HIT;
+bool glint_study_classes(struct glint_capture *capture, const struct glint_effect *effect,
+                         struct glint_classes sets[GLINT_CAPTURE_CLASSES], size_t *count, struct glint_error *err) {
+    *count = effect->rays && glint_capture_find(capture, effect->rays) ? GLINT_CAPTURE_CLASSES : GLINT_CLASSES_HIT;
     for (size_t k = 0; k < GLINT_CAPTURE_CLASSES; k++) sets[k] = empty[k];
     sets[GLINT_CLASSES_HIT].names[LIMITS + 1] = glint_probe_label("end reason", GLINT_END_SKY).name;
-    sets[GLINT_CLASSES_SURFACE] = glint_surface_classes(glint_study_surfaces(capture, err));
-    if (sets[0].labels && label_all(capture, sets, *count, err)) return true;
+    sets[GLINT_CLASSES_EFFECT] = glint_study_classes_of(effect, glint_study_labels(capture, effect, err));
+    if (sets[0].labels && label_all(capture, effect, sets, *count, err)) return true;
     for (size_t k = 0; k < GLINT_CAPTURE_CLASSES; k++) glint_classes_finish(&sets[k]);
     return false;
 }

@@ -91,14 +91,15 @@ struct inputs {
 };
 
 static bool read_inputs(struct inputs *in, struct glint_replay *replay, struct glint_capture *capture,
-                        struct glint_error *err) {
+                        const struct glint_effect *effect, struct glint_error *err) {
     static const char *const radiance[] = {"R", "G", "B", "weight"}, *const mirror[] = {"distance.Z", "visible"};
-    in->mirror = study_channels(capture, "truth.mirror", mirror, 2, err);
+    char truth[96];
+    glint_study_truth_part(effect, NULL, truth); /* mirror rays are those of any lobe */
+    in->mirror = study_channels(capture, effect->rays, mirror, 2, err);
     if (!in->mirror) return false;
-    in->width = glint_capture_find(capture, "truth.mirror")->width;
-    in->height = glint_capture_find(capture, "truth.mirror")->height;
-    if (glint_capture_find(capture, "truth.reflection.ggx") &&
-        !(in->radiance = study_channels(capture, "truth.reflection.ggx", radiance, 4, err)))
+    in->width = glint_capture_find(capture, effect->rays)->width;
+    in->height = glint_capture_find(capture, effect->rays)->height;
+    if (glint_capture_find(capture, truth) && !(in->radiance = study_channels(capture, truth, radiance, 4, err)))
         return false;
     for (int k = 0; k < IMAGES; k++) {
         const struct glint_image *image = study_image(replay, inputs[k].role);
@@ -141,10 +142,11 @@ static uint32_t truth_end(const struct inputs *in, size_t pixel) {
 /* Rays of all surfaces, at most one a texel. */
 struct rays {
     float *found, *truth;
-    uint8_t *surfaces;
+    uint8_t *labels;
     struct sample *samples; /* rays of surfaces up to max_roughness */
     size_t count, sample_count;
-    double fetches[GLINT_SURFACE_COUNT]; /* sums */
+    double fetches[GLINT_CLASS_COUNT]; /* sums */
+    const struct glint_effect *effect;
     double max_roughness;
 };
 
@@ -168,9 +170,9 @@ static void compare_texel(const struct inputs *in, size_t i, struct rays *rays) 
     if (reason == 0 || !(distance > 0)) return;
     rays->found[rays->count] = travelled;
     rays->truth[rays->count] = distance;
-    enum glint_surface surface = glint_surface_of((double)roughness);
-    rays->surfaces[rays->count++] = (uint8_t)surface;
-    rays->fetches[surface] += fetches_at(in, SCREEN_FETCHED, i) + fetches_at(in, CUBE_FETCHED, i);
+    const size_t label = glint_effect_class_of(rays->effect, (double)roughness);
+    rays->labels[rays->count++] = (uint8_t)label;
+    rays->fetches[label] += fetches_at(in, SCREEN_FETCHED, i) + fetches_at(in, CUBE_FETCHED, i);
     if (!(roughness <= (float)rays->max_roughness)) return;
     rays->samples[rays->sample_count++] =
         (struct sample){distance_relative_error((double)travelled, (double)distance), radiance_error(in, i, pixel),
@@ -180,31 +182,31 @@ static void compare_texel(const struct inputs *in, size_t i, struct rays *rays) 
 static bool allocate_rays(struct rays *rays, size_t texels, struct glint_error *err) {
     rays->found = malloc(texels * sizeof *rays->found);
     rays->truth = malloc(texels * sizeof *rays->truth);
-    rays->surfaces = malloc(texels);
+    rays->labels = malloc(texels);
     rays->samples = malloc(texels * sizeof *rays->samples);
-    return (rays->found && rays->truth && rays->surfaces && rays->samples) ||
+    return (rays->found && rays->truth && rays->labels && rays->samples) ||
            glint_fail(err, GLINT_ERROR_MEMORY, "trace table: out of memory");
 }
 
-bool glint_study_trace(struct glint_replay *replay, struct glint_capture *capture, double max_roughness,
-                       struct glint_trace_table *table, struct glint_error *err) {
+bool glint_study_trace(struct glint_replay *replay, struct glint_capture *capture, const struct glint_effect *effect,
+                       double max_roughness, struct glint_trace_table *table, struct glint_error *err) {
     struct inputs in = {0};
-    struct rays rays = {.max_roughness = max_roughness};
+    struct rays rays = {.effect = effect, .max_roughness = max_roughness};
     *table = (struct glint_trace_table){0};
-    bool ok = read_inputs(&in, replay, capture, err);
+    bool ok = read_inputs(&in, replay, capture, effect, err);
     size_t texels = (size_t)in.run_width * in.run_height;
     if (ok) ok = allocate_rays(&rays, texels, err);
     for (size_t i = 0; ok && i < texels; ++i) compare_texel(&in, i, &rays);
     if (ok && rays.sample_count > 0) fill_table(rays.samples, rays.sample_count, table);
-    if (ok) ok = glint_study_distances(rays.found, rays.truth, rays.surfaces, rays.count, &table->surfaces, err);
-    for (size_t k = 1; ok && k < GLINT_SURFACE_COUNT; ++k) {
+    if (ok) ok = glint_study_distances(rays.found, rays.truth, rays.labels, rays.count, &table->surfaces, err);
+    for (size_t k = 1; ok && k < GLINT_CLASS_COUNT; ++k) {
         uint64_t all = table->surfaces.of[0].rays, here = table->surfaces.of[k].rays;
         table->fetches[k] = here ? rays.fetches[k] / (double)here : 0;
         table->fetches[0] += all ? rays.fetches[k] / (double)all : 0;
     }
     free(rays.found);
     free(rays.truth);
-    free(rays.surfaces);
+    free(rays.labels);
     free(rays.samples);
     free_inputs(&in);
     return ok;

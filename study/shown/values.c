@@ -1,6 +1,7 @@
 /* Reads images of runs and channels of captures into memory. */
 #include "values.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -51,14 +52,21 @@ float *study_run_values(struct glint_run *run, const struct glint_run_image *ima
     return NULL;
 }
 
-const struct glint_image *study_radiance(struct glint_replay *replay, const struct glint_pass *pass,
-                                         const struct glint_pass *reader) {
+void study_split_channels(const char *channels, struct study_channel_list *list) {
+    char *rest = NULL;
+    snprintf(list->text, sizeof list->text, "%s", channels);
+    list->count = 0;
+    for (char *word = strtok_r(list->text, " ", &rest); word && list->count < 4; word = strtok_r(NULL, " ", &rest))
+        list->names[list->count++] = word;
+}
+
+const struct glint_image *study_radiance(struct glint_replay *replay, const struct glint_pass *pass) {
     const struct glint_image *last = NULL;
     for (size_t i = 0; i < pass->row_count; i++) {
         const struct glint_row *row = &pass->rows[i];
         if (row->kind != GLINT_ROW_WRITE || row->size != GLINT_SIZE_FULL || strcmp(row->unit, "radiance")) continue;
         const struct glint_image *image = glint_replay_find_image(replay, row->name);
-        if (image && (!reader || glint_pass_row(reader, GLINT_ROW_READ, row->name))) last = image;
+        if (image) last = image;
     }
     return last;
 }

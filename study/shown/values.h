@@ -16,8 +16,14 @@ float *study_channels(struct glint_capture *capture, const char *part, const cha
 
 /* The same of an image of a run folder, as GLINT_F32. */
 float *study_run_values(struct glint_run *run, const struct glint_run_image *image, struct glint_error *err);
-/* The last of a pass's images of the last run that holds radiance at full resolution; `reader`: only of those that this pass reads (NULL: any). */
-const struct glint_image *study_radiance(struct glint_replay *replay, const struct glint_pass *pass,
-                                         const struct glint_pass *reader);
+/* Names such as "R G B", one by one. */
+struct study_channel_list {
+    char text[64];
+    const char *names[4];
+    uint32_t count;
+};
+void study_split_channels(const char *channels, struct study_channel_list *list);
+/* The last of a pass's images of the last run that holds radiance at full resolution. */
+const struct glint_image *study_radiance(struct glint_replay *replay, const struct glint_pass *pass);
 
 #endif

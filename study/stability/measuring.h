@@ -26,7 +26,7 @@ struct measuring {
     const struct glint_stability_options *options;
     struct glint_stability *out;
     struct tracked *tracked; /* one for each of out->images */
-    uint8_t *surfaces;       /* of the unperturbed frame; pixels that are not 0 are compared */
+    uint8_t *labels;         /* of the unperturbed frame; pixels that are not 0 are compared */
     /* Masks of the decisions that flipped in a seed: at each pixel; within REACH_PX of it; scratch memory. */
     uint32_t *decided[3];
     double input_mean[INPUTS_MAX];

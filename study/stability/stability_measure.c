@@ -25,7 +25,7 @@ static void measuring_finish(struct measuring *m) {
     for (size_t i = 0; m->tracked && i < m->out->image_count; i++) free(m->tracked[i].base);
     for (int k = 0; k < 3; k++) free(m->decided[k]);
     free(m->tracked);
-    free(m->surfaces);
+    free(m->labels);
 }
 
 /* ---- Runs ---- */
@@ -49,16 +49,12 @@ static uint32_t *read_bits(const struct measuring *m, const struct glint_image *
 
 /* ---- Which images are measured ---- */
 
-static bool is_per_pixel(enum glint_size_class size) {
-    return size == GLINT_SIZE_FULL || size == GLINT_SIZE_HALF || size == GLINT_SIZE_EIGHTH ||
-           size == GLINT_SIZE_FULL_MIPS || size == GLINT_SIZE_HALF_MIPS || size == GLINT_SIZE_HALF_MIPS3;
-}
 /* Tables, lists and MIP levels are not measured, nor are ids of the capture. */
 static bool is_measured(const struct glint_image *image) {
     const enum glint_size_class size = image->row->size;
     const bool uint = glint_format_is_uint(image->format);
     if (image->level || size == GLINT_SIZE_LIST || (!image->pass && uint)) return false;
-    return !uint || is_per_pixel(size);
+    return !uint || glint_size_is_picture(size);
 }
 /* Numbers of steps and fetches are counts, not decisions. */
 static bool is_decision(const struct glint_image *image) {
@@ -77,7 +73,7 @@ static bool track_image(struct measuring *m, const struct glint_image *from, str
                                             .width = from->width,
                                             .height = from->height,
                                             .components = from->components,
-                                            .per_pixel = is_per_pixel(from->row->size),
+                                            .per_pixel = glint_size_is_picture(from->row->size),
                                             .discrete = is_decision(from)};
     *t = (struct tracked){.out = image, .input = -1, .decision = -1};
     if (!image->name || !(t->base = read_bits(m, from, err)) || !(image->flips = calloc(texels, 1)) ||
@@ -200,9 +196,11 @@ bool glint_stability_measure(struct glint_replay *replay, struct glint_capture *
                                           .bound = options->bound > 0 ? options->bound : GLINT_STABILITY_BOUND};
     struct measuring m = {.replay = replay, .capture = capture, .options = options, .out = stability};
     struct glint_progress_part part = {.progress = progress, .user = user, .share = 1.0 / (stability->seeds + 1)};
+    size_t effects;
+    const struct glint_effect *effect = options->effect ? options->effect : glint_effects(&effects);
     bool ok = stability->seeds <= UINT8_MAX ||
               glint_fail(err, GLINT_ERROR_USAGE, "seeds: expected 1 to %d, found %u", UINT8_MAX, stability->seeds);
-    ok = ok && run_frame(&m, pipeline, 0, &part, err) && (m.surfaces = glint_study_surfaces(capture, err)) &&
+    ok = ok && run_frame(&m, pipeline, 0, &part, err) && (m.labels = glint_study_labels(capture, effect, err)) &&
          begin_measuring(&m, err);
     for (uint32_t seed = 1; ok && seed <= stability->seeds; seed++)
         ok = run_frame(&m, pipeline, seed, &part, err) && compare_all(&m, err);

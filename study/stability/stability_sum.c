@@ -8,13 +8,13 @@
 #include "glint/sort.h"
 #include "no_memory.h"
 
-/* Whether a texel is compared: it must cover a reflecting pixel, unless the image is not per_pixel. */
+/* Whether a texel is compared: it must cover a judged pixel, unless the image is not per_pixel. */
 static bool is_compared(const struct measuring *m, const struct glint_stability_image *image, uint32_t x, uint32_t y) {
     if (!image->per_pixel) return true;
     const struct footprint f = footprint_of(m->out, image, x, y);
     for (uint32_t v = f.y0; v < f.y1; v++)
         for (uint32_t u = f.x0; u < f.x1; u++)
-            if (m->surfaces[(size_t)v * m->out->width + u]) return true;
+            if (m->labels[(size_t)v * m->out->width + u]) return true;
     return false;
 }
 
@@ -155,7 +155,7 @@ static void count_pass(const struct measuring *m, struct glint_stability_pass *p
     const size_t pixels = (size_t)s->width * s->height;
     size_t count = 0;
     for (size_t i = 0; i < pixels; i++) {
-        if (!m->surfaces[i]) continue;
+        if (!m->labels[i]) continue;
         pass->flipped += sums->flips[i] & 1;
         pass->ends += sums->flips[i] >> 1;
         if (sums->flips[i] && !s->flip_start[i]) s->flip_start[i] = (uint32_t)pass->place, pass->flip_starts++;

@@ -25,10 +25,10 @@ static void errors_are_those_of_the_reflection(void **state) {
     const float *noise;
     if (!glint_judge_evaluate(judge, fixture->pipeline, 0, &verdict, NULL, NULL, &err)) fail_msg("%s", err.message);
     fixture_run(fixture, NULL);
-    assert_true(glint_study_reflection(fixture->replay, &found, &err));
+    assert_true(glint_study_result(fixture->replay, glint_judge_effect(judge), &found, &err));
     const struct glint_pixels *answer =
         glint_judge_target(judge, GLINT_TARGET_REFERENCE, fixture->pipeline, &noise, NULL, NULL, &err);
-    assert_true(glint_study_image(&found, answer, 3, glint_judge_surfaces(judge), noise, &errors, &err));
+    assert_true(glint_study_image(&found, answer, 3, glint_judge_labels(judge), noise, &errors, &err));
     const struct glint_metric_table *table = &verdict.errors[GLINT_TARGET_REFERENCE];
     assert_true(errors.of[0].pixels > 100 && table->rows[0].pixels == errors.of[0].pixels);
     assert_true(errors.of[0].rmse > 0 && table->rows[0].of[GLINT_METRIC_RMSE].value == errors.of[0].rmse);
@@ -87,10 +87,10 @@ static void what_the_truth_does_not_know_counts_nowhere(void **state) {
     assert_non_null(capture);
     struct glint_judge *judge = judge_of(fixture, capture, false);
     if (!glint_judge_evaluate(judge, fixture->pipeline, 0, &verdict, NULL, NULL, &err)) fail_msg("%s", err.message);
-    const uint8_t *surfaces = glint_judge_surfaces(judge);
+    const uint8_t *surfaces = glint_judge_labels(judge);
     size_t known = 0, given = 0, counted = 0;
     for (size_t i = 0; i < W * H; i++) {
-        const bool reflects = i % W < W / 2 && surfaces[i] != GLINT_SURFACE_NONE;
+        const bool reflects = i % W < W / 2 && surfaces[i] != GLINT_CLASS_NONE;
         known += reflects, given += reflects && verdict.coverage[i];
     }
     for (size_t r = 0; r < verdict.ends.count; r++) {

@@ -64,7 +64,7 @@ static void noise_falls_with_the_root_of_independent_rays(void **state) {
     const double many = noise_of(reference);
     float *error = NULL;
     struct glint_pixels late = pixels_of(reference, &error);
-    uint8_t *surfaces = glint_study_surfaces(fixture->capture, &err);
+    uint8_t *surfaces = glint_study_labels(fixture->capture, glint_effect_find("reflection"), &err);
     assert_non_null(surfaces);
     /* A variance from 800 pixels of three channels, dominated by a few bright edges, has an error of about 10 %. */
     assert_true(few > 1e-4);
@@ -76,9 +76,9 @@ static void noise_falls_with_the_root_of_independent_rays(void **state) {
     assert_true(fabs(errors.of[0].truth_noise / many - 1) < 1e-4);
     const struct glint_reference_noise *noise = glint_reference_state(reference)->noise;
     assert_true(fabs(noise[0].relative * noise[0].mean / many - 1) < 1e-9);
-    assert_true(noise[GLINT_SURFACE_MIRROR].error < noise[GLINT_SURFACE_GLOSSY].error);
-    assert_int_equal(noise[GLINT_SURFACE_MIRROR].pixels + noise[GLINT_SURFACE_GLOSSY].pixels +
-                         noise[GLINT_SURFACE_ROUGH].pixels,
+    assert_true(noise[GLINT_CLASS_FIRST].error < noise[GLINT_CLASS_FIRST + 1].error);
+    assert_int_equal(noise[GLINT_CLASS_FIRST].pixels + noise[GLINT_CLASS_FIRST + 1].pixels +
+                         noise[GLINT_CLASS_FIRST + 2].pixels,
                      noise[0].pixels);
     /* Well-stratified rays have less noise, and their result differs from that of others only by both noises. */
     struct glint_reference *spread = need_reference(fixture, NULL, NULL);
@@ -113,7 +113,7 @@ static void a_half_is_one_run_of_its_rays(void **state) {
                     glint_pipeline_set(pipeline, first, &err));
         const struct glint_replay_options options = {.float_precision = true};
         if (!glint_replay_run(fixture->replay, pipeline, &options, NULL, NULL, &err)) fail_msg("%s", err.message);
-        assert_true(glint_study_reflection(fixture->replay, &half[h], &err));
+        assert_true(glint_study_result(fixture->replay, glint_effect_find("reflection"), &half[h], &err));
     }
     size_t differ = 0;
     for (size_t i = 0; i < (size_t)FIXTURE_WIDTH * FIXTURE_HEIGHT * 4; i++) {
@@ -174,7 +174,8 @@ static void an_interrupted_reference_goes_on_to_the_same_bits(void **state) {
     glint_pixels_finish(&b);
     /* The run as others read it. */
     struct glint_run *run = glint_run_open(folder, &err);
-    if (!run || !glint_study_run_reflection(run, &b, &err) || !glint_study_run_error(run, &errors[1], &err))
+    if (!run || !glint_study_run_result(run, glint_effect_find("reflection"), &b, &err) ||
+        !glint_study_run_error(run, glint_effect_find("reflection"), &errors[1], &err))
         fail_msg("%s", err.message);
     check_same(&a, &b);
     assert_memory_equal(errors[0], errors[1], (size_t)a.width * a.height * sizeof(float));
@@ -380,7 +381,7 @@ static struct change expected(double thickness, double other) {
 
 static void check_change(const struct glint_reference_assumption *row, double tried) {
     const struct change truth = expected(0.1, tried);
-    const struct glint_reference_change *found = &row->of[GLINT_SURFACE_MIRROR];
+    const struct glint_reference_change *found = &row->of[GLINT_CLASS_FIRST];
     assert_true(row->ran && fabs(row->value - 0.1) < 1e-6 && fabs(row->tried - tried) < 1e-6);
     print_message("# thickness %g: mean change %+.5f, expected %+.5f; RMSE %.5f, expected %.5f\n", tried, found->mean,
                   truth.mean, found->rmse, truth.rmse);

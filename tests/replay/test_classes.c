@@ -24,7 +24,8 @@ static void check_room(const struct fixture *fixture, uint32_t number, double sc
     snprintf(path, sizeof path, "%s/room.exr", fixture->folder);
     assert_true(fixture_write_capture(path, &(struct fixture_options){.number = number}, &err));
     struct glint_capture *capture = glint_capture_open(path, NULL, &err);
-    if (!capture || !glint_study_classes(capture, sets, &count, &err)) fail_msg("%s", err.message);
+    if (!capture || !glint_study_classes(capture, glint_effect_find("reflection"), sets, &count, &err))
+        fail_msg("%s", err.message);
     assert_int_equal(count, GLINT_CLASSES_HIT); /* there is no truth.mirror */
     for (int y = 0; y < H; y++)
         for (int x = 0; x < W; x++) {
@@ -71,7 +72,8 @@ static void hits_are_binned_and_know_the_sky(void **state) {
     if (!fixture_write_capture(path, &(struct fixture_options){.extra = &part, .extra_count = 1}, &err))
         fail_msg("%s", err.message);
     struct glint_capture *capture = glint_capture_open(path, NULL, &err);
-    if (!capture || !glint_study_classes(capture, sets, &count, &err)) fail_msg("%s", err.message);
+    if (!capture || !glint_study_classes(capture, glint_effect_find("reflection"), sets, &count, &err))
+        fail_msg("%s", err.message);
     assert_int_equal(count, GLINT_CAPTURE_CLASSES);
     for (size_t i = 0; i < (size_t)W * H; i++) {
         if (!sets[GLINT_CLASSES_SURFACE].labels[i]) continue;
@@ -106,7 +108,8 @@ static void pixels_of_which_the_truth_knows_nothing_are_not_compared(void **stat
         if (!fixture_write_capture(path, &(struct fixture_options){.extra = &part, .extra_count = 1}, &err))
             fail_msg("%s", err.message);
         struct glint_capture *capture = glint_capture_open(path, NULL, &err);
-        if (!capture || !glint_study_truth(capture, fixture->pipeline, &answer, &error, &err))
+        if (!capture ||
+            !glint_study_truth(capture, glint_effect_find("reflection"), fixture->pipeline, &answer, &error, &err))
             fail_msg("%s", err.message);
         static float three[H * W * 3];
         for (size_t i = 0; i < sizeof three / sizeof *three; i++) three[i] = 3;

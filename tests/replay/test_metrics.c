@@ -7,7 +7,7 @@
 #include "uniform.h"
 #include "unit.h"
 
-enum { NONE = GLINT_SURFACE_NONE, MIRROR = GLINT_SURFACE_MIRROR, GLOSSY = GLINT_SURFACE_GLOSSY };
+enum { NONE = GLINT_CLASS_NONE, MIRROR = GLINT_CLASS_FIRST, GLOSSY, ROUGH };
 
 static void assert_near(double found, double expected, double tolerance) {
     if (!(fabs(found - expected) <= tolerance)) fail_msg("%.17g is not %.17g ± %g", found, expected, tolerance);
@@ -31,7 +31,7 @@ static void figures_are_those_of_a_sum_by_hand(UNUSED void **state) {
     assert_near(e.of[GLOSSY].rmse, 2, 1e-15);
     assert_int_equal(e.of[0].pixels, 3);
     assert_near(e.of[0].rmse, sqrt((2.0 + 8) / 6), 1e-15);
-    assert_int_equal(e.of[GLINT_SURFACE_ROUGH].pixels, 0);
+    assert_int_equal(e.of[ROUGH].pixels, 0);
     assert_true(glint_study_image(&f, &t, 2, NULL, NULL, &e, &err));
     assert_int_equal(e.of[0].pixels, 4);
 }
@@ -104,7 +104,7 @@ static void distances_know_the_sky(UNUSED void **state) {
     assert_near(e.of[MIRROR].median, 1, 0); /* of 0, 0.04, 1, ∞ the upper middle one */
     assert_true(isinf(e.of[MIRROR].p95));
     assert_near(e.of[GLOSSY].right, 1.0 / 3, 1e-15);
-    assert_int_equal(e.of[GLINT_SURFACE_ROUGH].rays, 0);
+    assert_int_equal(e.of[ROUGH].rays, 0);
 }
 
 static void flicker_is_change_that_the_truth_does_not_make(UNUSED void **state) {
@@ -134,12 +134,17 @@ static void flicker_is_change_that_the_truth_does_not_make(UNUSED void **state) 
 }
 
 static void classes_meet_at_their_thresholds(UNUSED void **state) {
-    assert_int_equal(glint_surface_of(0), MIRROR);
-    assert_int_equal(glint_surface_of(GLINT_MIRROR_ROUGHNESS), MIRROR);
-    assert_int_equal(glint_surface_of(0.1001), GLOSSY);
-    assert_int_equal(glint_surface_of(GLINT_GLOSSY_ROUGHNESS), GLOSSY);
-    assert_int_equal(glint_surface_of(0.5001), GLINT_SURFACE_ROUGH);
-    assert_string_equal(glint_surface_name(GLINT_SURFACE_MIRROR), "mirror-like");
+    const struct glint_effect *effect = glint_effect_find("reflection");
+    assert_non_null(effect);
+    assert_int_equal(glint_effect_class_count(effect), 3);
+    assert_int_equal(glint_effect_class_of(effect, 0), MIRROR);
+    assert_int_equal(glint_effect_class_of(effect, 0.1), MIRROR);
+    assert_int_equal(glint_effect_class_of(effect, 0.1001), GLOSSY);
+    assert_int_equal(glint_effect_class_of(effect, 0.5), GLOSSY);
+    assert_int_equal(glint_effect_class_of(effect, 0.5001), ROUGH);
+    assert_int_equal(glint_effect_class_of(effect, NAN), ROUGH);
+    assert_string_equal(glint_effect_class_name(effect, GLINT_CLASS_FIRST), "mirror-like");
+    assert_string_equal(glint_effect_class_name(effect, 0), "all");
 }
 
 /* Millions of equal differences: sums in double lose at most 6e6 · 2^-53 of their value, those in float a hundredth. */
@@ -152,11 +157,11 @@ static void a_full_picture_keeps_its_digits(UNUSED void **state) {
     struct glint_error err = {0};
     assert_true(f.values && t.values && surfaces);
     for (size_t i = 0; i < 4 * PIXELS; i++) f.values[i] = 0.3F, t.values[i] = 0.1F;
-    for (size_t i = 0; i < PIXELS; i++) surfaces[i] = (uint8_t)(i % GLINT_SURFACE_COUNT);
+    for (size_t i = 0; i < PIXELS; i++) surfaces[i] = (uint8_t)(i % GLINT_CLASS_COUNT);
     assert_true(glint_study_image(&f, &t, 4, surfaces, NULL, &e, &err));
     const double apart = (double)0.3F - (double)0.1F;
-    assert_int_equal(e.of[0].pixels, PIXELS - PIXELS / GLINT_SURFACE_COUNT);
-    for (int k = 0; k < GLINT_SURFACE_COUNT; k++) {
+    assert_int_equal(e.of[0].pixels, PIXELS - PIXELS / GLINT_CLASS_COUNT);
+    for (int k = 0; k < GLINT_CLASS_COUNT; k++) {
         assert_near(e.of[k].mean, apart, 1e-9);
         assert_near(e.of[k].rmse, apart, 1e-9);
     }

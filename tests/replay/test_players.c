@@ -17,7 +17,7 @@ static struct glint_pipeline *preset(const char *name) {
 
 static struct glint_players *players_of(const struct glint_pipeline *pipeline, uint32_t rays) {
     struct glint_error err = {0};
-    struct glint_players *players = glint_players_create(pipeline, rays, &err);
+    struct glint_players *players = glint_players_create(pipeline, glint_effect_find("reflection"), rays, &err);
     if (!players) fail_msg("%s", err.message);
     return players;
 }
@@ -228,7 +228,7 @@ static void values_go_with_their_owners(UNUSED void **state) {
 static void the_reference_has_no_players(UNUSED void **state) {
     struct glint_pipeline *pipeline = preset("reference");
     struct glint_error err = {0};
-    assert_null(glint_players_create(pipeline, 0, &err));
+    assert_null(glint_players_create(pipeline, glint_effect_find("reflection"), 0, &err));
     assert_non_null(strstr(err.message, "no slot differs from the reference"));
     assert_true(glint_pipeline_set(pipeline, "screen_trace.solid=1", &err));
     struct glint_players *players = players_of(pipeline, 0);

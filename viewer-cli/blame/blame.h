@@ -13,8 +13,7 @@
 
 /* Values of a coalition (a set of replaced players): errors by class of pixels against reference and truth, the chosen one first, and
    texture fetches. */
-enum { BLAME_CLASSES = GLINT_SURFACE_COUNT, BLAME_FETCHES = GLINT_TARGET_COUNT * BLAME_CLASSES, BLAME_VALUES };
-extern const char *const blame_classes[BLAME_CLASSES];
+enum { BLAME_CLASSES = GLINT_CLASS_COUNT, BLAME_FETCHES = GLINT_TARGET_COUNT * BLAME_CLASSES, BLAME_VALUES };
 
 /* Milliseconds per frame, NAN if not timed: added when only this player is replaced; saved when only this player is kept. */
 struct blame_time {
@@ -54,6 +53,13 @@ struct blame {
     struct page_charts charts;
 };
 void blame_finish(struct blame *blame);
+/* The classes of the effect, all pixels first, and the name of one. */
+static inline size_t blame_classes(const struct blame *blame) {
+    return 1 + glint_effect_class_count(blame->against.effect);
+}
+static inline const char *blame_class(const struct blame *blame, size_t class) {
+    return glint_effect_class_name(blame->against.effect, class);
+}
 static inline size_t blame_value(size_t answer, size_t class) {
     return answer * BLAME_CLASSES + class;
 }

@@ -110,21 +110,21 @@ static void add_players(const struct blame *blame, const struct blame_sum *sum, 
                        json_number(100 * shares / blame_total(sum, v)), json_number(removed), json_number(made)));
 }
 
-/* Table of the shares within each class of surfaces. */
+/* Table of the shares within each class of pixels. */
 static void add_classes(const struct blame *blame, const struct blame_sum *sum, size_t answer, json_t *blocks) {
     json_t *table = page_table(blocks);
-    page_column(table, "shares by surface", "");
-    for (size_t k = 0; k < BLAME_CLASSES; k++) page_column(table, blame_classes[k], "|");
+    page_column(table, "shares by class", "");
+    for (size_t k = 0; k < blame_classes(blame); k++) page_column(table, blame_class(blame, k), "|");
     for (size_t i = 0; i < blame->count; i++) {
         json_t *row = json_pack("[s]", glint_player_name(blame->players, player_at(blame, i)));
-        for (size_t k = 0; k < BLAME_CLASSES; k++)
+        for (size_t k = 0; k < blame_classes(blame); k++)
             json_array_append_new(row, share_cell(sum, player_at(blame, i), blame_value(answer, k)));
         page_row(table, row);
     }
     static const char *const rows[] = {"error of the preset", "error of its reference"};
     for (size_t r = 0; r < 2; r++) {
         json_t *row = json_pack("[s]", rows[r]);
-        for (size_t k = 0; k < BLAME_CLASSES; k++)
+        for (size_t k = 0; k < blame_classes(blame); k++)
             json_array_append_new(row, json_number((r ? sum->shapley.all : sum->shapley.none)[blame_value(answer, k)]));
         page_row(table, row);
     }

@@ -250,12 +250,13 @@ static json_t *define(const struct blame *blame, const struct list *shaders, str
         json_decref(players);
         return NULL;
     }
-    json_t *json = json_pack(
-        "{s:i, s:s, s:o, s:o, s:o, s:o, s:o, s:s, s:o, s:I, s:b, s:I, s:[ss]}", "format", 1, "glint", GLINT_VERSION,
-        "captures", captures, "before", before, "pipeline", pipeline_json(blame->base), "shaders", sources, "players",
-        players, "reference", blame->against.truth ? "truth" : "computed", "reference_runs",
-        strings_json(blame->against.references.items), "reference_rays", (json_int_t)blame->against.rays, "all",
-        blame->all, "metrics", (json_int_t)blame->metrics, "device", device->name, device->driver_version);
+    json_t *json = json_pack("{s:i, s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:s, s:o, s:I, s:b, s:I, s:[ss]}", "format", 1,
+                             "glint", GLINT_VERSION, "effect", blame->against.effect->name, "captures", captures,
+                             "before", before, "pipeline", pipeline_json(blame->base), "shaders", sources, "players",
+                             players, "reference", blame->against.truth ? "truth" : "computed", "reference_runs",
+                             strings_json(blame->against.references.items), "reference_rays",
+                             (json_int_t)blame->against.rays, "all", blame->all, "metrics", (json_int_t)blame->metrics,
+                             "device", device->name, device->driver_version);
     if (!json) glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     return json;
 }

@@ -6,8 +6,6 @@
 #include "blame/blame.h"
 #include "glint/sort.h"
 
-const char *const blame_classes[BLAME_CLASSES] = {"all", "mirror-like", "glossy", "rough"};
-
 void blame_look_key(size_t capture, uint32_t coalition, char key[64]) {
     snprintf(key, 64, "look %zu %u", capture, coalition);
 }
@@ -23,9 +21,10 @@ void blame_values(const struct blame *blame, const json_t *line, double values[B
     const json_t *errors = json_object_get(line, "errors");
     for (size_t a = 0; a < GLINT_TARGET_COUNT; a++) {
         const json_t *classes = json_object_get(errors, glint_target_name(blame_answer(blame, a)));
-        for (size_t k = 0; k < BLAME_CLASSES; k++)
-            values[blame_value(a, k)] = number_of(
-                json_object_get(json_object_get(classes, blame_classes[k]), glint_metric(blame->metric)->name));
+        for (size_t k = 0; k < BLAME_CLASSES; k++) {
+            const json_t *row = k < blame_classes(blame) ? json_object_get(classes, blame_class(blame, k)) : NULL;
+            values[blame_value(a, k)] = number_of(json_object_get(row, glint_metric(blame->metric)->name));
+        }
     }
     values[BLAME_FETCHES] = number_of(json_object_get(line, "fetches_px"));
 }

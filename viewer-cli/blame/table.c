@@ -143,14 +143,14 @@ static json_t *errors_of(const struct blame *blame, const struct blame_sum *sum)
     json_t *answers = json_object();
     for (size_t a = 0; a < GLINT_TARGET_COUNT; a++) {
         json_t *classes = json_object();
-        for (size_t k = 0; k < BLAME_CLASSES; k++) {
+        for (size_t k = 0; k < blame_classes(blame); k++) {
             const size_t v = blame_value(a, k);
             json_t *players = json_object();
             if (isfinite(sum->shapley.none[v]))
                 for (size_t p = blame->count; p-- > 0;)
                     json_object_set_new(players, glint_player_name(blame->players, p), player_json(sum, p, v));
             if (json_object_size(players))
-                json_object_set_new(classes, blame_classes[k],
+                json_object_set_new(classes, blame_class(blame, k),
                                     json_pack("{s:o, s:o, s:O}", "preset", json_number(sum->shapley.none[v]),
                                               "reference", json_number(sum->shapley.all[v]), "players", players));
             json_decref(players);
@@ -190,10 +190,10 @@ json_t *blame_json(const struct blame *blame) {
         json_object_set_new(capture, "capture", json_string(blame->captures.items[c]));
         json_array_append_new(captures, capture);
     }
-    return json_pack("{s:i, s:b, s:s, s:s, s:s, s:{s:s, s:b}, s:I, s:I, s:o, s:o, s:o}", "format", 1, "complete",
-                     blame->complete, "preset", glint_pipeline_name(blame->base), "metric",
-                     glint_metric(blame->metric)->name, "against", glint_target_name(blame_answer(blame, 0)), "device",
-                     "name", device->name, "is_cpu", device->is_cpu, "rounds", (json_int_t)blame->rounds,
+    return json_pack("{s:i, s:b, s:s, s:s, s:s, s:s, s:{s:s, s:b}, s:I, s:I, s:o, s:o, s:o}", "format", 1, "complete",
+                     blame->complete, "effect", blame->against.effect->name, "preset", glint_pipeline_name(blame->base),
+                     "metric", glint_metric(blame->metric)->name, "against", glint_target_name(blame_answer(blame, 0)),
+                     "device", "name", device->name, "is_cpu", device->is_cpu, "rounds", (json_int_t)blame->rounds,
                      "reference_rays", (json_int_t)(blame->against.rays ? blame->against.rays : GLINT_JUDGE_RAYS),
                      "players", players, "captures", captures, "mean", sum_json(blame, &blame->mean));
 }

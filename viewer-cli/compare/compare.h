@@ -28,7 +28,7 @@ struct showing {
     bool ran, compared; /* compared: with the truth */
     char failure[1024]; /* why it did not run, or why it was not compared */
     char *notes;        /* passes that did not run, with the reason; "" if none; malloc'd */
-    uint64_t reflecting[GLINT_SURFACE_COUNT], given[GLINT_SURFACE_COUNT];
+    uint64_t judged[GLINT_CLASS_COUNT], given[GLINT_CLASS_COUNT];
     struct glint_image_errors own;    /* over the pixels that the preset covers */
     struct glint_image_errors shared; /* over the pixels that all presets cover */
     /* the final image against the capture's `scene` where water or glass covers opaque surfaces */
@@ -43,6 +43,7 @@ struct showing {
 };
 
 struct contest {
+    const struct glint_effect *effect; /* whose result is compared */
     struct contestant *contestants;
     size_t count;
     uint32_t rounds;
@@ -57,10 +58,13 @@ struct contest {
 bool contest_begin(struct contest *contest, const char *const *presets, const struct list *settings,
                    struct glint_error *err);
 void contest_finish(struct contest *contest);
+/* Chooses the effect that is compared from here on. */
+void contest_judge(struct contest *contest, const struct glint_effect *effect);
 
 /* Pictures of one capture: a column each for the truth and the presets. */
-enum { CONTEST_ROWS = 3 }; /* reflection, its error, the composed picture */
+enum { CONTEST_ROWS = 3 }; /* the result, its error, the composed picture */
 struct contest_pictures {
+    const struct glint_effect *effect;
     struct picture *cells; /* cells of the sheet, row by row */
     size_t columns, capture;
     const char *folder;  /* folder in which pictures/ contains them at their own size */
@@ -76,7 +80,7 @@ void showing_finish(struct showing *showing);
 
 struct answer {
     struct glint_verdict verdict;
-    const struct glint_pixels *truth; /* of the lobe that the preset draws from; NULL without one */
+    const struct glint_pixels *truth; /* of what the preset estimates; NULL without one */
     const float *truth_error;
     struct glint_pixels picture; /* the last one; empty without one */
     char picture_name[64];
@@ -84,7 +88,7 @@ struct answer {
 bool contest_draw_truth(struct contest_pictures *pictures, const struct glint_pixels *truth,
                         struct glint_capture *capture, struct glint_error *err);
 bool contest_draw(struct contest_pictures *pictures, size_t column, const struct contestant *contestant,
-                  const struct answer *answer, const uint8_t *surfaces, struct glint_error *err);
+                  const struct answer *answer, const uint8_t *labels, struct glint_error *err);
 
 /* All captures of a call: showings[capture · contest->count + contestant]. */
 struct contest_table {

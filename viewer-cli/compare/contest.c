@@ -69,6 +69,11 @@ void contest_finish(struct contest *contest) {
     contest->count = 0;
 }
 
+void contest_judge(struct contest *contest, const struct glint_effect *effect) {
+    if (contest->judge) glint_judge_destroy(&contest->judge);
+    contest->effect = effect;
+}
+
 void showing_finish(struct showing *showing) {
     free(showing->notes);
     free(showing->frame_ms);
@@ -113,29 +118,30 @@ static bool note_passes(struct showing *s, const struct glint_verdict *verdict, 
     return fclose(notes) == 0 || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
 }
 
-static void count_given(struct showing *s, const uint8_t *given, const uint8_t *surfaces, size_t pixels) {
+static void count_given(struct showing *s, const uint8_t *given, const uint8_t *labels, size_t pixels) {
     for (size_t i = 0; i < pixels; i++) {
-        if (surfaces[i] == GLINT_SURFACE_NONE) continue;
-        s->reflecting[0]++;
-        s->reflecting[surfaces[i]]++;
+        if (labels[i] == GLINT_CLASS_NONE) continue;
+        s->judged[0]++;
         s->given[0] += given[i];
-        s->given[surfaces[i]] += given[i];
+        if (labels[i] == GLINT_CLASS_UNKNOWN) continue;
+        s->judged[labels[i]]++;
+        s->given[labels[i]] += given[i];
     }
 }
 
 /* Errors over the pixels of a mask. */
-static bool masked_errors(const struct answer *a, const uint8_t *mask, const uint8_t *surfaces,
+static bool masked_errors(const struct answer *a, const uint8_t *mask, const uint8_t *labels,
                           struct glint_image_errors *errors, struct glint_error *err) {
-    size_t pixels = (size_t)a->verdict.reflection.width * a->verdict.reflection.height;
+    size_t pixels = (size_t)a->verdict.result.width * a->verdict.result.height;
     uint8_t *kept = malloc(pixels + 1);
     if (!kept) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    for (size_t i = 0; i < pixels; i++) kept[i] = mask[i] ? surfaces[i] : GLINT_SURFACE_NONE;
-    bool ok = glint_study_image(&a->verdict.reflection, a->truth, 3, kept, a->truth_error, errors, err);
+    for (size_t i = 0; i < pixels; i++) kept[i] = mask[i] ? labels[i] : GLINT_CLASS_NONE;
+    bool ok = glint_study_image(&a->verdict.result, a->truth, a->truth->components, kept, a->truth_error, errors, err);
     free(kept);
     return ok;
 }
 
-/* Compares the final image with the true one where water or glass covers opaque surfaces. */
+/* Compares the final image with the true one where water or glass covers opaque labels. */
 static bool read_picture(struct glint_judge *judge, struct showing *s, struct answer *a, struct glint_error *err) {
     struct glint_replay *replay = glint_judge_replay(judge);
     const struct glint_image *image = glint_study_picture(replay);
@@ -154,7 +160,7 @@ static bool read_picture(struct glint_judge *judge, struct showing *s, struct an
 static bool measure_contestant(const struct contest *contest, size_t i, struct showing *s, struct answer *a,
                                struct glint_error *err) {
     const struct glint_pipeline *pipeline = contest->contestants[i].pipeline;
-    const uint8_t *surfaces = glint_judge_surfaces(contest->judge);
+    const uint8_t *labels = glint_judge_labels(contest->judge);
     progress_phase(contest->progress, "%.32s", contest->contestants[i].label);
     if (!glint_judge_evaluate(contest->judge, pipeline, (uint32_t)i, &a->verdict, progress_report, contest->progress,
                               err))
@@ -162,12 +168,12 @@ static bool measure_contestant(const struct contest *contest, size_t i, struct s
     missing_add(contest->missing, glint_judge_replay(contest->judge));
     if (!note_passes(s, &a->verdict, err) || !read_picture(contest->judge, s, a, err)) return false;
     s->ends = a->verdict.ends;
-    count_given(s, a->verdict.coverage, surfaces, (size_t)a->verdict.reflection.width * a->verdict.reflection.height);
+    count_given(s, a->verdict.coverage, labels, (size_t)a->verdict.result.width * a->verdict.result.height);
     s->compared = a->verdict.no_truth.code == GLINT_OK;
     snprintf(s->failure, sizeof s->failure, "%s", a->verdict.no_truth.message);
     if (!s->compared) return true;
     a->truth = glint_judge_target(contest->judge, GLINT_TARGET_TRUTH, pipeline, &a->truth_error, NULL, NULL, err);
-    return a->truth && masked_errors(a, a->verdict.coverage, surfaces, &s->own, err);
+    return a->truth && masked_errors(a, a->verdict.coverage, labels, &s->own, err);
 }
 
 /* Times one round in which every pass is executed, after a warm-up round. */
@@ -224,7 +230,7 @@ static bool take_turns(const struct contest *contest, struct showing *showings, 
 
 /* Errors over the pixels that all presets cover, so that covering only easy pixels is no advantage. */
 static bool share_pixels(const struct contest *contest, struct showing *showings, const struct answer *answers,
-                         const uint8_t *surfaces, size_t pixels, struct glint_error *err) {
+                         const uint8_t *labels, size_t pixels, struct glint_error *err) {
     uint8_t *mask = malloc(pixels + 1);
     bool ok = mask || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     if (ok) memset(mask, 1, pixels);
@@ -232,7 +238,7 @@ static bool share_pixels(const struct contest *contest, struct showing *showings
         for (size_t k = 0; showings[i].compared && showings[i].given[0] && k < pixels; k++)
             mask[k] &= answers[i].verdict.coverage[k];
     for (size_t i = 0; ok && i < contest->count; i++)
-        if (showings[i].compared) ok = masked_errors(&answers[i], mask, surfaces, &showings[i].shared, err);
+        if (showings[i].compared) ok = masked_errors(&answers[i], mask, labels, &showings[i].shared, err);
     free(mask);
     return ok;
 }
@@ -240,12 +246,12 @@ static bool share_pixels(const struct contest *contest, struct showing *showings
 static bool look_at_all(const struct contest *contest, struct showing *showings, struct answer *answers,
                         struct contest_pictures *pictures, struct glint_error *err) {
     const struct glint_pixels *truth = NULL;
-    const uint8_t *surfaces = glint_judge_surfaces(contest->judge);
+    const uint8_t *labels = glint_judge_labels(contest->judge);
     for (size_t i = 0; i < contest->count; i++) {
         const struct contestant *c = &contest->contestants[i];
         struct glint_error own = {0};
         showings[i].ran = measure_contestant(contest, i, &showings[i], &answers[i], &own) &&
-                          (!pictures || contest_draw(pictures, i + 1, c, &answers[i], surfaces, &own));
+                          (!pictures || contest_draw(pictures, i + 1, c, &answers[i], labels, &own));
         if (!showings[i].ran && !fail_alone(&showings[i], c, &own, err)) return false;
         if (!truth && showings[i].compared) truth = answers[i].truth;
     }
@@ -254,14 +260,14 @@ static bool look_at_all(const struct contest *contest, struct showing *showings,
 
 bool contest_run(struct contest *contest, struct glint_capture *capture, struct showing *showings,
                  struct contest_pictures *pictures, struct glint_error *err) {
-    static const struct glint_judge_options options = {.truth = true};
+    const struct glint_judge_options options = {.effect = contest->effect, .truth = true};
     const struct glint_part_info *gbuffer = glint_capture_find(capture, "gbuffer");
     struct answer *answers = calloc(contest->count + 1, sizeof *answers);
     bool ok = (answers || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory")) &&
               (contest->judge || (contest->judge = glint_judge_create(contest->device, &options, err))) &&
               glint_judge_load(contest->judge, capture, err) &&
               look_at_all(contest, showings, answers, pictures, err) &&
-              share_pixels(contest, showings, answers, glint_judge_surfaces(contest->judge),
+              share_pixels(contest, showings, answers, glint_judge_labels(contest->judge),
                            (size_t)gbuffer->width * gbuffer->height, err) &&
               take_turns(contest, showings, err);
     for (size_t i = 0; answers && i < contest->count; i++) answer_finish(&answers[i]);

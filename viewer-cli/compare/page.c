@@ -1,4 +1,4 @@
-/* Comparison of presets as a page: error against time, errors by surface, why rays ended, pictures. */
+/* Comparison of presets as a page: error against time, errors by class, why rays ended, pictures. */
 #include <math.h>
 #include <string.h>
 
@@ -13,15 +13,15 @@ static const char *label_of(const struct contest_table *t, size_t preset) {
     return t->contest->contestants[preset].label;
 }
 
-/* The error where a preset gives a reflection; null without one. [0] is all surfaces. */
-static json_t *error_json(const struct showing *s, int surface) {
-    const struct glint_image_error *e = &s->own.of[surface];
+/* The error where a preset gives a result; null without one. [0] is all pixels. */
+static json_t *error_json(const struct showing *s, size_t label) {
+    const struct glint_image_error *e = &s->own.of[label];
     return s->ran && s->compared && e->pixels ? json_number(e->symmetric) : json_null();
 }
 
-static json_t *share_json(const struct showing *s, int surface) {
-    uint64_t all = s->ran ? s->reflecting[surface] : 0;
-    return all ? json_real(100 * (double)s->given[surface] / (double)all) : json_null();
+static json_t *share_json(const struct showing *s, size_t label) {
+    uint64_t all = s->ran ? s->judged[label] : 0;
+    return all ? json_real(100 * (double)s->given[label] / (double)all) : json_null();
 }
 
 static json_t *time_json(const struct contest_time *time) {
@@ -30,8 +30,11 @@ static json_t *time_json(const struct contest_time *time) {
 
 /* ---- Pictures ---- */
 
-static const char *const row_titles[CONTEST_ROWS] = {"Reflection",
-                                                     "Its error, 0 (dark) to 1 (bright); grey: not compared", "Image"};
+static const char *row_title(const struct contest_pictures *pictures, size_t row) {
+    static const char *const titles[CONTEST_ROWS] = {NULL, "Its error, 0 (dark) to 1 (bright); grey: not compared",
+                                                     "Image"};
+    return titles[row] ? titles[row] : pictures->effect->title;
+}
 
 /* A capture's pictures by column, the truth's first, without their values. */
 static json_t *by_column(const struct contest_pictures *pictures) {
@@ -40,7 +43,8 @@ static json_t *by_column(const struct contest_pictures *pictures) {
     for (i = 0; i < pictures->columns; i++) json_array_append_new(columns, json_array());
     json_array_foreach(pictures->rows, r, row) json_array_foreach(row, i, shown) {
         const size_t column = (size_t)json_integer_value(json_object_get(shown, "column"));
-        json_t *caption = json_sprintf("%s: %s", json_string_value(json_object_get(shown, "caption")), row_titles[r]);
+        json_t *caption =
+            json_sprintf("%s: %s", json_string_value(json_object_get(shown, "caption")), row_title(pictures, r));
         json_array_append_new(json_array_get(columns, column),
                               json_pack("{s:O, s:o}", "file", json_object_get(shown, "file"), "caption", caption));
     }
@@ -53,8 +57,8 @@ static void add_stages(const struct contest_pictures *pictures, json_t *blocks) 
     size_t r, i;
     json_array_foreach(pictures->rows, r, row) {
         if (!json_array_size(row)) continue;
-        page_text(blocks, "heading", row_titles[r]);
-        json_t *stage = page_stage(blocks, row_titles[r]);
+        page_text(blocks, "heading", row_title(pictures, r));
+        json_t *stage = page_stage(blocks, row_title(pictures, r));
         for (size_t column = 0; column < pictures->columns; column++)
             json_array_foreach(row, i, shown) if ((size_t)json_integer_value(json_object_get(shown, "column")) ==
                                                   column) json_array_append(stage, shown);
@@ -63,12 +67,12 @@ static void add_stages(const struct contest_pictures *pictures, json_t *blocks) 
 
 /* ---- Charts and tables of one capture ---- */
 
-static json_t *values_of(const struct showing *s) {
+static json_t *values_of(const struct glint_effect *effect, const struct showing *s) {
     json_t *values = json_array();
-    for (int k = 0; k < GLINT_SURFACE_COUNT; k++)
-        json_array_append_new(values, json_pack("[o, o, s]",
-                                                json_sprintf("error, %s", glint_surface_name((enum glint_surface)k)),
-                                                error_json(s, k), ""));
+    for (size_t k = 0; k <= glint_effect_class_count(effect); k++)
+        json_array_append_new(values,
+                              json_pack("[o, o, s]", json_sprintf("error, %s", glint_effect_class_name(effect, k)),
+                                        error_json(s, k), ""));
     json_array_append_new(values, json_pack("[s, o, s]", "coverage", share_json(s, 0), "%"));
     json_array_append_new(values, json_pack("[s, o, s]", "steps", json_number(s->ends.steps), "a ray"));
     json_array_append_new(values, json_pack("[s, o, s]", "fetches", json_number(s->ends.fetches), "a ray"));
@@ -85,7 +89,7 @@ static void add_times(const struct contest_table *t, size_t capture, const json_
                               json_pack("{s:s, s:s, s:[{s:f, s:f, s:f, s:o, s:s, s:o, s:O}]}", "kind", "scatter",
                                         "name", label_of(t, p), "points", "x", s->frame.median, "x_low", s->frame.min,
                                         "x_high", s->frame.max, "y", error_json(s, 0), "name", label_of(t, p), "values",
-                                        values_of(s), "pictures", json_array_get(pictures, p + 1)));
+                                        values_of(t->contest->effect, s), "pictures", json_array_get(pictures, p + 1)));
     }
     if (json_array_size(series))
         page_chart(blocks, json_pack("{s:s, s:{s:s, s:s, s:i}, s:{s:s, s:s, s:i}, s:O}", "title", "Error against time",
@@ -98,18 +102,19 @@ static void add_surfaces(const struct contest_table *t, size_t capture, json_t *
     bool compared = false;
     for (size_t p = 0; p < t->contest->count; p++) compared = compared || showing_of(t, capture, p)->compared;
     if (!compared) return;
+    const size_t classes = glint_effect_class_count(t->contest->effect);
     json_t *series = json_array(), *names = json_array();
-    for (int k = 0; k < GLINT_SURFACE_COUNT; k++)
-        json_array_append_new(names, json_string(glint_surface_name((enum glint_surface)k)));
+    for (size_t k = 0; k <= classes; k++)
+        json_array_append_new(names, json_string(glint_effect_class_name(t->contest->effect, k)));
     for (size_t p = 0; p < t->contest->count; p++) {
         json_t *points = json_array();
-        for (int k = 0; k < GLINT_SURFACE_COUNT; k++)
-            json_array_append_new(points, json_pack("[o, i]", error_json(showing_of(t, capture, p), k), k));
+        for (size_t k = 0; k <= classes; k++)
+            json_array_append_new(points, json_pack("[o, i]", error_json(showing_of(t, capture, p), k), (int)k));
         json_array_append_new(series,
                               json_pack("{s:s, s:s, s:o}", "kind", "bar", "name", label_of(t, p), "points", points));
     }
     page_chart(blocks,
-               json_pack("{s:s, s:{s:s, s:s, s:i}, s:{s:s, s:o}, s:I, s:o}", "title", "Error by surface", "x", "name",
+               json_pack("{s:s, s:{s:s, s:s, s:i}, s:{s:s, s:o}, s:I, s:o}", "title", "Error by class", "x", "name",
                          "symmetric error", "unit", "0 to 1", "min", 0, "y", "scale", "category", "categories", names,
                          "height", (json_int_t)(120 + 4 * (10 + 13 * t->contest->count)), "series", series));
 }
@@ -118,8 +123,9 @@ static void add_table(const struct contest_table *t, size_t capture, json_t *blo
     json_t *table = page_table(blocks);
     page_column(table, "preset", "");
     page_column(table, "coverage", "%");
-    for (int k = 1; k <= GLINT_SURFACE_COUNT; k++)
-        page_column(table, glint_surface_name((enum glint_surface)(k % GLINT_SURFACE_COUNT)), "error");
+    const size_t classes = glint_effect_class_count(t->contest->effect);
+    for (size_t k = 1; k <= classes + 1; k++)
+        page_column(table, glint_effect_class_name(t->contest->effect, k % (classes + 1)), "error");
     page_column(table, "steps", "a ray");
     page_column(table, "fetches", "a ray");
     page_column(table, "frame", "ms");
@@ -128,8 +134,7 @@ static void add_table(const struct contest_table *t, size_t capture, json_t *blo
     for (size_t p = 0; p < t->contest->count; p++) {
         const struct showing *s = showing_of(t, capture, p);
         json_t *row = json_pack("[s, o]", label_of(t, p), share_json(s, 0));
-        for (int k = 1; k <= GLINT_SURFACE_COUNT; k++)
-            json_array_append_new(row, error_json(s, k % GLINT_SURFACE_COUNT));
+        for (size_t k = 1; k <= classes + 1; k++) json_array_append_new(row, error_json(s, k % (classes + 1)));
         json_array_append_new(row, s->ends.rays ? json_number(s->ends.steps) : json_null());
         json_array_append_new(row, s->ends.rays ? json_number(s->ends.fetches) : json_null());
         json_array_append_new(row, time_json(&s->frame));
@@ -188,11 +193,12 @@ bool contest_write_page(const char *folder, const struct contest_table *t, const
     json_t *document = page_create("Comparison of presets");
     snprintf(text, sizeof text, "median of %u alternating rounds%s", t->contest->rounds,
              device->is_cpu ? "; a CPU device: times do not represent a GPU" : "");
+    page_fact(document, "effect", t->contest->effect->title);
     page_fact(document, "device", device->name);
     page_fact(document, "times", text);
     page_fact(document, "errors",
-              "mean of |found \u2212 truth| / (found + truth), 0 to 1, over the pixels for which the preset finds a "
-              "reflection");
+              "mean of |found \u2212 truth| / (found + truth), 0 to 1, over the pixels for which the preset finds "
+              "one");
     bool ok = document || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     for (size_t c = 0; ok && c < t->capture_count; c++) add_capture(document, t, &pictures[c], c);
     ok = ok && page_store(folder, document, err) && page_write(path, document, folder, err);

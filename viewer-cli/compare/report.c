@@ -6,13 +6,13 @@
 #include "compare/compare.h"
 #include "io/table.h"
 
-static double coverage_of(const struct showing *s, int k) {
-    return s->reflecting[k] ? (double)s->given[k] / (double)s->reflecting[k] : 0;
+static double coverage_of(const struct showing *s, size_t k) {
+    return s->judged[k] ? (double)s->given[k] / (double)s->judged[k] : 0;
 }
 
 /* "0.093 of 97.2 %" */
-static void error_cell(struct table *table, const struct showing *s, int k) {
-    if (!s->ran || s->reflecting[k] == 0) table_cell(table, "–");
+static void error_cell(struct table *table, const struct showing *s, size_t k) {
+    if (!s->ran || s->judged[k] == 0) table_cell(table, "–");
     else if (!s->compared) table_cell(table, "%.1f %%", 100 * coverage_of(s, k));
     else if (s->own.of[k].pixels == 0) table_cell(table, "none");
     else table_cell(table, "%.3f (%.1f %%)", s->own.of[k].symmetric, 100 * coverage_of(s, k));
@@ -28,8 +28,8 @@ static double shared_error(const struct showing *s) {
 }
 
 /* `best`: the least error over the pixels that all presets cover. */
-static void print_showing(struct table *table, const struct showing *s, double best) {
-    for (int k = GLINT_SURFACE_MIRROR; k < GLINT_SURFACE_COUNT; k++) error_cell(table, s, k);
+static void print_showing(struct table *table, const struct showing *s, size_t classes, double best) {
+    for (size_t k = 1; k <= classes; k++) error_cell(table, s, k);
     error_cell(table, s, 0);
     if (isfinite(shared_error(s))) table_cell(table, "%.3f", shared_error(s));
     else table_cell(table, "–");
@@ -48,8 +48,16 @@ static const struct showing *showing_of(const struct contest_table *t, size_t ca
 }
 
 static void print_errors(const struct contest_table *t) {
-    static const char *const titles[] = {"<capture", "<preset", ">mirror-like", ">glossy", ">rough",         ">all",
-                                         ">shared",  ">steps",  ">fetches",     ">ms",     ">cube maps, ms", NULL};
+    static const char *const costs[] = {">all", ">shared", ">steps", ">fetches", ">ms", ">cube maps, ms", NULL};
+    const struct glint_effect *effect = t->contest->effect;
+    const size_t classes = glint_effect_class_count(effect);
+    const char *titles[2 + GLINT_EFFECT_CLASSES + sizeof costs / sizeof *costs] = {"<capture", "<preset"};
+    char names[GLINT_EFFECT_CLASSES][64];
+    for (size_t k = 0; k < classes; k++) {
+        snprintf(names[k], sizeof names[k], ">%s", glint_effect_class_name(effect, k + 1));
+        titles[2 + k] = names[k];
+    }
+    memcpy(&titles[2 + classes], costs, sizeof costs);
     struct table *table = table_create(titles);
     for (size_t c = 0; c < t->capture_count; c++) {
         double best = INFINITY;
@@ -57,12 +65,13 @@ static void print_errors(const struct contest_table *t) {
         for (size_t p = 0; p < t->contest->count; p++) {
             table_cell(table, "%s", base_name(t->captures[c]));
             table_cell(table, "%s", t->contest->contestants[p].label);
-            print_showing(table, showing_of(t, c, p), best);
+            print_showing(table, showing_of(t, c, p), classes, best);
         }
     }
-    puts("Error of the reflection against the truth (mean of |found - truth| / (found + truth), 0 to 1) over the "
-         "covered pixels, with the coverage in parentheses: the share of reflecting pixels for which the preset finds "
-         "a reflection. shared: error over the pixels that all presets cover; steps and fetches per ray:\n");
+    printf("Error of the %s against the truth (mean of |found - truth| / (found + truth), 0 to 1) over the covered "
+           "pixels, with the coverage in parentheses: the share of the judged pixels for which the preset finds one. "
+           "shared: error over the pixels that all presets cover; steps and fetches per ray:\n\n",
+           effect->noun);
     table_print(table, stdout);
     table_destroy(&table);
 }
@@ -185,13 +194,13 @@ void contest_print(const struct contest_table *t) {
     print_notes(t);
 }
 
-static json_t *surfaces_json(const struct showing *s) {
+static json_t *surfaces_json(const struct glint_effect *effect, const struct showing *s) {
     json_t *rows = json_array();
-    for (int k = 0; k < GLINT_SURFACE_COUNT; k++) {
+    for (size_t k = 0; k <= glint_effect_class_count(effect); k++) {
         const struct glint_image_error *own = &s->own.of[k], *shared = &s->shared.of[k];
-        if (s->reflecting[k] == 0) continue;
-        json_t *row = json_pack("{s:s, s:I, s:I, s:o}", "surfaces", glint_surface_name((enum glint_surface)k), "pixels",
-                                (json_int_t)s->reflecting[k], "given", (json_int_t)s->given[k], "coverage",
+        if (s->judged[k] == 0) continue;
+        json_t *row = json_pack("{s:s, s:I, s:I, s:o}", "surfaces", glint_effect_class_name(effect, k), "pixels",
+                                (json_int_t)s->judged[k], "given", (json_int_t)s->given[k], "coverage",
                                 json_number(coverage_of(s, k)));
         if (s->compared && own->pixels)
             json_object_update_new(row, json_pack("{s:o, s:o, s:o, s:o, s:I}", "symmetric", json_number(own->symmetric),
@@ -236,12 +245,12 @@ static json_t *time_json(const struct contest_time *time) {
                    : json_null();
 }
 
-static json_t *showing_json(const struct contestant *c, const struct showing *s) {
+static json_t *showing_json(const struct glint_effect *effect, const struct contestant *c, const struct showing *s) {
     json_t *json = json_pack("{s:s, s:b, s:s}", "preset", c->label, "ran", s->ran, "notes", s->notes ? s->notes : "");
     if (s->failure[0]) json_object_set_new(json, s->ran ? "not_compared" : "failure", json_string(s->failure));
     if (!s->ran) return json;
     json_object_update_new(json, json_pack("{s:o, s:o, s:o, s:I, s:f, s:f, s:o, s:o, s:O}", "surfaces",
-                                           surfaces_json(s), "over", over_json(s), "ends", ends_json(s), "rays",
+                                           surfaces_json(effect, s), "over", over_json(s), "ends", ends_json(s), "rays",
                                            (json_int_t)s->ends.rays, "steps", s->ends.steps, "fetches", s->ends.fetches,
                                            "frame_ms", time_json(&s->frame), "cubemaps_ms", time_json(&s->cubemaps),
                                            "passes", s->passes));
@@ -254,11 +263,13 @@ json_t *contest_json(const struct contest_table *t) {
     for (size_t c = 0; c < t->capture_count; c++) {
         json_t *presets = json_array();
         for (size_t p = 0; p < t->contest->count; p++)
-            json_array_append_new(presets, showing_json(&t->contest->contestants[p], showing_of(t, c, p)));
+            json_array_append_new(presets,
+                                  showing_json(t->contest->effect, &t->contest->contestants[p], showing_of(t, c, p)));
         json_array_append_new(captures, json_pack("{s:s, s:o}", "capture", t->captures[c], "presets", presets));
     }
-    return json_pack("{s:{s:s, s:s, s:b}, s:I, s:o}", "device", "name", device->name, "type", device->type, "cpu",
-                     device->is_cpu, "rounds", (json_int_t)t->contest->rounds, "captures", captures);
+    return json_pack("{s:s, s:{s:s, s:s, s:b}, s:I, s:o}", "effect", t->contest->effect->name, "device", "name",
+                     device->name, "type", device->type, "cpu", device->is_cpu, "rounds",
+                     (json_int_t)t->contest->rounds, "captures", captures);
 }
 
 static void put_number(FILE *out, bool there, double value) {
@@ -266,10 +277,10 @@ static void put_number(FILE *out, bool there, double value) {
     if (there && isfinite(value)) fprintf(out, "%.6g", value);
 }
 
-static void put_showing(FILE *out, const struct showing *s) {
-    for (int k = 1; k <= GLINT_SURFACE_COUNT; k++) {
-        int of = k % GLINT_SURFACE_COUNT; /* all surfaces last */
-        bool any = s->ran && s->reflecting[of] > 0, compared = any && s->compared && s->own.of[of].pixels > 0;
+static void put_showing(FILE *out, const struct showing *s, size_t classes) {
+    for (size_t k = 1; k <= classes + 1; k++) {
+        const size_t of = k % (classes + 1); /* all pixels last */
+        bool any = s->ran && s->judged[of] > 0, compared = any && s->compared && s->own.of[of].pixels > 0;
         put_number(out, any, coverage_of(s, of));
         put_number(out, compared, s->own.of[of].symmetric);
         put_number(out, compared, s->own.of[of].rmse);
@@ -289,8 +300,9 @@ char *contest_csv(const struct contest_table *t) {
     FILE *out = open_memstream(&text, &size);
     if (!out) return NULL;
     fputs("capture,preset", out);
-    for (int k = 1; k <= GLINT_SURFACE_COUNT; k++) {
-        const char *name = glint_surface_name((enum glint_surface)(k % GLINT_SURFACE_COUNT));
+    const size_t classes = glint_effect_class_count(t->contest->effect);
+    for (size_t k = 1; k <= classes + 1; k++) {
+        const char *name = glint_effect_class_name(t->contest->effect, k % (classes + 1));
         fprintf(out, ",%s coverage,%s error,%s RMSE", name, name, name);
     }
     fputs(",shared error,water error,transparent error,steps,fetches,frame ms,cube maps ms,notes\n", out);
@@ -300,7 +312,7 @@ char *contest_csv(const struct contest_table *t) {
             csv_text(out, t->captures[c]);
             fputc(',', out);
             csv_text(out, t->contest->contestants[p].label);
-            put_showing(out, s);
+            put_showing(out, s, classes);
             fputc(',', out);
             csv_text(out, s->failure[0] ? s->failure : s->notes ? s->notes : "");
             fputc('\n', out);

@@ -1,4 +1,5 @@
 /* Pictures of the presets side by side. */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -7,8 +8,11 @@
 #include "draw/view/pixels.h"
 #include "draw/view/png_file.h"
 
-enum { REFLECTION, ERROR, PICTURE };
-static const char *const row_names[CONTEST_ROWS] = {"reflection", "error", "picture"};
+enum { RESULT, ERROR, PICTURE };
+
+static const char *row_name(const struct contest_pictures *p, size_t row) {
+    return row == RESULT ? p->effect->name : row == ERROR ? "error" : "picture";
+}
 
 /* Writes the picture at its own size, and describes it for the page. */
 static bool keep_picture(struct contest_pictures *p, size_t row, size_t column, const struct glint_pixels *pixels,
@@ -19,7 +23,7 @@ static bool keep_picture(struct contest_pictures *p, size_t row, size_t column, 
     struct legend legend;
     char file[96], path[4096];
     size_t invalid;
-    snprintf(file, sizeof file, "pictures/%zu-%zu-%s.png", p->capture, column, row_names[row]);
+    snprintf(file, sizeof file, "pictures/%zu-%zu-%s.png", p->capture, column, row_name(p, row));
     if (snprintf(path, sizeof path, "%s/%s", p->folder, file) >= (int)sizeof path)
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", p->folder);
     const bool ok =
@@ -39,42 +43,41 @@ static bool draw_picture(struct contest_pictures *p, size_t row, size_t column, 
 }
 
 /* The symmetric error of each covered pixel for which the truth is known; neutral elsewhere. */
-static bool draw_error(struct contest_pictures *p, size_t column, const struct answer *a, const uint8_t *surfaces,
+static bool draw_error(struct contest_pictures *p, size_t column, const struct answer *a, const uint8_t *labels,
                        const char *label, struct glint_error *err) {
     const size_t count = (size_t)a->truth->width * a->truth->height;
     struct glint_pixels error = {0};
     uint8_t *mask = malloc(count + 1);
     bool ok = mask || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    for (size_t i = 0; ok && i < count; i++) mask[i] = a->verdict.coverage[i] && surfaces[i] != GLINT_SURFACE_NONE;
-    ok = ok && pixels_difference(&a->verdict.reflection, a->truth, a->truth_error, mask, &error, err) &&
+    for (size_t i = 0; ok && i < count; i++) mask[i] = a->verdict.coverage[i] && labels[i] != GLINT_CLASS_NONE;
+    ok = ok && pixels_difference(&a->verdict.result, a->truth, a->truth_error, mask, &error, err) &&
          draw_picture(p, ERROR, column, &error, "error of covered pixels", label, label, err);
     glint_pixels_finish(&error);
     free(mask);
     return ok;
 }
 
-/* The reflection of covered pixels. */
+/* The result of covered pixels. */
 static bool draw_given(struct contest_pictures *p, size_t column, const struct answer *a, const char *label,
                        struct glint_error *err) {
-    size_t count = (size_t)a->verdict.reflection.width * a->verdict.reflection.height;
-    struct glint_pixels given = {a->verdict.reflection.width, a->verdict.reflection.height,
-                                 a->verdict.reflection.components, NULL};
+    size_t count = (size_t)a->verdict.result.width * a->verdict.result.height;
+    struct glint_pixels given = {a->verdict.result.width, a->verdict.result.height, a->verdict.result.components, NULL};
     given.values = calloc(count * given.components, sizeof *given.values);
     if (!given.values) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     for (size_t i = 0; i < count; i++)
         if (a->verdict.coverage[i])
-            memcpy(given.values + i * given.components, a->verdict.reflection.values + i * given.components,
+            memcpy(given.values + i * given.components, a->verdict.result.values + i * given.components,
                    given.components * sizeof *given.values);
-    bool ok = draw_picture(p, REFLECTION, column, &given, "reflection", label, label, err);
+    bool ok = draw_picture(p, RESULT, column, &given, p->effect->noun, label, label, err);
     glint_pixels_finish(&given);
     return ok;
 }
 
 bool contest_draw(struct contest_pictures *p, size_t column, const struct contestant *contestant,
-                  const struct answer *answer, const uint8_t *surfaces, struct glint_error *err) {
+                  const struct answer *answer, const uint8_t *labels, struct glint_error *err) {
     const char *label = contestant->label;
     return draw_given(p, column, answer, label, err) &&
-           (!answer->truth || draw_error(p, column, answer, surfaces, label, err)) &&
+           (!answer->truth || draw_error(p, column, answer, labels, label, err)) &&
            (!answer->picture.values ||
             draw_picture(p, PICTURE, column, &answer->picture, answer->picture_name, label, label, err));
 }
@@ -85,15 +88,16 @@ bool contest_draw_truth(struct contest_pictures *p, const struct glint_pixels *t
     const char *path = glint_capture_path(capture), *name = strrchr(path, '/') ? strrchr(path, '/') + 1 : path;
     const struct glint_part_info *scene = glint_capture_find(capture, "scene");
     const struct glint_part_info *lit = scene ? scene : glint_capture_find(capture, "lit");
-    if (truth && !draw_picture(p, REFLECTION, 0, truth, "true reflection", name, "truth", err)) return false;
+    char title[80];
+    snprintf(title, sizeof title, "true %s", p->effect->noun);
+    if (truth && !draw_picture(p, RESULT, 0, truth, title, name, "truth", err)) return false;
     if (!lit) return true;
     struct glint_pixels pixels = {lit->width, lit->height, 3, NULL};
     pixels.values = malloc((size_t)lit->width * lit->height * 3 * sizeof *pixels.values);
-    bool ok = pixels.values
-                  ? glint_capture_read(capture, lit, rgb, 3, GLINT_F32, pixels.values, 0, err) &&
-                        draw_picture(p, PICTURE, 0, &pixels, scene ? "true image" : "lit, without reflections", name,
-                                     scene ? "truth" : "without reflections", err)
-                  : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    bool ok = pixels.values ? glint_capture_read(capture, lit, rgb, 3, GLINT_F32, pixels.values, 0, err) &&
+                                  draw_picture(p, PICTURE, 0, &pixels, scene ? "true image" : "lit, without effects",
+                                               name, scene ? "truth" : "without effects", err)
+                            : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     glint_pixels_finish(&pixels);
     return ok;
 }

@@ -45,6 +45,12 @@ static void scenes(struct completion *c) {
     for (size_t i = 0; i < count; i++) complete_offer(c, all[i].name, all[i].summary);
 }
 
+static void effects(struct completion *c) {
+    size_t count = 0;
+    const struct glint_effect *all = glint_effects(&count);
+    for (size_t i = 0; i < count; i++) complete_offer(c, all[i].name, all[i].title);
+}
+
 /* The built-in ones and those of $GLINT_PRESETS. */
 static void presets(struct completion *c) {
     for (size_t i = 0; glint_preset(i); i++) complete_offer(c, glint_preset(i), "built-in preset");
@@ -87,8 +93,8 @@ static void offer_slot_dot(struct completion *c, const struct glint_pass *pass) 
     offer_slot_before(c, pass, '.');
 }
 
-static void offer_effect(struct completion *c, const struct glint_pass *pass) {
-    complete_offer(c, pass->effect, "effect");
+static void offer_group(struct completion *c, const struct glint_pass *pass) {
+    complete_offer(c, pass->effect, glint_effect_find(pass->effect) ? "effect" : "shared by effects");
 }
 
 static void offer_pass(struct completion *c, const struct glint_pass *pass) {
@@ -102,8 +108,8 @@ static void slots(struct completion *c) {
     each_pass(c, offer_slot);
 }
 
-static void effects(struct completion *c) {
-    each_pass(c, offer_effect);
+static void groups(struct completion *c) {
+    each_pass(c, offer_group);
 }
 
 static void passes(struct completion *c) {
@@ -262,9 +268,10 @@ static const struct {
     const char *name;
     void (*complete)(struct completion *c);
 } kinds[] = {
+    {"EFFECT", effects},
+    {"GROUP", groups},
     {"PRESET", presets},
     {"SCENE", scenes},
-    {"EFFECT", effects},
     {"SLOT", slots},
     {"SLOT[/VARIANT]", passes},
     {"SLOT=VARIANT", variants},

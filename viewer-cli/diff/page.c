@@ -255,37 +255,42 @@ static bool add_folded(json_t *blocks, struct diff *diff, const struct diff_pair
     return add_stage(page_fold(blocks, title), diff, pair, share, err);
 }
 
-static void add_place(const struct diff *diff, const char *name, size_t first[3], size_t *count) {
-    for (size_t i = 0; i < diff->count; i++) {
+/* The final image, the result of each effect, and the least preferred one of the first effect. */
+enum { FIRST_IMAGES = 2 + 16 };
+
+static void add_place(const struct diff *diff, const char *name, size_t first[FIRST_IMAGES], size_t *count) {
+    for (size_t i = 0; i < diff->count && *count < FIRST_IMAGES; i++) {
         bool known = !is_shown(&diff->pairs[i]) || strcmp(diff->pairs[i].a->name, name) != 0;
         for (size_t k = 0; k < *count; k++) known |= first[k] == i;
         if (!known) first[(*count)++] = i;
     }
 }
 
-/* What one looks at first: the final image, the reflection that it is composed of, and the one before sharp reflections replace parts
-   of it. Their number. */
-static size_t find_first_images(const struct diff *diff, size_t first[3]) {
-    size_t count = 0, last = find_final_image(diff);
-    const struct glint_run_image *composed =
-        diff->sides[0].run ? glint_study_run_reflection_image(diff->sides[0].run) : NULL;
+/* What one looks at first: the final image, and the results of effects that it is composed of. */
+static size_t find_first_images(const struct diff *diff, size_t first[FIRST_IMAGES]) {
+    size_t count = 0, effects, last = find_final_image(diff);
+    const struct glint_effect *effect = glint_effects(&effects);
     if (last < diff->count) first[count++] = last;
-    if (composed) add_place(diff, composed->name, first, &count);
-    if (count < 3) add_place(diff, "reflection", first, &count);
+    for (size_t e = 0; diff->sides[0].run && e < effects; e++) {
+        const struct glint_run_image *result = glint_study_run_result_image(diff->sides[0].run, &effect[e]);
+        if (result) add_place(diff, result->name, first, &count);
+    }
+    for (size_t k = GLINT_EFFECT_RESULTS; k-- > 0 && count < 3;)
+        if (effect->results[k]) return add_place(diff, effect->results[k], first, &count), count;
     return count;
 }
 
 /* The others that differ are folded, in the order of the passes. */
 static bool add_images(json_t *document, struct diff *diff, struct glint_error *err) {
-    enum { FINAL = 4, REFLECTION = 2 }; /* shares of the page's limits, as multiples of the others' */
-    size_t first[3];
+    enum { FINAL = 4, RESULT = 2 }; /* shares of the page's limits, as multiples of the others' */
+    size_t first[FIRST_IMAGES];
     const size_t firsts = find_first_images(diff, first);
-    double parts = FINAL + 2 * REFLECTION;
+    double parts = FINAL + RESULT * (double)(firsts > 3 ? firsts - 1 : 2);
     bool ok = true;
     json_t *blocks = NULL;
     for (size_t i = 0; i < diff->count; i++) parts += is_shown(&diff->pairs[i]);
     for (size_t k = 0; ok && k < firsts; k++)
-        ok = add_first(document, diff, &diff->pairs[first[k]], (k ? REFLECTION : FINAL) / parts, err);
+        ok = add_first(document, diff, &diff->pairs[first[k]], (k ? RESULT : FINAL) / parts, err);
     for (size_t i = 0; ok && i < diff->count; i++) {
         bool shown = !is_shown(&diff->pairs[i]);
         for (size_t k = 0; k < firsts; k++) shown |= first[k] == i;

@@ -12,9 +12,9 @@
 
 /* What the pixel is compared with. */
 enum explain_goal {
-    EXPLAIN_NOTHING,   /* it has no ray, or it is right, or nothing is known to compare it with */
-    EXPLAIN_RAY,       /* the ray brings another colour than the same ray of the reference tracers */
-    EXPLAIN_REFLECTION /* the ray is right: the true reflection of the pixel, and of the pixels around it */
+    EXPLAIN_NOTHING, /* it has no ray, or it is right, or nothing is known to compare it with */
+    EXPLAIN_RAY,     /* the ray brings another colour than the same ray of the reference tracers */
+    EXPLAIN_RESULT   /* the ray is right: the true result at the pixel, and of the pixels around it */
 };
 
 /* A single change of the pipeline and the symmetric error with it. */
@@ -22,11 +22,12 @@ struct explain_try {
     char change[160]; /* for --set; for --use if it is a variant */
     bool variant;
     char before[48];      /* the value that the run has */
-    double error, around; /* around: mean over the pixels around it, for EXPLAIN_REFLECTION */
+    double error, around; /* around: mean over the pixels around it, for EXPLAIN_RESULT */
 };
 enum { EXPLAIN_TRIES_MAX = 1000, EXPLAIN_AROUND = 4 /* pixels to each side */ };
 
 struct explain {
+    const struct glint_effect *effect;
     const char *run; /* its folder */
     struct probe probe;
     struct opened *opened;
@@ -55,12 +56,16 @@ const struct glint_pass *explain_tracer(const struct probe_side *side, size_t i,
 const struct glint_pass *explain_last_tracer(const struct probe_side *side, const struct glint_probe_record **end);
 /* The value of a channel of the capture at the pixel, such as "roughness"; NAN: the capture does not have it. */
 double explain_channel(const struct probe_side *side, const char *channel);
-/* Radiance of the image with this role, or of the reflection that is composed (GLINT_ROLE_COMPOSED). NULL: there is none. */
+/* The value of the effect's result. NULL: there is none. */
+const struct probe_value *explain_result(const struct probe_side *side, const struct glint_effect *effect);
+/* Radiance of the image with this role. NULL: there is none. */
 const struct probe_value *explain_radiance(const struct probe_side *side, enum glint_pass_role role);
 /* Whether two ends are the same place: of the same kind, and within 5 % of the distance. */
 bool explain_same_end(const struct probe_side *a, const struct probe_side *b);
 
 /* tries.c */
+/* Three channels of a pixel; of an image with fewer its first one three times. */
+void explain_triple(const struct glint_pixels *pixels, size_t at, double triple[3]);
 double explain_error(const double *found, const double *right);
 /* Compares the pixel with what is right, decides the goal, and tries single changes. */
 bool explain_find(struct explain *explain, struct glint_error *err);

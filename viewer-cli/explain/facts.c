@@ -70,38 +70,29 @@ double explain_channel(const struct probe_side *side, const char *channel) {
     return NAN;
 }
 
-static const struct probe_value *value_of(const struct probe_side *side, const char *image) {
+static const struct probe_value *value_of(const struct probe_side *side, const char *image, uint32_t components) {
     for (size_t i = side->value_count; image && i-- > 0;)
-        if (side->values[i].pass && side->values[i].count >= 3 && !strcmp(side->values[i].row->name, image))
+        if (side->values[i].pass && side->values[i].count >= components && !strcmp(side->values[i].row->name, image))
             return &side->values[i];
     return NULL;
 }
 
-/* What the composer reads of those that passes make, the last one. */
-static const struct probe_value *composed_of(const struct probe_side *side) {
-    const struct glint_pass *composer = NULL;
-    const struct probe_value *last = NULL;
-    for (size_t p = 0; p < side->pass_count; p++)
-        if (side->passes[p].shown && glint_pass_role(side->passes[p].pass, GLINT_ROLE_COMPOSED))
-            composer = side->passes[p].pass;
-    for (size_t i = 0; i < side->value_count; i++) {
-        const struct probe_value *value = &side->values[i];
-        if (!value->pass || value->pass == composer || value->count < 3 || strcmp(value->row->unit, "radiance") ||
-            value->row->size != GLINT_SIZE_FULL)
-            continue;
-        if (!composer || glint_pass_row(composer, GLINT_ROW_READ, value->row->name)) last = value;
+const struct probe_value *explain_result(const struct probe_side *side, const struct glint_effect *effect) {
+    const struct probe_value *value = NULL;
+    for (size_t k = 0; !value && k < GLINT_EFFECT_RESULTS && effect->results[k]; k++) {
+        value = value_of(side, effect->results[k], 1);
+        if (value && value->row->size != GLINT_SIZE_FULL) value = NULL;
     }
-    return last;
+    return value;
 }
 
 const struct probe_value *explain_radiance(const struct probe_side *side, enum glint_pass_role role) {
     const char *image = NULL;
-    if (role == GLINT_ROLE_COMPOSED) return composed_of(side);
     for (size_t p = 0; p < side->pass_count; p++) {
         const struct glint_row *row = side->passes[p].shown ? glint_pass_role(side->passes[p].pass, role) : NULL;
         if (row) image = row->image;
     }
-    return value_of(side, image);
+    return value_of(side, image, 3);
 }
 
 bool explain_same_end(const struct probe_side *a, const struct probe_side *b) {

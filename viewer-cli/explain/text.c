@@ -37,6 +37,16 @@ static void say_color(struct sentence *s, const double *rgb) {
 
 /* ---- The surface ---- */
 
+/* The class of a surface, by the effect that classes by roughness. */
+static const char *roughness_name(double roughness) {
+    size_t count;
+    const struct glint_effect *effects = glint_effects(&count);
+    for (size_t e = 0; e < count; e++)
+        if (!strcmp(effects[e].class_channel, "material.roughness"))
+            return glint_effect_class_name(&effects[e], glint_effect_class_of(&effects[e], roughness));
+    return "opaque";
+}
+
 static void describe_surface(const struct explain *e, json_t *sentences) {
     struct sentence s = {.used = 0};
     const uint32_t *at = e->probe.pixel;
@@ -45,7 +55,7 @@ static void describe_surface(const struct explain *e, json_t *sentences) {
     if (depth == INFINITY) say(&s, "Pixel %u,%u shows the sky, which reflects nothing.", at[0], at[1]);
     else {
         say(&s, "Pixel %u,%u is a %s surface", at[0], at[1],
-            isnan(roughness) ? "reflecting" : glint_surface_name(glint_surface_of(roughness)));
+            isnan(roughness) ? "reflecting" : roughness_name(roughness));
         if (!isnan(roughness)) say(&s, " (roughness %s)", number_text(roughness));
         if (isfinite(depth)) say(&s, " at a depth of %s m", number_text(depth));
         if (!explain_last_tracer(&e->probe.own, &end))
@@ -139,7 +149,7 @@ static void describe_ray(const struct explain *e, json_t *sentences) {
 /* The passes behind `sampler` that added other texels, and the result of all. */
 static void say_filters(struct sentence *s, const struct explain *e, const struct glint_pass *sampler) {
     const struct probe_side *own = &e->probe.own;
-    const struct probe_value *reflection = explain_radiance(own, GLINT_ROLE_COMPOSED);
+    const struct probe_value *reflection = explain_result(own, e->effect);
     size_t filters = 0;
     if (!reflection) return;
     for (size_t p = 0; p < own->pass_count; p++) {
@@ -151,7 +161,7 @@ static void say_filters(struct sentence *s, const struct explain *e, const struc
         if (!texels || pass == sampler) continue;
         say(s, "%s%s (%zu texel%s)", filters++ ? ", " : "; ", pass->slot, texels, texels == 1 ? "" : "s");
     }
-    say(s, filters ? " made of it and of its neighbours the pixel's reflection, " : "; the pixel's reflection is ");
+    say(s, filters ? " made of it and of its neighbours the pixel's %s, " : "; the pixel's %s is ", e->effect->noun);
     say_color(s, reflection->values);
 }
 
@@ -224,13 +234,13 @@ static void describe_reference(const struct explain *e, json_t *sentences) {
 
 static void describe_truth(const struct explain *e, json_t *sentences) {
     struct sentence s = {.used = 0};
-    const struct probe_value *reflection = explain_radiance(&e->probe.own, GLINT_ROLE_COMPOSED);
+    const struct probe_value *reflection = explain_result(&e->probe.own, e->effect);
     const size_t at = (size_t)e->probe.pixel[1] * e->true_pixels.width + e->probe.pixel[0];
     if (!e->truth || !reflection || (e->true_error && !isfinite(e->true_error[at]))) return;
-    const float *v = e->true_pixels.values + at * e->true_pixels.components;
-    const double right[3] = {(double)v[0], (double)v[1], (double)v[2]};
+    double right[3];
+    explain_triple(&e->true_pixels, at, right);
     const bool run = strcmp(e->truth, "truth") != 0;
-    say(&s, "The true reflection%s%s%s is ", run ? " in " : "", run ? e->truth : "",
+    say(&s, "The true %s%s%s%s is ", e->effect->noun, run ? " in " : "", run ? e->truth : "",
         e->without_fog ? " (both without fog)" : "");
     say_color(&s, right);
     if (e->true_error && e->true_error[at] > 0) say(&s, " (standard error %.2g %%)", 100 * (double)e->true_error[at]);
@@ -246,7 +256,7 @@ static void describe_best(const struct explain *e, struct sentence *s, const cha
     const struct explain_try *best = &e->best;
     say(s, "With --%s %s (now %s) the symmetric error of %s falls from %s to %s", best->variant ? "use" : "set",
         best->change, best->before, what, number_text(e->start.error), number_text(best->error));
-    if (e->goal == EXPLAIN_REFLECTION)
+    if (e->goal == EXPLAIN_RESULT)
         say(s, ", and that of the pixels around it from %s to %s", number_text(e->start.around),
             number_text(best->around));
     if (!strncmp(best->change, "pipeline.rays", 13)) say(s, ": it is mostly noise, and nothing else was tried.");
@@ -263,15 +273,15 @@ static void describe_change(const struct explain *e, json_t *sentences) {
         say(&s, "That is within %s: nothing has to change.",
             e->within_noise ? "the noise of what it is compared with" : "a symmetric error of 0.02");
     else if (e->goal == EXPLAIN_NOTHING && !e->truth)
-        say(&s,
-            "Nothing says what is right here: the capture holds no true reflection, and no --against RUN was given.");
+        say(&s, "Nothing says what is right here: the capture holds no true %s, and no --against RUN was given.",
+            e->effect->noun);
     else if (e->goal == EXPLAIN_NOTHING) say(&s, "The truth is not known at this pixel.");
     else if (!e->limit) say(&s, "No change was tried (--tries 0).");
     else if (e->best.change[0]) describe_best(e, &s, what);
     else
         say(&s, "None of %zu single changes tried%s takes a third off the error of %s%s.", e->tried,
             e->more ? " (--tries allows more)" : "", what,
-            e->goal == EXPLAIN_REFLECTION ? " without making the pixels around it worse" : "");
+            e->goal == EXPLAIN_RESULT ? " without making the pixels around it worse" : "");
     finish(sentences, &s);
 }
 
@@ -308,14 +318,14 @@ static json_t *end_json(const struct probe_side *side) {
 }
 
 json_t *explain_json(const struct explain *e, json_t *sentences) {
-    static const char *const goals[] = {"none", "ray", "reflection"};
+    const char *const goals[] = {"none", "ray", e->effect->name};
     json_t *tries = json_array();
     for (size_t i = 0; i < e->tried; i++) json_array_append_new(tries, try_json(&e->tries[i]));
     return json_pack("{s:s, s:s, s:[i, i], s:O, s:o, s:o, s:o, s:s, s:o, s:o, s:o, s:b}", "run", e->run, "capture",
                      e->probe.capture, "pixel", (int)e->probe.pixel[0], (int)e->probe.pixel[1], "sentences", sentences,
                      "ray", end_json(&e->probe.own), "reference_ray",
-                     e->probe.has_reference ? end_json(&e->probe.reference) : json_null(), "reflection",
-                     triple(explain_radiance(&e->probe.own, GLINT_ROLE_COMPOSED)), "compared", goals[e->goal], "error",
+                     e->probe.has_reference ? end_json(&e->probe.reference) : json_null(), e->effect->name,
+                     triple(explain_result(&e->probe.own, e->effect)), "compared", goals[e->goal], "error",
                      json_number(e->start.error), "best", e->best.change[0] ? try_json(&e->best) : json_null(), "tried",
                      tries, "more", e->more);
 }

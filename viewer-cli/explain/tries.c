@@ -19,17 +19,22 @@ double explain_error(const double *found, const double *right) {
 
 /* ---- Errors of a run ---- */
 
+void explain_triple(const struct glint_pixels *pixels, size_t at, double triple[3]) {
+    const float *values = pixels->values + at * pixels->components;
+    for (uint32_t c = 0; c < 3; c++) triple[c] = (double)values[pixels->components < 3 ? 0 : c];
+}
+
 static bool true_at(const struct explain *e, uint32_t x, uint32_t y, double right[3]) {
     const size_t at = (size_t)y * e->true_pixels.width + x;
     if (!e->truth || (e->true_error && !isfinite(e->true_error[at]))) return false;
-    for (size_t c = 0; c < 3; c++) right[c] = (double)e->true_pixels.values[at * e->true_pixels.components + c];
+    explain_triple(&e->true_pixels, at, right);
     return true;
 }
 
 /* Of the pixel, and the mean over those around it. */
-static bool reflection_error(const struct explain *e, struct explain_try *t, struct glint_error *err) {
+static bool result_error(const struct explain *e, struct explain_try *t, struct glint_error *err) {
     struct glint_pixels found;
-    if (!glint_study_reflection(e->opened->replay, &found, err)) return false;
+    if (!glint_study_result(e->opened->replay, e->effect, &found, err)) return false;
     const uint32_t x = e->probe.pixel[0], y = e->probe.pixel[1];
     double sum = 0;
     size_t count = 0;
@@ -37,11 +42,10 @@ static bool reflection_error(const struct explain *e, struct explain_try *t, str
     for (uint32_t v = y < EXPLAIN_AROUND ? 0 : y - EXPLAIN_AROUND; v <= y + EXPLAIN_AROUND && v < found.height; v++)
         for (uint32_t u = x < EXPLAIN_AROUND ? 0 : x - EXPLAIN_AROUND; u <= x + EXPLAIN_AROUND && u < found.width;
              u++) {
-            const float *values = found.values + ((size_t)v * found.width + u) * found.components;
-            double right[3];
+            double right[3], own[3];
             if (!true_at(e, u, v, right)) continue;
-            const double error =
-                explain_error((double[]){(double)values[0], (double)values[1], (double)values[2]}, right);
+            explain_triple(&found, (size_t)v * found.width + u, own);
+            const double error = explain_error(own, right);
             if (u == x && v == y) t->error = error;
             sum += error;
             count++;
@@ -73,7 +77,7 @@ static bool measure(const struct explain *e, const struct glint_pipeline *pipeli
     struct glint_replay_options options = e->options;
     options.keep_bytes = (uint64_t)1 << 30;
     return glint_replay_run(e->opened->replay, pipeline, &options, NULL, NULL, err) &&
-           (e->goal == EXPLAIN_RAY ? ray_error(e, t, err) : reflection_error(e, t, err));
+           (e->goal == EXPLAIN_RAY ? ray_error(e, t, err) : result_error(e, t, err));
 }
 
 /* ---- What can be tried ---- */
@@ -263,7 +267,7 @@ static bool measure_start(struct explain *e, enum explain_goal goal, struct glin
     e->goal = goal;
     e->start = (struct explain_try){.error = NAN};
     if (!measure(e, e->opened->pipeline, &e->start, err)) return false;
-    e->within_noise = e->start.error > SMALL && goal == EXPLAIN_REFLECTION && is_noise(e);
+    e->within_noise = e->start.error > SMALL && goal == EXPLAIN_RESULT && is_noise(e);
     if (!(e->start.error > SMALL) || e->within_noise) e->goal = EXPLAIN_NOTHING;
     return true;
 }
@@ -272,7 +276,7 @@ bool explain_find(struct explain *e, struct glint_error *err) {
     const struct glint_probe_record *end;
     e->goal = EXPLAIN_NOTHING;
     if (!explain_last_tracer(&e->probe.own, &end)) return true;
-    if (ray_is_wrong(e) ? !measure_start(e, EXPLAIN_RAY, err) : e->truth && !measure_start(e, EXPLAIN_REFLECTION, err))
+    if (ray_is_wrong(e) ? !measure_start(e, EXPLAIN_RAY, err) : e->truth && !measure_start(e, EXPLAIN_RESULT, err))
         return false;
     if (e->goal == EXPLAIN_NOTHING || !e->limit) return true;
     if (!(e->tries = calloc(e->limit, sizeof *e->tries))) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");

@@ -1,10 +1,13 @@
-/* The options of sweep, blame and tune that choose the reference or truth for errors. */
+/* The options of sweep, blame and tune that choose the effect, and the reference or truth for its errors. */
 #include "options/answer_args.h"
 
 #include <string.h>
 
 error_t answer_args_parse(int key, char *arg, struct argp_state *state, struct answer_args *args) {
     switch (key) {
+    case KEY_EFFECT:
+        args->effect_name = arg;
+        return 0;
     case KEY_REFERENCE:
         if (!strcmp(arg, "truth")) args->truth = true;
         else list_add(&args->references, arg, state);
@@ -23,12 +26,20 @@ void answer_args_check(const struct answer_args *args, size_t captures, struct a
                    args->references.count);
 }
 
+bool answer_args_effect(struct answer_args *args, const struct command *command, const struct glint_pipeline *pipeline,
+                        const struct list *captures, struct glint_error *err) {
+    const bool traced = !args->truth && !args->references.count;
+    args->effect = effect_find(command, args->effect_name, pipeline, traced, args->truth ? captures : NULL, err);
+    return args->effect != NULL;
+}
+
 void answer_args_finish(struct answer_args *args) {
     list_free(&args->references);
 }
 
 struct glint_judge_options answer_args_judge(const struct answer_args *args, const char *folder, size_t capture) {
-    return (struct glint_judge_options){.reference = !args->truth,
+    return (struct glint_judge_options){.effect = args->effect,
+                                        .reference = !args->truth,
                                         .truth = args->truth,
                                         .reference_run =
                                             args->references.count ? args->references.items[capture] : NULL,

@@ -1,22 +1,28 @@
-/* The options of sweep, blame and tune that choose the reference or truth for errors. */
+/* The options of sweep, blame and tune that choose the effect, and the reference or truth for its errors. */
 #ifndef GLINT_VIEWER_ANSWER_ARGS_H
 #define GLINT_VIEWER_ANSWER_ARGS_H
 
 #include "options/args.h"
+#include "options/effect_args.h"
 #include "glint/judge.h"
 
 struct answer_args {
     struct list references; /* run folders, one for each capture, or empty */
-    bool truth;             /* uses the truth in the captures */
-    uint32_t rays;          /* of a traced reference; 0: the judge's default */
+    const char *effect_name;
+    const struct glint_effect *effect; /* whose errors are measured */
+    bool truth;                        /* uses the truth in the captures */
+    uint32_t rays;                     /* of a traced reference; 0: the judge's default */
 };
 
 enum { KEY_REFERENCE = 768, KEY_RAYS };
 
-/* Reads --reference and --rays; ARGP_ERR_UNKNOWN for any other key. */
+/* Reads --effect, --reference and --rays; ARGP_ERR_UNKNOWN for any other key. */
 error_t answer_args_parse(int key, char *arg, struct argp_state *state, struct answer_args *args);
 /* Call after all arguments are parsed. */
 void answer_args_check(const struct answer_args *args, size_t captures, struct argp_state *state);
+/* Finds the effect for a pipeline, by its captures if their truth is used. */
+bool answer_args_effect(struct answer_args *args, const struct command *command, const struct glint_pipeline *pipeline,
+                        const struct list *captures, struct glint_error *err);
 void answer_args_finish(struct answer_args *args);
 /* The options of a judge for that capture; a reference that is traced is stored in the folder. */
 struct glint_judge_options answer_args_judge(const struct answer_args *args, const char *folder, size_t capture);

@@ -157,7 +157,7 @@ json_t *metrics_json(const struct glint_metric_table *t) {
     for (size_t i = 0; i < t->count; i++) {
         const struct glint_metric_row *row = &t->rows[i];
         if (!has_pixels(row)) continue;
-        bool surface = i == 0 || !strcmp(row->set, "surface");
+        bool surface = i == 0 || !strcmp(row->set, t->rows[1].set);
         json_t *json = row_json(t, row);
         if (!surface) json_object_set_new(json, "set", json_string(row->set));
         json_object_set_new(json, surface ? "surfaces" : "class", json_string(row->name));

@@ -1,28 +1,35 @@
 /* --against: the images of errors in the run's folder, beside the images of its passes. */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "glint/exr.h"
 #include "replay/against.h"
 
-enum { IMAGES = 4, ATTRIBUTES = 3 };
+enum { KINDS = 4, IMAGES = KINDS * EFFECTS_MAX, ATTRIBUTES = 3 };
 #define ERRORS_FILE "errors.exr"
 
 struct image {
-    const char *name, *channel, *unit, *meaning;
+    char name[96];
+    const char *channel, *unit, *meaning;
     const float *values; /* NULL: there is none */
 };
 
-static void list_images(const struct comparison *c, struct image images[IMAGES]) {
-    static const char *const meanings[] = {
-        "mean over R, G and B of the difference from the truth, without sign; 0 where nothing reflects",
-        "the same from the reference"};
-    static const char *const flips[] = {"FLIP against the truth: how visible the difference is",
-                                        "FLIP against the reference"};
-    images[0] = (struct image){"error", "error", "radiance", meanings[0], c->truth_error.values};
-    images[1] = (struct image){"flip", "flip", "0 to 1", flips[0], c->to_truth.flip};
-    images[2] = (struct image){"reference_error", "error", "radiance", meanings[1], c->reference_error.values};
-    images[3] = (struct image){"reference_flip", "flip", "0 to 1", flips[1], c->to_reference.flip};
+/* Those of one comparison. */
+static void list_images(const struct comparison *c, struct image images[KINDS]) {
+    static const char *const names[KINDS] = {"error", "flip", "reference_error", "reference_flip"};
+    static const char *const meanings[KINDS] = {
+        "mean over the channels of the difference from the truth, without sign; 0 where the effect is not judged",
+        "FLIP against the truth: how visible the difference is", "the same as error, from the reference",
+        "FLIP against the reference"};
+    const float *const values[KINDS] = {c->truth_error.values, c->to_truth.flip, c->reference_error.values,
+                                        c->to_reference.flip};
+    for (int k = 0; k < KINDS; k++) {
+        const bool flip = k % 2 == 1;
+        images[k] = (struct image){"", flip ? "flip" : "error", flip ? "0 to 1" : "radiance", meanings[k], values[k]};
+        snprintf(images[k].name, sizeof images[k].name, "%s%s%s", c->several ? c->effect->name : "",
+                 c->several ? "_" : "", names[k]);
+    }
 }
 
 static bool write_file(const char *folder, const struct image images[IMAGES], uint32_t width, uint32_t height,
@@ -57,7 +64,8 @@ static bool write_file(const char *folder, const struct image images[IMAGES], ui
 }
 
 /* As the images of a pass, in an object of their own, so that no pass seems to have made them. */
-static json_t *compared_json(const struct image images[IMAGES], uint32_t width, uint32_t height) {
+static json_t *compared_json(const struct comparison *first, const struct image images[IMAGES], uint32_t width,
+                             uint32_t height) {
     json_t *list = json_array();
     for (int i = 0; i < IMAGES; i++)
         if (images[i].values)
@@ -65,21 +73,31 @@ static json_t *compared_json(const struct image images[IMAGES], uint32_t width, 
                                                   ERRORS_FILE, "part", images[i].name, "channels", images[i].channel,
                                                   "unit", images[i].unit, "meaning", images[i].meaning, "width",
                                                   (int)width, "height", (int)height, "format", "R32F"));
-    const char *answer = !images[2].values ? "truth" : !images[0].values ? "reference" : "both";
+    const char *answer = !first->reference ? "truth" : !first->truth ? "reference" : "both";
     return json_pack("{ss ss so}", "slot", "against", "variant", answer, "images", list);
 }
 
-bool against_write_images(const struct comparison *c, const char *folder, struct glint_error *err) {
-    const struct glint_pixels *any = c->truth_error.values ? &c->truth_error : &c->reference_error;
-    struct image images[IMAGES];
-    list_images(c, images);
-    if (!any->values) return true;
+/* The size of the images of errors; NULL: there are none. */
+static const struct glint_pixels *any_error(const struct comparison *comparisons, size_t count) {
+    for (size_t c = 0; c < count; c++) {
+        if (comparisons[c].truth_error.values) return &comparisons[c].truth_error;
+        if (comparisons[c].reference_error.values) return &comparisons[c].reference_error;
+    }
+    return NULL;
+}
+
+bool against_write_images(const struct comparison *comparisons, size_t count, const char *folder,
+                          struct glint_error *err) {
+    const struct glint_pixels *any = any_error(comparisons, count);
+    struct image images[IMAGES] = {{.values = NULL}};
+    for (size_t c = 0; c < count; c++) list_images(&comparisons[c], &images[c * KINDS]);
+    if (!any) return true;
     if (!write_file(folder, images, any->width, any->height, err)) return false;
     struct glint_run *run = glint_run_open(folder, err);
     json_t *root = run ? json_loads(glint_run_json(run), 0, NULL) : NULL;
     glint_run_close(&run);
     if (!root) return false;
-    json_object_set_new(root, "compared", compared_json(images, any->width, any->height));
+    json_object_set_new(root, "compared", compared_json(&comparisons[0], images, any->width, any->height));
     char *text = json_dumps(root, JSON_REAL_PRECISION(9));
     const bool ok = text ? glint_run_write_json(folder, text, err)
                          : glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", folder);

@@ -14,13 +14,13 @@ static bool errors_path(char path[4096], const char *folder, struct glint_error 
            glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
 }
 
-bool report_keep_errors(const char *folder, const struct comparison *compared, struct glint_error *err) {
+bool report_keep_errors(const char *folder, const struct comparison *compared, size_t count, struct glint_error *err) {
     char path[4096];
     if (!errors_path(path, folder, err)) return false;
-    if (!compared)
+    if (!count)
         return unlink(path) == 0 || errno == ENOENT || glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
     json_t *json = json_object();
-    against_json(compared, json);
+    for (size_t c = 0; c < count; c++) against_json(&compared[c], json);
     char *text = json_dumps(json, JSON_INDENT(1));
     bool ok = text ? output_text(path, text, err) : glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
     free(text);
@@ -33,7 +33,7 @@ bool report_keep_errors(const char *folder, const struct comparison *compared, s
 static const struct part {
     const char *key, *title, *series;
 } parts[] = {
-    {"against_truth", "Reflection before compose, against the truth in the capture.", "truth"},
+    {"against_truth", "Result before compose, against the truth in the capture.", "truth"},
     {"against_reference", "The same against the reference, which uses the same data: the error of the algorithms.",
      "reference"},
     {"missing_information", "Reference against the truth: error due to information that the capture does not contain.",
@@ -129,8 +129,11 @@ static void add_chart(json_t *blocks, const char *title, const char *name, const
                                  (json_int_t)height, "series", series));
 }
 
-static void add_surfaces(const struct report *r, json_t *const *errors, json_t *blocks) {
-    json_t *series = json_array(), *categories = json_pack("[s, s, s, s]", "all", "mirror-like", "glossy", "rough");
+static void add_surfaces(const struct report *r, const struct glint_effect *effect, json_t *const *errors,
+                         json_t *blocks) {
+    json_t *series = json_array(), *categories = json_array();
+    for (size_t k = 0; k <= glint_effect_class_count(effect); k++)
+        json_array_append_new(categories, json_string(glint_effect_class_name(effect, k)));
     for (size_t k = 0; k < r->count; k++)
         for (size_t p = 0; p < sizeof parts / sizeof *parts; p++)
             add_series(r, k, parts[p].series,
@@ -193,24 +196,40 @@ static void add_terms(const struct report *r, json_t *const *errors, json_t *blo
         }
 }
 
+/* The errors of one effect in what report_keep_errors stored of a run; NULL: it was not compared. */
+static json_t *errors_of(json_t *stored, const struct glint_effect *effect) {
+    json_t *effects = json_object_get(stored, "effects");
+    if (effects) return json_object_get(effects, effect->name);
+    return strcmp(report_text(stored, "effect"), effect->name) == 0 ? stored : NULL;
+}
+
+static void add_effect(const struct report *r, const struct glint_effect *effect, json_t *const *errors) {
+    char title[120];
+    snprintf(title, sizeof title, "Error of the %.100s", effect->noun);
+    json_t *blocks = page_section(r->document, title);
+    add_surfaces(r, effect, errors, blocks);
+    add_terms(r, errors, blocks);
+    for (size_t p = 0; p < sizeof parts / sizeof *parts; p++)
+        add_table(r, errors, parts[p].key, "surfaces", error_columns, blocks, parts[p].title);
+    add_classes(r, errors, blocks);
+    add_table(r, errors, "against_truth", "rays", ray_columns, blocks,
+              "End reasons of rays of mirror-like surfaces, and their distance from the true hit points.");
+}
+
 void report_errors(const struct report *r) {
-    json_t **errors = calloc(r->count, sizeof *errors);
-    bool any = false;
-    for (size_t k = 0; errors && k < r->count; k++) {
+    size_t count;
+    const struct glint_effect *effects = glint_effects(&count);
+    json_t **stored = calloc(r->count, sizeof *stored), **errors = calloc(r->count, sizeof *errors);
+    for (size_t k = 0; stored && k < r->count; k++) {
         char path[4096];
-        if (errors_path(path, r->folders[k], NULL)) errors[k] = json_load_file(path, 0, NULL);
-        any = any || errors[k];
+        if (errors_path(path, r->folders[k], NULL)) stored[k] = json_load_file(path, 0, NULL);
     }
-    if (any) {
-        json_t *blocks = page_section(r->document, "Error");
-        add_surfaces(r, errors, blocks);
-        add_terms(r, errors, blocks);
-        for (size_t p = 0; p < sizeof parts / sizeof *parts; p++)
-            add_table(r, errors, parts[p].key, "surfaces", error_columns, blocks, parts[p].title);
-        add_classes(r, errors, blocks);
-        add_table(r, errors, "against_truth", "rays", ray_columns, blocks,
-                  "End reasons of rays of mirror-like surfaces, and their distance from the true hit points.");
+    for (size_t e = 0; stored && errors && e < count; e++) {
+        bool any = false;
+        for (size_t k = 0; k < r->count; k++) any |= (errors[k] = errors_of(stored[k], &effects[e])) != NULL;
+        if (any) add_effect(r, &effects[e], errors);
     }
-    for (size_t k = 0; errors && k < r->count; k++) json_decref(errors[k]);
+    for (size_t k = 0; stored && k < r->count; k++) json_decref(stored[k]);
+    free(stored);
     free(errors);
 }

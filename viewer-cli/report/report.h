@@ -8,8 +8,8 @@
 json_t *report_runs(const char *const *folders, size_t count, const char *const *images, struct glint_error *err);
 
 struct comparison;
-/* Stores the errors of a run in its folder for reports; NULL removes stored ones. */
-bool report_keep_errors(const char *folder, const struct comparison *compared, struct glint_error *err);
+/* Stores the errors of a run in its folder for reports; a count of 0 removes stored ones. */
+bool report_keep_errors(const char *folder, const struct comparison *compared, size_t count, struct glint_error *err);
 
 /* ---- Parts of the report ---- */
 

@@ -8,6 +8,7 @@
 
 #include "report/shot.h"
 #include "draw/view/pixels.h"
+#include "options/effect_args.h"
 #include "io/output.h"
 
 /* ---- The frames ---- */
@@ -112,8 +113,8 @@ static bool add_pictures(struct shot_report *shot, size_t frame, const struct sh
     const struct render_options options = {0};
     if (!add_run_image(shot, frame, SHOT_FINAL, NULL, err)) return false;
     if (!p->found.values) return true;
-    const struct source found = pixels_source(&p->found, "reflection"), truth = pixels_source(&p->truth, "truth");
-    return add_picture(shot, frame, SHOT_REFLECTION, &found, &options, err) &&
+    const struct source found = pixels_source(&p->found, shot->effect->noun), truth = pixels_source(&p->truth, "truth");
+    return add_picture(shot, frame, SHOT_RESULT, &found, &options, err) &&
            (!p->truth.values ||
             (add_picture(shot, frame, SHOT_TRUTH, &truth, &options, err) && add_error_image(shot, frame, p, err)));
 }
@@ -128,14 +129,14 @@ static bool measure(struct shot_report *shot, struct glint_error *err) {
         two[0] = two[1];
         two[1] = (struct shot_pixels){.error = NULL};
         ok = shot_read(shot, i, &two[1], err) && add_pictures(shot, i, &two[1], err) &&
-             shot_measure(&shot->frames[i], i ? &two[0] : NULL, &two[1], err);
+             shot_measure(shot, &shot->frames[i], i ? &two[0] : NULL, &two[1], err);
     }
     for (int k = 0; k < 2; k++) shot_pixels_finish(&two[k]);
     return ok;
 }
 
 static void add_player(const struct shot_report *shot, json_t *blocks) {
-    static const char *const names[SHOT_TRACKS] = {"Final image", "Reflection", "Truth", "Error"};
+    const char *const names[SHOT_TRACKS] = {"Final image", shot->effect->title, "Truth", "Error"};
     json_t *tracks = json_array(), *frames = json_array(), *marks = json_array();
     for (int k = 0; k < SHOT_TRACKS; k++)
         if (json_array_size(shot->tracks[k]) == shot->count)
@@ -162,10 +163,18 @@ static void add_facts(const struct shot_report *shot) {
     page_fact(shot->document, "device", report_text(json_object_get(first, "device"), "name"));
 }
 
-json_t *report_shot(const char *folder, struct glint_error *err) {
+/* By the first frame. */
+static bool find_effect(struct shot_report *shot, const char *name, struct glint_error *err) {
+    struct glint_run *run = glint_run_open(shot->frames[0].folder, err);
+    shot->effect = run ? effect_of_run(name, run, err) : NULL;
+    glint_run_close(&run);
+    return shot->effect != NULL;
+}
+
+json_t *report_shot(const char *folder, const char *effect, struct glint_error *err) {
     struct shot_report shot = {.folder = folder};
     for (int k = 0; k < SHOT_TRACKS; k++) shot.tracks[k] = json_array();
-    bool ok = read_frames(&shot, err) && measure(&shot, err);
+    bool ok = read_frames(&shot, err) && find_effect(&shot, effect, err) && measure(&shot, err);
     if (ok) {
         char title[400];
         snprintf(title, sizeof title, "%.280s: frames %lld to %lld", folder, shot.frames[0].number,

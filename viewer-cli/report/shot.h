@@ -7,12 +7,12 @@
 
 /* Whether the folder is that of a shot. */
 bool report_is_shot(const char *folder);
-/* Describes it as a document of page.h. Error and flicker need the captures where they were when they were replayed, with their truth. */
-json_t *report_shot(const char *folder, struct glint_error *err);
+/* Describes it as a document of page.h, with the result of an effect (NULL: the first that the runs hold). Error and flicker need the captures where they were when they were replayed, with their truth. */
+json_t *report_shot(const char *folder, const char *effect, struct glint_error *err);
 
 /* ---- Parts of the report ---- */
 
-enum shot_track { SHOT_FINAL, SHOT_REFLECTION, SHOT_TRUTH, SHOT_ERROR, SHOT_TRACKS };
+enum shot_track { SHOT_FINAL, SHOT_RESULT, SHOT_TRUTH, SHOT_ERROR, SHOT_TRACKS };
 enum { SHOT_BY_ERROR, SHOT_BY_FLICKER, SHOT_FIGURES };
 
 struct shot_frame {
@@ -26,6 +26,7 @@ struct shot_frame {
 };
 struct shot_report {
     const char *folder;
+    const struct glint_effect *effect;
     struct shot_frame *frames;
     size_t count;
     json_t *tracks[SHOT_TRACKS]; /* PICTUREs, one for each frame, or empty */
@@ -34,18 +35,18 @@ struct shot_report {
     char no_truth[1024];         /* why a frame has none; "": all have one */
     json_t *document;
 };
-/* The reflection of a frame, and the truth; `values` are NULL without one. */
+/* The result of a frame, and the truth; `values` are NULL without one. */
 struct shot_pixels {
     struct glint_pixels found, truth;
     float *error;  /* of the truth, relative */
-    uint8_t *mask; /* of reflecting surfaces */
+    uint8_t *mask; /* of the pixels that are judged */
 };
 void shot_pixels_finish(struct shot_pixels *pixels);
 /* Reads a frame's images. What is missing is no error: its reason goes to shot->no_truth. */
 bool shot_read(struct shot_report *shot, size_t frame, struct shot_pixels *pixels, struct glint_error *err);
 /* Stores the figures of a frame; `before`: the frame before it, or NULL. */
-bool shot_measure(struct shot_frame *frame, const struct shot_pixels *before, const struct shot_pixels *now,
-                  struct glint_error *err);
+bool shot_measure(const struct shot_report *shot, struct shot_frame *frame, const struct shot_pixels *before,
+                  const struct shot_pixels *now, struct glint_error *err);
 void shot_find_worst(struct shot_report *shot);
 json_t *shot_frame_name(const struct shot_frame *frame);
 void shot_charts(const struct shot_report *shot);

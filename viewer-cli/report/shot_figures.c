@@ -17,16 +17,18 @@ void shot_pixels_finish(struct shot_pixels *p) {
     *p = (struct shot_pixels){.error = NULL};
 }
 
-/* A pipeline with the lobe that the run drew its rays from, which is all that the choice of a truth needs. */
-static struct glint_pipeline *pipeline_of(const json_t *run, struct glint_error *err) {
-    const char *name;
-    const struct glint_pass *pass = glint_pass_with_role(GLINT_ROLE_LOBE, &name);
-    const json_t *parameters = json_object_get(report_pass(run, pass->slot), "parameters");
-    const char *lobe = report_text(parameters, name);
+/* A pipeline with the value of the parameter by which the effect's truth is chosen, which is all that this needs. */
+static struct glint_pipeline *pipeline_of(const struct glint_effect *effect, const json_t *run,
+                                          struct glint_error *err) {
     struct glint_pipeline *pipeline = glint_pipeline_create("mafia3", err);
+    const char *name;
+    const struct glint_pass *pass = effect->truth_has_choices ? glint_pass_with_role(effect->truth_by, &name) : NULL;
+    if (!pass) return pipeline;
+    const json_t *parameters = json_object_get(report_pass(run, pass->slot), "parameters");
+    const char *choice = report_text(parameters, name);
     char text[256];
-    snprintf(text, sizeof text, "%.100s.%.50s=%.50s", pass->slot, name, lobe);
-    if (pipeline && *lobe && !glint_pipeline_set(pipeline, text, err)) glint_pipeline_destroy(&pipeline);
+    snprintf(text, sizeof text, "%.100s.%.50s=%.50s", pass->slot, name, choice);
+    if (pipeline && *choice && !glint_pipeline_set(pipeline, text, err)) glint_pipeline_destroy(&pipeline);
     return pipeline;
 }
 
@@ -51,14 +53,16 @@ static struct glint_capture *open_capture(const json_t *run, struct glint_error 
     return NULL;
 }
 
-static bool read_truth(struct shot_frame *frame, struct shot_pixels *p, struct glint_error *err) {
+static bool read_truth(const struct glint_effect *effect, struct shot_frame *frame, struct shot_pixels *p,
+                       struct glint_error *err) {
     struct glint_capture *capture = open_capture(frame->run, err);
-    struct glint_pipeline *pipeline = capture ? pipeline_of(frame->run, err) : NULL;
-    bool ok = pipeline && glint_study_truth(capture, pipeline, &p->truth, &p->error, err) &&
-              (p->mask = glint_study_surfaces(capture, err)) != NULL;
+    struct glint_pipeline *pipeline = capture ? pipeline_of(effect, frame->run, err) : NULL;
+    bool ok = pipeline && glint_study_truth(capture, effect, pipeline, &p->truth, &p->error, err) &&
+              (p->mask = glint_study_labels(capture, effect, err)) != NULL;
     if (ok && (p->truth.width != p->found.width || p->truth.height != p->found.height))
-        ok = glint_fail(err, GLINT_ERROR_FORMAT, "%s: the truth is %u x %u, the reflection %u x %u",
-                        glint_capture_path(capture), p->truth.width, p->truth.height, p->found.width, p->found.height);
+        ok =
+            glint_fail(err, GLINT_ERROR_FORMAT, "%s: the truth is %u x %u, the %s %u x %u", glint_capture_path(capture),
+                       p->truth.width, p->truth.height, effect->noun, p->found.width, p->found.height);
     if (ok) frame->fogged = has_fog(frame->run, capture);
     else {
         glint_pixels_finish(&p->truth);
@@ -74,20 +78,23 @@ bool shot_read(struct shot_report *shot, size_t frame, struct shot_pixels *p, st
     struct glint_run *run = glint_run_open(shot->frames[frame].folder, err);
     struct glint_error missing = {0};
     if (!run) return false;
-    const bool found = glint_study_run_reflection(run, &p->found, &missing);
+    const bool found = glint_study_run_result(run, shot->effect, &p->found, &missing);
     glint_run_close(&run);
-    if (!(found && read_truth(&shot->frames[frame], p, &missing)) && !shot->no_truth[0])
+    if (!(found && read_truth(shot->effect, &shot->frames[frame], p, &missing)) && !shot->no_truth[0])
         snprintf(shot->no_truth, sizeof shot->no_truth, "%.200s: %.800s", shot->frames[frame].name, missing.message);
     return missing.code != GLINT_ERROR_MEMORY || glint_fail(err, missing.code, "%s", missing.message);
 }
 
 /* ---- Measuring ---- */
 
-static bool measure_error(struct shot_frame *frame, const struct shot_pixels *p, struct glint_error *err) {
+static bool measure_error(const struct glint_effect *effect, struct shot_frame *frame, const struct shot_pixels *p,
+                          struct glint_error *err) {
+    const char *channels;
+    glint_effect_channels(effect, &channels);
     const struct glint_metric_options options = {.metrics = 1u << GLINT_METRIC_RMSE | 1u << GLINT_METRIC_CLEAN_RMSE |
                                                             1u << GLINT_METRIC_SYMMETRIC,
-                                                 .found_channels = "R G B",
-                                                 .truth_channels = "R G B",
+                                                 .found_channels = channels,
+                                                 .truth_channels = channels,
                                                  .mask = p->mask,
                                                  .truth_error = p->error};
     struct glint_metric_table table = {0};
@@ -101,10 +108,10 @@ static bool measure_error(struct shot_frame *frame, const struct shot_pixels *p,
     return ok;
 }
 
-bool shot_measure(struct shot_frame *frame, const struct shot_pixels *before, const struct shot_pixels *now,
-                  struct glint_error *err) {
+bool shot_measure(const struct shot_report *shot, struct shot_frame *frame, const struct shot_pixels *before,
+                  const struct shot_pixels *now, struct glint_error *err) {
     frame->rmse = frame->clean_rmse = frame->symmetric = (double)NAN;
-    if (now->truth.values && !measure_error(frame, now, err)) return false;
+    if (now->truth.values && !measure_error(shot->effect, frame, now, err)) return false;
     if (!before || !before->found.values || !now->found.values) return true;
     if (before->found.width != now->found.width || before->found.height != now->found.height) return true;
     const bool both = before->truth.values && now->truth.values;
@@ -253,15 +260,16 @@ void shot_charts(const struct shot_report *shot) {
     if (fogged)
         page_text(blocks, "note",
                   "The runs have fog, the truth has none. glint replay --against truth leaves fog out.");
-    page_text(
-        blocks, "text",
-        with_truth
-            ? "Of the reflection before compose, over reflecting surfaces. Error: off the truth of the frame. Flicker: "
-              "the change of the picture since the frame before, less that of the truth, so that errors that stay "
-              "where "
-              "they are do not count. The truth's own noise is taken off both."
-            : "How much the reflection changes from one frame to the next. Without a truth, nothing says how much of "
-              "that is right.");
+    char text[600];
+    snprintf(text, sizeof text,
+             with_truth ? "Of the %s before compose, over the pixels where it is judged. Error: off the truth of the "
+                          "frame. Flicker: the change of the picture since the frame before, less that of the truth, "
+                          "so that errors that stay where they are do not count. The truth's own noise is taken off "
+                          "both."
+                        : "How much the %s changes from one frame to the next. Without a truth, nothing says how much "
+                          "of that is right.",
+             shot->effect->noun);
+    page_text(blocks, "text", text);
     if (with_truth) {
         add_chart(shot, blocks, "Error of each frame", shot->worst[SHOT_BY_ERROR], errors);
         add_chart(shot, blocks, "Flicker: change since the frame before", shot->worst[SHOT_BY_FLICKER], flicker);

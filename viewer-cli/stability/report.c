@@ -62,10 +62,10 @@ json_t *stability_json(const struct stability_report *report) {
     for (size_t i = 0; i < s->pass_count; i++) json_array_append_new(passes, pass_json(&s->passes[i]));
     for (size_t i = 0; report->inputs && report->inputs[i]; i++)
         json_array_append_new(inputs, json_string(report->inputs[i]));
-    return json_pack("{s:s, s:s, s:s, s:I, s:o, s:s, s:o, s:o, s:o}", "capture", report->capture, "preset",
-                     report->preset, "device", report->device, "seeds", (json_int_t)s->seeds, "perturbed", inputs,
-                     "precision", report->half ? "half" : "float", "bound", json_number(s->bound), "passes", passes,
-                     "images", images);
+    return json_pack("{s:s, s:s, s:s, s:s, s:I, s:o, s:s, s:o, s:o, s:o}", "effect", report->effect->name, "capture",
+                     report->capture, "preset", report->preset, "device", report->device, "seeds", (json_int_t)s->seeds,
+                     "perturbed", inputs, "precision", report->half ? "half" : "float", "bound", json_number(s->bound),
+                     "passes", passes, "images", images);
 }
 
 /* ---- Tables ---- */
@@ -157,7 +157,7 @@ void stability_print(const struct stability_report *report) {
            s->seeds, report->half ? "their declared formats" : "float");
     print_inputs(s);
     printf(
-        "\nAmplification (relative change divided by that of the inputs) of reflecting pixels. above: pixels over "
+        "\nAmplification (relative change divided by that of the inputs) of the judged pixels. above: pixels over "
         "%g; first above: "
         "pixels that exceed it here and in no earlier pass; flips: pixels with a different decision in some replay\n",
         s->bound);

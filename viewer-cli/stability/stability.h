@@ -8,6 +8,7 @@
 
 struct stability_report {
     const struct glint_stability *stability;
+    const struct glint_effect *effect; /* whose judged pixels are compared */
     const char *capture, *preset, *device;
     const char *const *inputs; /* what was perturbed; NULL: all */
     bool half;

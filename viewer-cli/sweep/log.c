@@ -14,12 +14,12 @@ static json_t *define(const struct sweep *sweep, const char *const *axes, const 
         return NULL;
     }
     json_t *json = json_pack(
-        "{s:i, s:s, s:o, s:o, s:o, s:o, s:s, s:s, s:o, s:I, s:I, s:b, s:b, s:I, s:[ss]}", "format", 1, "glint",
-        GLINT_VERSION, "captures", captures, "pipeline", pipeline_json(sweep->base), "shaders", sources, "vary",
-        strings_json(axes), "sample", sample, "reference", sweep->against.truth ? "truth" : "computed",
-        "reference_runs", strings_json(sweep->against.references.items), "reference_rays",
-        (json_int_t)sweep->against.rays, "repeat", (json_int_t)sweep->rounds, "whole", sweep->whole, "all", sweep->all,
-        "metrics", (json_int_t)sweep->metrics, "device", device->name, device->driver_version);
+        "{s:i, s:s, s:s, s:o, s:o, s:o, s:o, s:s, s:s, s:o, s:I, s:I, s:b, s:b, s:I, s:[ss]}", "format", 1, "glint",
+        GLINT_VERSION, "effect", sweep->against.effect->name, "captures", captures, "pipeline",
+        pipeline_json(sweep->base), "shaders", sources, "vary", strings_json(axes), "sample", sample, "reference",
+        sweep->against.truth ? "truth" : "computed", "reference_runs", strings_json(sweep->against.references.items),
+        "reference_rays", (json_int_t)sweep->against.rays, "repeat", (json_int_t)sweep->rounds, "whole", sweep->whole,
+        "all", sweep->all, "metrics", (json_int_t)sweep->metrics, "device", device->name, device->driver_version);
     if (!json) fail_memory(err);
     return json;
 }

@@ -221,8 +221,8 @@ static bool on_front(const struct sweep *sweep, size_t point) {
     return false;
 }
 
-/* Computes the reflections of all points on fronts; those of other points stay empty. */
-static bool draw_changes(const struct work *work, const struct glint_pixels *reflections, struct glint_error *err) {
+/* Computes the results of all points on fronts; those of other points stay empty. */
+static bool draw_changes(const struct work *work, const struct glint_pixels *results, struct glint_error *err) {
     const struct sweep *sweep = work->sweep;
     for (size_t f = 0; f < sweep->front_count; f++)
         for (size_t i = 0; i + 1 < sweep->fronts[f].count; i++) {
@@ -231,16 +231,16 @@ static bool draw_changes(const struct work *work, const struct glint_pixels *ref
             char name[96], title[96];
             sweep_change_name(work->capture, from, to, name);
             snprintf(title, sizeof title, "difference between %zu and %zu", from, to);
-            const bool ok = pixels_difference(&reflections[from], &reflections[to], NULL,
-                                              glint_judge_surfaces(work->judge), &change, err) &&
-                            draw_picture(sweep, name, &change, title, err);
+            const bool ok =
+                pixels_difference(&results[from], &results[to], NULL, glint_judge_labels(work->judge), &change, err) &&
+                draw_picture(sweep, name, &change, title, err);
             glint_pixels_finish(&change);
             if (!ok) return false;
         }
     return true;
 }
 
-static bool draw_errors(struct work *work, struct glint_pixels *reflections, struct glint_error *err) {
+static bool draw_errors(struct work *work, struct glint_pixels *results, struct glint_error *err) {
     struct sweep *sweep = work->sweep;
     for (size_t p = 0; p < sweep->points; p++) {
         if (!on_front(sweep, p)) continue;
@@ -253,13 +253,12 @@ static bool draw_errors(struct work *work, struct glint_pixels *reflections, str
         char name[96];
         label(work, "picture", p + 1);
         sweep_picture_name("error", work->capture, p, name);
-        bool ok =
-            pipeline && glint_judge_evaluate(work->judge, pipeline, 0, &verdict, report, work, err) &&
-            (answer = glint_judge_target(work->judge, kind, pipeline, &noise, NULL, NULL, err)) &&
-            pixels_difference(&verdict.reflection, answer, noise, glint_judge_surfaces(work->judge), &error, err) &&
-            draw_picture(sweep, name, &error, "error", err);
-        reflections[p] = verdict.reflection;
-        verdict.reflection = (struct glint_pixels){0};
+        bool ok = pipeline && glint_judge_evaluate(work->judge, pipeline, 0, &verdict, report, work, err) &&
+                  (answer = glint_judge_target(work->judge, kind, pipeline, &noise, NULL, NULL, err)) &&
+                  pixels_difference(&verdict.result, answer, noise, glint_judge_labels(work->judge), &error, err) &&
+                  draw_picture(sweep, name, &error, "error", err);
+        results[p] = verdict.result;
+        verdict.result = (struct glint_pixels){0};
         glint_pixels_finish(&error);
         glint_verdict_finish(&verdict);
         if (pipeline) glint_pipeline_destroy(&pipeline);
@@ -271,12 +270,12 @@ static bool draw_errors(struct work *work, struct glint_pixels *reflections, str
 
 static bool draw_front(struct work *work, struct glint_error *err) {
     const size_t points = work->sweep->points;
-    struct glint_pixels *reflections = calloc(points + 1, sizeof *reflections);
+    struct glint_pixels *results = calloc(points + 1, sizeof *results);
     name_phase(work, "pictures");
-    const bool ok = (reflections || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory")) &&
-                    draw_errors(work, reflections, err) && draw_changes(work, reflections, err);
-    for (size_t p = 0; reflections && p < points; p++) glint_pixels_finish(&reflections[p]);
-    free(reflections);
+    const bool ok = (results || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory")) &&
+                    draw_errors(work, results, err) && draw_changes(work, results, err);
+    for (size_t p = 0; results && p < points; p++) glint_pixels_finish(&results[p]);
+    free(results);
     return ok;
 }
 

@@ -79,7 +79,7 @@ void sweep_print(const struct sweep *sweep) {
         printf("knee: %s=%s, beyond which larger values reduce the error less\n", glint_space_axis(sweep->space, 0),
                glint_space_value(sweep->space, knee, 0));
     }
-    printf("errors of the reflection before compose, against the %s",
+    printf("errors of the %s before compose, against the %s", sweep->against.effect->noun,
            sweep->against.truth ? "truth in the capture" : "reference");
     if (sweep->captures.count > 1) printf(", mean of %zu captures", sweep->captures.count);
     if (sweep->rounds)
@@ -169,8 +169,8 @@ json_t *sweep_json(const struct sweep *sweep) {
                                                 sweep->fronts[f].title, "points", on));
     }
     const size_t knee = sweep_knee(sweep);
-    return json_pack("{s:i, s:O, s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o}", "format", 1, "sweep", sweep->definition,
-                     "metric", glint_metric(sweep->metric)->name, "answer",
+    return json_pack("{s:i, s:O, s:s, s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o}", "format", 1, "sweep", sweep->definition,
+                     "effect", sweep->against.effect->name, "metric", glint_metric(sweep->metric)->name, "answer",
                      sweep->against.truth ? "truth" : "reference", "captures", captures, "axes", axes, "fronts", fronts,
                      "points", points, "knee", knee < sweep->points ? json_integer((json_int_t)knee) : json_null(),
                      "seconds", seconds_json(sweep));

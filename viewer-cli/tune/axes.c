@@ -1,4 +1,4 @@
-/* Chooses the parameters to tune: those of --vary, or all declared ones that can influence the reflection. */
+/* Chooses the parameters to tune: those of --vary, or all declared ones that can influence the result. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -110,7 +110,7 @@ struct part {
     char reason[192];
 };
 
-/* Adds the results of a pass in the start's run on one capture; false when the pass does not influence the reflection. */
+/* Adds the results of a pass in the start's run on one capture; false when the pass does not influence the result. */
 static bool ask_capture(const struct tune *tune, struct tune_subject *subject, const struct glint_pass *pass,
                         struct part *part, struct glint_error *err) {
     struct glint_replay *replay = glint_judge_replay(subject->judge);
@@ -122,7 +122,7 @@ static bool ask_capture(const struct tune *tune, struct tune_subject *subject, c
         part->cached |= results[i].cached_work;
         memcpy(part->reason, results[i].reason, sizeof part->reason);
     }
-    const struct glint_image *image = glint_study_reflection_image(replay);
+    const struct glint_image *image = glint_study_result_image(replay, tune->against.effect);
     const char *const outputs[] = {image ? image->name : NULL, NULL};
     const struct glint_replay_options options = {.outputs = outputs, .all = tune->all};
     const struct glint_plan_entry *entries;
@@ -138,12 +138,14 @@ static void leave(struct tune *tune, const char *name, const char *why, const ch
     snprintf(left->why, sizeof left->why, "%s%s", why, more);
 }
 
+static const char not_needed[] = "does not influence the ";
+
 static const char *why_left(const struct tune *tune, const struct glint_pass *pass, const struct glint_row *row,
                             const struct part *part, bool otherwise) {
     if (!part->ran) return "does not run: ";
     if (pass->host) return "is used on the host only: it costs memory, but no frame time";
     if (part->cached) return "is used for cube maps, which are not processed every frame";
-    if (!part->needed) return "does not influence the reflection";
+    if (!part->needed) return not_needed;
     if (otherwise) return "would change the reference";
     if (!tune->against.truth && is_assumed(pass, row->name))
         return "is an assumption about the scene, which the reference makes too";
@@ -202,7 +204,7 @@ static bool add_all(struct tune *tune, struct glint_error *err) {
                 tune->axis_count++;
                 continue;
             }
-            leave(tune, axis->name, why, part.ran ? "" : part.reason);
+            leave(tune, axis->name, why, !part.ran ? part.reason : why == not_needed ? tune->against.effect->noun : "");
             free(axis->texts);
             *axis = (struct tune_axis){0};
         }

@@ -49,14 +49,14 @@ bool tune_open(struct tune *tune, struct glint_error *err) {
         json_decref(captures);
         return false;
     }
-    json_t *definition =
-        json_pack("{s:i, s:s, s:o, s:o, s:o, s:o, s:s, s:o, s:o, s:I, s:I, s:s, s:s, s:b, s:[ss]}", "format", 1,
-                  "glint", GLINT_VERSION, "captures", captures, "pipeline", pipeline_json(tune->base), "shaders",
-                  sources, "axes", axes_json(tune), "cost", tune->fetches ? "fetches" : "ms", "slots",
-                  strings_json(tune->slots.items), "reference_runs", strings_json(tune->against.references.items),
-                  "reference_rays", (json_int_t)tune->against.rays, "rounds", (json_int_t)tune->rounds, "metric",
-                  glint_metric(tune->metric)->name, "against", tune->against.truth ? "truth" : "reference", "all",
-                  tune->all, "device", device->name, device->driver_version);
+    json_t *definition = json_pack(
+        "{s:i, s:s, s:s, s:o, s:o, s:o, s:o, s:s, s:o, s:o, s:I, s:I, s:s, s:s, s:b, s:[ss]}", "format", 1, "glint",
+        GLINT_VERSION, "effect", tune->against.effect->name, "captures", captures, "pipeline",
+        pipeline_json(tune->base), "shaders", sources, "axes", axes_json(tune), "cost",
+        tune->fetches ? "fetches" : "ms", "slots", strings_json(tune->slots.items), "reference_runs",
+        strings_json(tune->against.references.items), "reference_rays", (json_int_t)tune->against.rays, "rounds",
+        (json_int_t)tune->rounds, "metric", glint_metric(tune->metric)->name, "against",
+        tune->against.truth ? "truth" : "reference", "all", tune->all, "device", device->name, device->driver_version);
     tune->lines = json_array();
     tune->journal.folder = tune->folder;
     tune->journal.kind = "tuning";

@@ -2,6 +2,7 @@
 #ifndef GLINT_PASSES_H
 #define GLINT_PASSES_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "glint/capture.h"
@@ -18,7 +19,7 @@ enum glint_pass_role {
     GLINT_ROLE_SURVEY_OPEN_FACES,    /* where active cube maps have texels without a finite distance */
     GLINT_ROLE_SURVEY_SKY_FACES,     /* where their alpha lets the sky show */
     GLINT_ROLE_SURVEY_REACHED_FACES, /* the faces that mirror rays reach */
-    GLINT_ROLE_COMPOSED,             /* the reflection that the slot composes into the picture */
+    GLINT_ROLE_COMPOSED,             /* the picture, into which the slot composes the results of effects */
     GLINT_ROLE_LOBE,           /* the parameter that names the lobe that rays are drawn from: truth.reflection.LOBE */
     GLINT_ROLE_DEFINES_RESULT, /* a parameter that defines which image is estimated, not how well: the reference adopts it */
     /* Images of rays, one ray a texel. */
@@ -36,23 +37,36 @@ enum glint_pass_role {
 
 enum glint_value_type { GLINT_VALUE_INT, GLINT_VALUE_FLOAT, GLINT_VALUE_BOOL, GLINT_VALUE_UINT };
 
-/* Sizes of images. Names of size classes with MIPs end in _MIPS. */
+/* Sizes of images.
+
+   The classes of the picture are FULL, the capture's resolution, and FULL divided by a power of two, its shift: HALF (1), QUARTER, EIGHTH and
+   so on; GLINT_SIZE_PICTURE makes those without a name. HALF is the resolution of the pipeline: half of FULL, rounded up, or all of it if the
+   pipeline traces every pixel (row RESOLUTION). A shift beyond 1 is as large as MIP level shift - 1 of HALF, so that QUARTER is half of HALF,
+   rounded down, and at least one texel. While HALF is full, QUARTER thus is half.
+   ..._MIPS is the class with all MIP levels down to 1 × 1, ..._MIPS(n) with the n finest ones, or fewer if it has fewer. */
+#define GLINT_SIZE_PICTURE(shift, levels)                                                                              \
+    (16 * (shift) + ((levels) < 2 ? 1 - (levels) : (levels))) /* levels: 0 is all */
+#define GLINT_SIZE_FULL_MIPS(levels) GLINT_SIZE_PICTURE(0, levels)
+#define GLINT_SIZE_HALF_MIPS(levels) GLINT_SIZE_PICTURE(1, levels)
+#define GLINT_SIZE_QUARTER_MIPS(levels) GLINT_SIZE_PICTURE(2, levels)
 enum glint_size_class {
-    GLINT_SIZE_FULL,     /* the capture's resolution */
-    GLINT_SIZE_HALF,     /* half of it, rounded up; full if the pipeline traces every pixel (row RESOLUTION) */
-    GLINT_SIZE_CUBEMAPS, /* cube-map array with the capture's face size, one cube for each active cube map */
-    GLINT_SIZE_COCOON,   /* the same with faces of 32 × 32 */
-    GLINT_SIZE_SKY,      /* the sky's cube map */
-    GLINT_SIZE_ACTIVE,   /* 2D, active cube maps × 1 */
-    GLINT_SIZE_CHAIN,    /* 2D, chain length × active cube maps */
-    GLINT_SIZE_EIGHTH,   /* the coarsest level of HALF_MIPS3 as an image of its own */
-    GLINT_SIZE_VOLUME,   /* 2D, texels of the longest description of an inner volume × active cube maps */
-    GLINT_SIZE_FIGURES,  /* 2D, 512 × 1 */
-    GLINT_SIZE_PLANAR,   /* 2D, the size of the capture's planar reflection map */
-    /* The class of the same name with all MIP levels down to 1 × 1. */
-    GLINT_SIZE_FULL_MIPS,
-    GLINT_SIZE_HALF_MIPS,
-    GLINT_SIZE_HALF_MIPS3, /* only its three finest levels */
+    GLINT_SIZE_FULL = GLINT_SIZE_PICTURE(0, 1),
+    GLINT_SIZE_HALF = GLINT_SIZE_PICTURE(1, 1),
+    GLINT_SIZE_QUARTER = GLINT_SIZE_PICTURE(2, 1),
+    GLINT_SIZE_EIGHTH = GLINT_SIZE_PICTURE(3, 1),
+    GLINT_SIZE_SIXTEENTH = GLINT_SIZE_PICTURE(4, 1),
+    GLINT_SIZE_FULL_MIPS = GLINT_SIZE_PICTURE(0, 0),
+    GLINT_SIZE_HALF_MIPS = GLINT_SIZE_PICTURE(1, 0),
+    GLINT_SIZE_QUARTER_MIPS = GLINT_SIZE_PICTURE(2, 0),
+    /* Other images. */
+    GLINT_SIZE_CUBEMAPS = 256, /* cube-map array with the capture's face size, one cube for each active cube map */
+    GLINT_SIZE_COCOON,         /* the same with faces of 32 × 32 */
+    GLINT_SIZE_SKY,            /* the sky's cube map */
+    GLINT_SIZE_ACTIVE,         /* 2D, active cube maps × 1 */
+    GLINT_SIZE_CHAIN,          /* 2D, chain length × active cube maps */
+    GLINT_SIZE_VOLUME,         /* 2D, texels of the longest description of an inner volume × active cube maps */
+    GLINT_SIZE_FIGURES,        /* 2D, 512 × 1 */
+    GLINT_SIZE_PLANAR,         /* 2D, the size of the capture's planar reflection map */
     GLINT_SIZE_CUBEMAPS_MIPS,
     GLINT_SIZE_SKY_MIPS,
     GLINT_SIZE_PROBE_MIPS,       /* the levels of the capture's probe, however many it has */
@@ -62,6 +76,17 @@ enum glint_size_class {
        readers then run over whole images. */
     GLINT_SIZE_LIST
 };
+static inline bool glint_size_is_picture(enum glint_size_class size) {
+    return size < GLINT_SIZE_CUBEMAPS;
+}
+/* Of a class of the picture: its shift, and its number of MIP levels, 0 for all. */
+static inline unsigned glint_size_shift(enum glint_size_class size) {
+    return (unsigned)size / 16;
+}
+static inline unsigned glint_size_levels(enum glint_size_class size) {
+    const unsigned code = (unsigned)size % 16;
+    return code < 2 ? 1 - code : code;
+}
 
 /* The order in which the levels of a row DISPATCH_LEVELS run. */
 enum glint_level_order { GLINT_ORDER_down /* fine to coarse */, GLINT_ORDER_up /* coarse to fine */ };
@@ -91,6 +116,8 @@ struct glint_row {
     const char *role;     /* CAPTURE: the part's role; `source` lists its channels, "-" for a component that stays 0 */
     bool required;        /* CAPTURE: false: the image holds its fallback value if the capture lacks the part */
     bool optional; /* READ: no pass has to make the image; this row then states its format, size and fallback value */
+    const char
+        *beside;       /* READ of an image of the capture: made images beside which it is read, or NULL (READ_BESIDE) */
     const char *image; /* READ_OWN, HISTORY: the image; NULL: `name` */
     const char
         *assigned; /* REFERENCE_SET: an assignment for glint_pipeline_set. DISPATCH_LEVELS: a parameter, or NULL */
@@ -131,6 +158,53 @@ const struct glint_pass *glint_passes(size_t *count);
 const struct glint_pass *glint_pass_find(const char *slot, const char *variant);
 /* Whether a parameter of the pass is ASSUMED: it replaces information that captures do not contain, such as a thickness. */
 bool glint_pass_assumes(const struct glint_pass *pass, const struct glint_row *parameter);
+
+/* ---- Effects ---- */
+
+/* The pixels of a picture in which an effect is judged. */
+enum glint_judged {
+    GLINT_JUDGED_REFLECTING, /* surfaces with specular or metalness */
+    GLINT_JUDGED_SURFACES    /* all but sky */
+};
+enum { GLINT_EFFECT_RESULTS = 4, GLINT_EFFECT_CLASSES = 3 };
+/* A family of slots that makes one term of the picture, from the rows of passes/EFFECT/effect.h. The slots are those whose passes name it as
+   their `effect`. */
+struct glint_effect {
+    const char *name; /* of its folder: "reflection" */
+    const char *title, *noun, *about;
+    const char
+        *results[GLINT_EFFECT_RESULTS]; /* images that may be its result, the preferred first; NULL behind the last */
+    const char *channels;               /* of the truth, and as many of the result: "R G B" */
+    const char *truth;                  /* the part, or with truth_has_choices its name before ".CHOICE" */
+    enum glint_pass_role truth_by;      /* the parameter whose choice that is */
+    bool truth_has_choices;
+    const char *rays; /* the part whose distance.Z is where rays of class 1 truly end, or NULL */
+    enum glint_judged judged;
+    const char *fact; /* of passes/facts.h: without it a frame does not call for the effect */
+    const char *class_title, *class_part, *class_channel; /* what pixels are classed by */
+    struct {
+        const char *name;
+        double most;                 /* the highest value of the class */
+    } classes[GLINT_EFFECT_CLASSES]; /* name: NULL behind the last */
+    const char *term;                /* how the composed picture changes by it */
+};
+/* All effects, by the place that each declares. */
+const struct glint_effect *glint_effects(size_t *count);
+/* NULL if there is none of that name: passes/prepare and passes/compose, which effects share, are no effects. */
+const struct glint_effect *glint_effect_find(const char *name);
+/* Labels of pixels. Arrays of GLINT_CLASS_COUNT figures hold that of all pixels in element 0, and those of the classes from 1 on. */
+enum {
+    GLINT_CLASS_NONE,  /* not judged: in no figure */
+    GLINT_CLASS_FIRST, /* the first class; the others follow */
+    GLINT_CLASS_COUNT = 1 + GLINT_EFFECT_CLASSES,
+    GLINT_CLASS_UNKNOWN = GLINT_CLASS_COUNT /* judged, and in no class */
+};
+size_t glint_effect_class_count(const struct glint_effect *effect);
+/* "all" for 0, else the name of a class. */
+const char *glint_effect_class_name(const struct glint_effect *effect, size_t label);
+/* The class of a value; NaN is in the last one. */
+size_t glint_effect_class_of(const struct glint_effect *effect, double value);
+
 /* The rows of capture images. */
 const struct glint_row *glint_capture_images(size_t *count);
 /* What a capture need not have, by role ("cubemap") and the beginning of its channels ("distance"; "": the part itself), and in one sentence

@@ -55,12 +55,12 @@ void glint_shapley_finish(struct glint_shapley *shapley);
 
 /* The players of a pipeline and its reference (glint_study_reference). A player is a slot whose variant or values differ from the
    reference's, or a group of such slots that can only be exchanged together: one reads an image that only the other's variant makes,
-   both make the same image, or a row REFERENCE_WITH says so. The number of rays is a player of its own. Slots that the reflection does
-   not depend on are no players. */
+   both make the same image, or a row REFERENCE_WITH says so. The number of rays is a player of its own. Slots that the effect's result
+   does not depend on are no players. */
 struct glint_players;
 /* `rays`: the reference's rays a pixel; 0: those of its preset. The pipeline is copied. */
-struct glint_players *glint_players_create(const struct glint_pipeline *pipeline, uint32_t rays,
-                                           struct glint_error *err);
+struct glint_players *glint_players_create(const struct glint_pipeline *pipeline, const struct glint_effect *effect,
+                                           uint32_t rays, struct glint_error *err);
 void glint_players_destroy(struct glint_players **players);
 size_t glint_players_count(const struct glint_players *players);
 /* Players are in reverse order of execution. A group has the name of the slot that the others depend on. */

@@ -9,7 +9,7 @@
 extern "C" {
 #endif
 
-/* What the reflection of a pipeline is compared with. */
+/* What the result of a pipeline is compared with. */
 enum glint_target {
     GLINT_TARGET_REFERENCE, /* the converged result from the data of the capture */
     GLINT_TARGET_TRUTH,     /* the path tracer's result for the scene itself, which the capture may carry */
@@ -19,9 +19,10 @@ const char *glint_target_name(enum glint_target target); /* "reference", "truth"
 
 enum { GLINT_JUDGE_RAYS = 64 };
 struct glint_judge_options {
-    bool reference, truth; /* which targets pipelines are compared with */
-    /* A run folder of this capture whose reflection is the reference. NULL: the reference is traced (glint/reference.h), once for each
-       combination of lobe and fog among the pipelines. */
+    const struct glint_effect *effect; /* whose result is compared; NULL: the first of glint_effects() */
+    bool reference, truth;             /* which targets pipelines are compared with */
+    /* A run folder of this capture whose result is the reference. NULL: the reference is traced (glint/reference.h), once for each
+       combination of the parameters that define it among the pipelines. */
     const char *reference_run;
     const char *reference_folder; /* NULL, or an existing folder that stores traced references for later calls */
     uint32_t reference_rays;      /* rays a pixel; 0: GLINT_JUDGE_RAYS */
@@ -45,10 +46,11 @@ bool glint_judge_load(struct glint_judge *judge, struct glint_capture *capture, 
 /* The judge's replay, for reading results: its last run is that of the pipeline evaluated or timed last. Do not load or destroy it. */
 struct glint_replay *glint_judge_replay(struct glint_judge *judge);
 struct glint_capture *glint_judge_capture(const struct glint_judge *judge);
-/* One enum glint_surface for each pixel of the loaded capture's G-buffer. */
-const uint8_t *glint_judge_surfaces(const struct glint_judge *judge);
+const struct glint_effect *glint_judge_effect(const struct glint_judge *judge);
+/* The label of each pixel of the loaded capture's G-buffer: glint_study_labels. */
+const uint8_t *glint_judge_labels(const struct glint_judge *judge);
 
-/* The target that a pipeline is compared with, as R G B (A); valid until the next load. *error receives the relative standard error of
+/* The target that a pipeline is compared with, with the channels of the effect first; valid until the next load. *error receives the relative standard error of
    each pixel, or NULL if it is unknown. Fails with GLINT_ERROR_FORMAT if the capture has no truth. */
 const struct glint_pixels *glint_judge_target(struct glint_judge *judge, enum glint_target target,
                                               const struct glint_pipeline *pipeline, const float **error,
@@ -61,20 +63,20 @@ struct glint_verdict_pass {
     char reason[192];
 };
 struct glint_verdict {
-    /* Errors over the reflecting pixels: first of all, then by class of surface. Without rows if there is no such target. Pixels that
+    /* Errors over the judged pixels: first of all, then by class. Without rows if there is no such target. Pixels that
        the pipeline does not cover count with the value that they have. */
     struct glint_metric_table errors[GLINT_TARGET_COUNT];
-    struct glint_error no_truth;    /* why there is no truth although the options request it */
-    struct glint_ends ends;         /* why rays ended; steps and fetches a ray */
-    double steps_px, fetches_px;    /* steps and fetches of all rays of a frame, divided by the capture's pixels */
-    struct glint_pixels reflection; /* all 0 if the passes that make it were dropped */
-    uint8_t *coverage;              /* glint_study_coverage */
+    struct glint_error no_truth; /* why there is no truth although the options request it */
+    struct glint_ends ends;      /* why rays ended; steps and fetches a ray */
+    double steps_px, fetches_px; /* steps and fetches of all rays of a frame, divided by the capture's pixels */
+    struct glint_pixels result;  /* all 0 if the passes that make it were dropped */
+    uint8_t *coverage;           /* glint_study_coverage */
     struct glint_verdict_pass *passes;
     size_t pass_count;
     double run_seconds, metric_seconds; /* wall-clock time of passes and readback, and of the comparison after it */
 };
 void glint_verdict_finish(struct glint_verdict *verdict);
-/* Runs the pipeline with diagnostics, executing only passes that earlier runs did not execute in the same way, and compares its reflection. */
+/* Runs the pipeline with diagnostics, executing only passes that earlier runs did not execute in the same way, and compares its result. */
 bool glint_judge_evaluate(struct glint_judge *judge, const struct glint_pipeline *pipeline, uint32_t lineage,
                           struct glint_verdict *verdict, glint_progress progress, void *user, struct glint_error *err);
 

@@ -6,6 +6,7 @@
 #include <stdint.h>
 
 #include "glint/common.h"
+#include "glint/passes.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -151,28 +152,13 @@ struct glint_flicker {
     double clean;          /* the same without the truth's noise, which the frames must have drawn independently */
 };
 /* Each array holds two frames, the earlier one first. `truth`, `truth_error` (relative standard errors, +inf where there is no truth) and
-   `mask` (0: left out), and their elements but those of `truth`, may be NULL. Fails if sizes differ or an image has fewer than three channels. */
+   `mask` (0: left out), and their elements but those of `truth`, may be NULL. Fails if sizes differ, or if some images have three channels or
+   more and others fewer, of which the first is compared. */
 bool glint_study_flicker(const struct glint_pixels found[2], const struct glint_pixels *truth,
                          const float *const *truth_error, const uint8_t *const *mask, struct glint_flicker *flicker,
                          struct glint_error *err);
 
-/* ---- Errors by class of surface ---- */
-
-/* Classes of surface by roughness: mirror-like up to the first threshold, glossy up to the second, rough above. */
-#define GLINT_MIRROR_ROUGHNESS 0.1
-#define GLINT_GLOSSY_ROUGHNESS 0.5
-enum glint_surface {
-    GLINT_SURFACE_NONE, /* sky, or a surface that does not reflect; in no figure */
-    GLINT_SURFACE_MIRROR,
-    GLINT_SURFACE_GLOSSY,
-    GLINT_SURFACE_ROUGH,
-    GLINT_SURFACE_COUNT
-};
-/* "all", "mirror-like", "glossy", "rough". Arrays of GLINT_SURFACE_COUNT figures below hold the figure of all surfaces in element 0. */
-const char *glint_surface_name(enum glint_surface surface);
-/* A partition whose labels are enum glint_surface. The caller keeps the labels. */
-struct glint_classes glint_surface_classes(const uint8_t *labels);
-enum glint_surface glint_surface_of(double roughness);
+/* ---- Errors by class of pixel ---- */
 
 struct glint_image_error {
     uint64_t pixels;     /* number of compared pixels */
@@ -188,12 +174,12 @@ struct glint_image_error {
     double clean_rmse, clean_relative_mse, truth_noise;
 };
 struct glint_image_errors {
-    struct glint_image_error of[GLINT_SURFACE_COUNT]; /* [0]: all surfaces */
+    struct glint_image_error of[GLINT_CLASS_COUNT]; /* [0]: all pixels */
 };
-/* glint_metrics_compare of the first `channels` channels by surface, without intervals. If `surfaces` is NULL, all pixels are compared
-   and only element 0 is set. */
+/* glint_metrics_compare of the first `channels` channels by class (labels: glint/passes.h), without intervals. If `labels` is NULL, all
+   pixels are compared and only element 0 is set. */
 bool glint_study_image(const struct glint_pixels *found, const struct glint_pixels *truth, uint32_t channels,
-                       const uint8_t *surfaces, const float *truth_error, struct glint_image_errors *errors,
+                       const uint8_t *labels, const float *truth_error, struct glint_image_errors *errors,
                        struct glint_error *err);
 
 /* ---- Errors of distances ---- */
@@ -204,10 +190,10 @@ struct glint_distance_error {
     double median, p95;     /* of |found - truth|/truth, which is 0 if both are infinite and infinite if one is */
 };
 struct glint_distance_errors {
-    struct glint_distance_error of[GLINT_SURFACE_COUNT];
+    struct glint_distance_error of[GLINT_CLASS_COUNT];
 };
 /* Compares `count` distances in metres, +inf for the sky. Rays whose true distance is not above 0 are left out. */
-bool glint_study_distances(const float *found, const float *truth, const uint8_t *surfaces, size_t count,
+bool glint_study_distances(const float *found, const float *truth, const uint8_t *labels, size_t count,
                            struct glint_distance_errors *errors, struct glint_error *err);
 
 #ifdef __cplusplus

@@ -1,4 +1,4 @@
-/* The reference: the converged reflection from a capture's own data, traced with many rays, and an estimate of its remaining noise. */
+/* The reference: an effect's converged result from a capture's own data, traced with many rays, and an estimate of its remaining noise. */
 #ifndef GLINT_REFERENCE_H
 #define GLINT_REFERENCE_H
 
@@ -21,7 +21,7 @@ enum {
 
 struct glint_reference_noise {
     uint64_t pixels;
-    double mean;     /* of the reflection, over all channels */
+    double mean;     /* of the result, over all channels */
     double error;    /* standard error: root mean square of (A - B)/2 */
     double relative; /* error / mean; 0 if both are 0 */
 };
@@ -30,11 +30,12 @@ struct glint_reference_state {
     uint32_t begun; /* rays of the unfinished round, which are in no figure yet */
     uint32_t kept;  /* rays that the folder holds, from which tracing resumes; an interrupted call tries to keep all */
     double seconds; /* time spent on all rays, in all calls */
-    struct glint_reference_noise noise[GLINT_SURFACE_COUNT]; /* [0]: all surfaces */
+    struct glint_reference_noise noise[GLINT_CLASS_COUNT]; /* [0]: all pixels */
 };
 
 struct glint_reference;
 struct glint_reference_options {
+    const struct glint_effect *effect; /* NULL: the first of glint_effects() */
     const char *folder;  /* the run folder that stores the reference and from which tracing resumes; NULL: not stored */
     bool overwrite;      /* removes what the folder holds, instead of resuming or failing */
     bool all;            /* as in struct glint_replay_options */
@@ -51,16 +52,16 @@ struct glint_reference *glint_reference_create(struct glint_replay *replay, stru
                                                const struct glint_reference_options *options, struct glint_error *err);
 void glint_reference_destroy(struct glint_reference **reference);
 
-/* Traces until each pixel has `rays` rays, rounded up to whole rounds, or until the relative noise over all surfaces is at most `noise`
+/* Traces until each pixel has `rays` rays, rounded up to whole rounds, or until the relative noise over all pixels is at most `noise`
    (0: no such limit). From the first round on the folder always holds a complete reference of the rays so far, and in unfinished.exr the
    rays of the unfinished round. Both are updated every few seconds, at the end and when the call is interrupted; the folder is created with
-   the first of them. Interrupting and resuming changes no bit of the result on the same device. Fails if the reflection is NaN or
+   the first of them. Interrupting and resuming changes no bit of the result on the same device. Fails if the result is NaN or
    infinite anywhere. */
 bool glint_reference_trace(struct glint_reference *reference, uint32_t rays, double noise, glint_progress progress,
                            void *user, struct glint_error *err);
 /* Valid until the next trace. */
 const struct glint_reference_state *glint_reference_state(const struct glint_reference *reference);
-/* The reference as R G B A. *error (may be NULL) receives the relative standard error of each pixel, estimated from both halves: rough
+/* The reference with all channels of the result. *error (may be NULL) receives the relative standard error of each pixel, estimated from both halves: rough
    for a single pixel, but unbiased in sums of (error · value)². Both are malloc'd. */
 bool glint_reference_pixels(const struct glint_reference *reference, struct glint_pixels *pixels, float **error,
                             struct glint_error *err);
@@ -68,14 +69,15 @@ bool glint_reference_pixels(const struct glint_reference *reference, struct glin
    also settings; after glint_reference_sensitivity also sensitivity {rays, rows [{slot, parameter, value, tried, ran, reason,
    change [{surfaces, mean, rmse, noise, relative}]}]}. NULL if memory is exhausted. */
 char *glint_reference_json(const struct glint_reference *reference);
-/* The relative standard error of a run folder's reflection, malloc'd. *error is NULL if the run is no reference. */
-bool glint_study_run_error(struct glint_run *run, float **error, struct glint_error *err);
+/* The relative standard error of the result in a run folder, malloc'd. *error is NULL if the run is no reference of the effect. */
+bool glint_study_run_error(struct glint_run *run, const struct glint_effect *effect, float **error,
+                           struct glint_error *err);
 
 /* The bias of a reference: its error against the truth without the noise of either, caused by what the capture's data do not contain.
    errors->of[].clean_* have the noise of both removed, and truth_noise is that of both. The error images are relative standard errors; NULL
    stands for none. */
 bool glint_study_reference_bias(const struct glint_pixels *reference, const float *reference_error,
-                                const struct glint_pixels *truth, const float *truth_error, const uint8_t *surfaces,
+                                const struct glint_pixels *truth, const float *truth_error, const uint8_t *labels,
                                 struct glint_image_errors *errors, struct glint_error *err);
 
 /* How much the reference changes when a parameter that one of its passes declares as ASSUMED is halved or doubled. Both references use
@@ -92,7 +94,7 @@ struct glint_reference_assumption {
     double value, tried;         /* its value in the reference, and the changed value */
     bool ran;
     char reason[128]; /* why it did not run */
-    struct glint_reference_change of[GLINT_SURFACE_COUNT];
+    struct glint_reference_change of[GLINT_CLASS_COUNT];
 };
 enum { GLINT_ASSUMPTIONS_MAX = 32 };
 struct glint_reference_sensitivity {

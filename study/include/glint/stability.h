@@ -11,8 +11,9 @@ extern "C" {
 
 /* A frame is replayed unperturbed, and once for each seed with its values perturbed by their rounding error (glint_capture_perturb). */
 struct glint_stability_options {
-    uint32_t seeds;            /* 0: GLINT_STABILITY_SEEDS; at most 255 */
-    const char *const *inputs; /* the values to perturb: `only` of glint_capture_perturb; NULL: all */
+    const struct glint_effect *effect; /* whose judged pixels are compared; NULL: the first of glint_effects() */
+    uint32_t seeds;                    /* 0: GLINT_STABILITY_SEEDS; at most 255 */
+    const char *const *inputs;         /* the values to perturb: `only` of glint_capture_perturb; NULL: all */
     bool half;               /* images keep their formats, so that rounding to half counts, too; false: all are float */
     bool all;                /* as in struct glint_replay_options */
     const char *const *skip; /* as in struct glint_replay_options */

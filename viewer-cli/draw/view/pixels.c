@@ -20,13 +20,15 @@ bool pixels_read(struct glint_replay *replay, const struct glint_image *image, s
 
 bool pixels_difference(const struct glint_pixels *a, const struct glint_pixels *b, const float *error,
                        const uint8_t *mask, struct glint_pixels *difference, struct glint_error *err) {
+    const uint32_t channels = a->components < 3 || b->components < 3 ? 1 : 3;
     if (!allocate(difference, a->width, a->height, 1, err)) return false;
     for (size_t i = 0; i < (size_t)a->width * a->height; i++) {
         const bool compared = mask[i] && !(error && isinf(error[i]));
         if (!compared) difference->values[i] = -INFINITY;
-        for (uint32_t k = 0; k < 3 && compared; k++) {
+        for (uint32_t k = 0; k < channels && compared; k++) {
             const float x = a->values[i * a->components + k], y = b->values[i * b->components + k];
-            difference->values[i] += fabsf(x - y) / (fabsf(x) + fabsf(y) + (float)GLINT_SYMMETRIC_EPSILON) / 3;
+            difference->values[i] +=
+                fabsf(x - y) / (fabsf(x) + fabsf(y) + (float)GLINT_SYMMETRIC_EPSILON) / (float)channels;
         }
     }
     return true;

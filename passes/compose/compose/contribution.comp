@@ -10,6 +10,7 @@
 #include "shared/camera.glsl"
 #include "shared/work_list.glsl"
 #include "shared/probe/record.glsl"
+#include "terms.glsl"
 
 // The fraction of the reflection that reaches the viewer.
 vec3 weight(ivec2 pixel, float depth_m, vec4 surface) {
@@ -38,9 +39,9 @@ vec3 blended(ivec2 pixel, float depth_m, vec4 surface, vec3 below) {
 void main() {
     ivec2 pixel = tile_texel(1.0);
     if (any(greaterThanEqual(pixel, imageSize(composed)))) return;
-    vec3 color = texelFetch(lit, pixel, 0).rgb;
     float depth_m = texelFetch(depth_full, pixel, 0).x;
     vec4 surface = texelFetch(normal_full, pixel, 0);
-    if (tile_works && reflects(depth_m, surface.xyz)) color = blended(pixel, depth_m, surface, color);
+    vec3 color = with_terms(pixel, texelFetch(lit, pixel, 0).rgb, depth_m, surface.xyz);
+    if (has_reflection && tile_works && reflects(depth_m, surface.xyz)) color = blended(pixel, depth_m, surface, color);
     imageStore(composed, pixel, vec4(color, 1.0));
 }

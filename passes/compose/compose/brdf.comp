@@ -10,6 +10,7 @@
 #include "shared/camera.glsl"
 #include "shared/work_list.glsl"
 #include "shared/probe/record.glsl"
+#include "terms.glsl"
 
 // The fraction of the reflection that reaches the viewer.
 vec3 weight_of(ivec2 pixel, float depth_m, vec4 surface) {
@@ -36,10 +37,10 @@ vec3 reflected_color(ivec2 pixel) {
 void main() {
     ivec2 pixel = tile_texel(1.0);
     if (any(greaterThanEqual(pixel, imageSize(composed)))) return;
-    vec3 color = texelFetch(lit, pixel, 0).rgb;
     float depth_m = texelFetch(depth_full, pixel, 0).x;
     vec4 surface = texelFetch(normal_full, pixel, 0);
-    if (tile_works && reflects(depth_m, surface.xyz)) {
+    vec3 color = with_terms(pixel, texelFetch(lit, pixel, 0).rgb, depth_m, surface.xyz);
+    if (has_reflection && tile_works && reflects(depth_m, surface.xyz)) {
         vec3 weight = intensity * weight_of(pixel, depth_m, surface);
         probe_pixel(pixel);
         probe(PROBE_reflectance, vec4(weight, 0.0));
