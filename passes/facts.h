@@ -13,6 +13,7 @@ FACT_BY(rough, PIXELS, shown->count > 0 && shown->roughness[1] >= (float)limit, 
 /* The ray of a perfect mirror has no cone, so that only the finest MIP levels are sampled. */
 FACT(cones, CONES, s->has_transparent || shown->roughness[1] > 0,
      s->has_transparent ? SAY("a transparent surface") : SAY_ROUGHNESS("roughest", 1))
+FACT(surfaces, PIXELS, s->surfaces.count > 0, SAY("%llu of %llu pixels have a surface", N(s->surfaces.count), N(s->pixels)))
 FACT(sky, PIXELS, s->sky > 0, SAY("%llu of %llu pixels are sky", N(s->sky), N(s->pixels)))
 /* Whether a cube map has texels without a surface. */
 FACT(cube_sky, FACES, open > 0 || faces == 0,
