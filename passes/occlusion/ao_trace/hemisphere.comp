@@ -8,6 +8,7 @@
 };
 #include "receiver.glsl"
 #include "points.glsl"
+#include "bounds.glsl"
 #include "shared/hemisphere.glsl"
 #include "shared/sampling.glsl"
 
@@ -27,6 +28,7 @@ float in_range(Receiver r, float depth_m) {
 Estimate estimate(ivec2 texel, Receiver r) {
     Estimate result = Estimate(1.0, INFINITE, 0u, 0u);
     vec3 tangent, bitangent, shift = numbers_at(texel);
+    if (!may_be_occluded(r, false, result)) return result;
     tangent_frame(r.normal, tangent, bitangent);
     float front = frame.depth_range.z;
     precise float hidden = 0.0;

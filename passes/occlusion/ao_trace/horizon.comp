@@ -8,6 +8,7 @@
 };
 #include "receiver.glsl"
 #include "points.glsl"
+#include "bounds.glsl"
 #include "shared/hemisphere.glsl"
 #include "shared/sampling.glsl"
 
@@ -100,6 +101,7 @@ Estimate estimate(ivec2 texel, Receiver r) {
     // A shading normal may face away from the viewer.
     precise vec3 normal = normalize(r.normal + max(0.01 - dot(r.normal, view), 0.0) * view);
     r.normal = normal;
+    if (!may_be_occluded(r, true, result)) return result;
     tangent_frame(view, tangent, bitangent);
     precise float hidden = 0.0, all = 0.0;
     for (int i = 0; i < slices; ++i) {
