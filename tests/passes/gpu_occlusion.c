@@ -2,43 +2,12 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
-#include "gpu.h"
-#include "shapes.h"
+#include "occlusion.h"
 #include "unit.h"
 
 static const double pi = 3.14159265358979323846;
 enum { WIDE = 160, HIGH = 120, WORDS = 8 };
-
-/* A pipeline with occlusion alone; assignments with a point set parameters, others variants. */
-static void arrange(struct gpu *gpu, const char *const *words) {
-    static const char *const others[] = {"screen_trace", "cubemap_active", "cubemap_select", "cubemap_trace",
-                                         "resolve",      "upscale",        "compose",        NULL};
-    gpu_reset(gpu);
-    gpu->float_precision = true;
-    gpu_without(gpu, others);
-    for (size_t i = 0; words[i]; i++) {
-        const char *point = strchr(words[i], '.');
-        if (point && point < strchr(words[i], '=')) gpu_set(gpu, words[i]);
-        else gpu_use(gpu, words[i]);
-    }
-}
-
-static void load(struct gpu *gpu, const struct plain *plain) {
-    char path[256];
-    plain_capture(gpu_path(gpu, "shapes", path), plain);
-    gpu_load(gpu, "shapes");
-}
-
-static struct plain frame_of(const struct shapes *shapes, double fov_y_degrees) {
-    return (struct plain){.width = WIDE,
-                          .height = HIGH,
-                          .roughness = 0.5F,
-                          .fov_y_degrees = fov_y_degrees,
-                          .spoil = shapes_spoil,
-                          .user = shapes};
-}
 
 /* ---- closed forms ---- */
 
@@ -91,7 +60,7 @@ static struct errors errors_of(struct gpu *gpu, const struct plain *plain, const
                                expected_at expected) {
     struct errors errors = {0};
     uint32_t width, height;
-    arrange(gpu, words);
+    occlusion_arrange(gpu, words);
     gpu_run(gpu);
     float *found = gpu_floats(gpu, "occlusion", &width, &height);
     for (uint32_t i = 0; i < width * height; i++) {
@@ -128,7 +97,7 @@ struct trial {
 
 static void try_all(struct gpu *gpu, const struct plain *plain, const struct trial *trials, size_t count,
                     expected_at expected) {
-    load(gpu, plain);
+    occlusion_load(gpu, plain);
     for (size_t i = 0; i < count; i++) {
         const struct errors e = errors_of(gpu, plain, trials[i].words, expected);
         print_message("# %s %s: mean error %.4f, largest %.4f, bias %+.4f of %d pixels\n", trials[i].words[2],
@@ -152,7 +121,7 @@ static void a_corner_hides_half_of_the_directions(void **state) {
         {{FINE, FINE_HORIZON}, 0.02, 0.08, "steps"},
         {{FINE, FINE_REFERENCE}, 0.03, 0.2, "the noise of 64 directions is 0.06 for a visibility of a half"},
         {{FINE, FINE_HEMISPHERE, "ao_trace.spread=0"}, 0.1, 0.3, "points, not rays"}};
-    const struct plain plain = frame_of(&corner, 60);
+    const struct plain plain = occlusion_frame(&corner, 60);
     TRY(*state, &plain, trials, at_corner);
 }
 
@@ -166,7 +135,7 @@ static void a_wall_hides_by_its_height(void **state) {
     static const struct trial trials[] = {
         {{FINE, FINE_HORIZON, "ao_trace.radius_m=4", "ao_trace.growth=3"}, 0.03, 0.08, "steps"},
         {{FINE, FINE_REFERENCE, "ao_trace.radius_m=4"}, 0.04, 0.2, "noise"}};
-    const struct plain plain = frame_of(&low_wall, 60);
+    const struct plain plain = occlusion_frame(&low_wall, 60);
     TRY(*state, &plain, trials, at_low_wall);
 }
 
@@ -176,17 +145,21 @@ static double at_plates(const double position[3], UNUSED const double normal[3])
 }
 /* Everything between the lowest and the highest point of a slice is not hidden: horizons alone say so. */
 static void a_plate_opposite_leaves_the_horizon_open(void **state) {
-    static const struct trial trials[] = {
-        {{FINE, FINE_REFERENCE, "ao_trace.radius_m=3"}, 0.06, 0.25, "noise"},
-        {{FINE, "ao_trace=horizon", "ao_trace.slices=16", "ao_trace.steps=32", "ao_trace.thickness=0.2",
-          "ao_trace.radius_m=3"},
-         0.15,
-         0.4,
-         "sectors"}};
-    const struct plain plain = frame_of(&plates, 90);
+    static const struct trial trials[] = {{{FINE, FINE_REFERENCE, "ao_trace.radius_m=3"}, 0.06, 0.25, "noise"},
+                                          {{FINE, "ao_trace=horizon", "ao_trace.slices=16", "ao_trace.steps=32",
+                                            "ao_trace.thickness=0.2", "ao_trace.radius_m=3"},
+                                           0.15,
+                                           0.4,
+                                           "sectors"}};
+    const struct plain plain = occlusion_frame(&plates, 90);
     TRY(*state, &plain, trials, at_plates);
-    const char *const solid[] = {FINE, "ao_trace=horizon", "ao_trace.slices=16", "ao_trace.steps=32",
-                                 "ao_trace.behind=solid", "ao_trace.radius_m=3", NULL};
+    const char *const solid[] = {FINE,
+                                 "ao_trace=horizon",
+                                 "ao_trace.slices=16",
+                                 "ao_trace.steps=32",
+                                 "ao_trace.behind=solid",
+                                 "ao_trace.radius_m=3",
+                                 NULL};
     const struct errors e = errors_of(*state, &plain, solid, at_plates);
     print_message("# solid: mean error %.4f\n", e.mean);
     assert_true(e.bias < -0.2);
@@ -204,7 +177,7 @@ static void a_ball_hides_the_floor_that_it_lies_on(void **state) {
     static const struct trial trials[] = {
         {{FINE, FINE_HORIZON, "ao_trace.radius_m=3", "ao_trace.growth=3"}, 0.06, 0.5, "what the ball hides of itself"},
         {{FINE, FINE_REFERENCE, "ao_trace.radius_m=3"}, 0.06, 0.5, "what the ball hides of itself"}};
-    const struct plain plain = frame_of(&ball, 40);
+    const struct plain plain = occlusion_frame(&ball, 40);
     TRY(*state, &plain, trials, at_ball);
 }
 
@@ -218,14 +191,18 @@ static void an_open_plain_is_fully_visible(void **state) {
         for (int v = 0; v < 3; v++)
             for (int half = 0; half < 2; half++) {
                 const struct shapes plain_floor = {.floor_y = far ? -100 : -1};
-                const struct plain plain = frame_of(&plain_floor, 60);
-                const char *const words[] = {half ? "downsample=pick" : "downsample=none", variants[v],
-                                             "ao_blur=separable", "ao_apply=planes", "ao_trace.radius_in=screen", NULL};
+                const struct plain plain = occlusion_frame(&plain_floor, 60);
+                const char *const words[] = {half ? "downsample=pick" : "downsample=none",
+                                             variants[v],
+                                             "ao_blur=separable",
+                                             "ao_apply=planes",
+                                             "ao_trace.radius_in=screen",
+                                             NULL};
                 uint32_t width, height;
                 int hidden = 0;
                 double most = 0;
-                load(gpu, &plain);
-                arrange(gpu, words);
+                occlusion_load(gpu, &plain);
+                occlusion_arrange(gpu, words);
                 gpu->float_precision = false;
                 gpu_run(gpu);
                 float *found = gpu_floats(gpu, "occlusion", &width, &height);
@@ -247,8 +224,8 @@ static void an_open_plain_is_fully_visible(void **state) {
 static void noise_is_mean_free(void **state) {
     static const char *const patterns[] = {"ao_trace.pattern=white", "ao_trace.pattern=grid", "ao_trace.pattern=blue"};
     struct gpu *gpu = *state;
-    const struct plain plain = frame_of(&corner, 60);
-    load(gpu, &plain);
+    const struct plain plain = occlusion_frame(&corner, 60);
+    occlusion_load(gpu, &plain);
     for (int p = 0; p < 3; p++) {
         float *mean[2];
         for (int many = 0; many < 2; many++) {
@@ -259,7 +236,7 @@ static void noise_is_mean_free(void **state) {
                                          "ao_trace.steps=4",
                                          many ? "pipeline.rays=64" : "pipeline.rays=256",
                                          NULL};
-            arrange(gpu, words);
+            occlusion_arrange(gpu, words);
             gpu_run(gpu);
             mean[many] = gpu_floats(gpu, "occlusion_half", NULL, NULL);
         }
@@ -292,14 +269,14 @@ static void spoiled(const struct plain *plain, float *values) {
 static void invalid_pixels_are_visible_and_spoil_no_others(void **state) {
     static const char *const variants[] = {"ao_trace=horizon", "ao_trace=hemisphere", "ao_trace=reference"};
     struct gpu *gpu = *state;
-    struct plain plain = frame_of(&corner, 60);
+    struct plain plain = occlusion_frame(&corner, 60);
     plain.spoil = spoiled;
-    load(gpu, &plain);
+    occlusion_load(gpu, &plain);
     for (int v = 0; v < 3; v++)
         for (int apply = 0; apply < 2; apply++) {
             const char *const words[] = {"downsample=pick", variants[v], "ao_blur=separable",
                                          apply ? "ao_apply=planes" : "ao_apply=bilinear", NULL};
-            arrange(gpu, words);
+            occlusion_arrange(gpu, words);
             gpu_run(gpu);
             float *found = gpu_floats(gpu, "occlusion", NULL, NULL);
             int occluded = 0;
