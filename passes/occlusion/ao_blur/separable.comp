@@ -45,7 +45,8 @@ float blurred(ivec2 texel) {
     float own_visibility = visibility_at(texel);
     Surface own = surface_at(texel);
     if (radius == 0 || !reflects(own.depth_m, own.normal)) return own_visibility;
-    ivec2 axis = dispatch_phase == 0u ? ivec2(1, 0) : ivec2(0, 1);
+    int along = dispatch_phase == 0u ? 1 : 0; // not a choice of vectors by a constant, which some drivers get wrong
+    ivec2 axis = ivec2(along, 1 - along);
     float occluded = kernel_weight(0) * (1.0 - own_visibility), total = kernel_weight(0);
     for (int i = -radius; i <= radius; ++i) {
         ivec2 at = texel + i * axis;
