@@ -99,6 +99,19 @@ static bool decide_by_callers(const struct graph *graph, struct graph_pass *pass
     return true;
 }
 
+/* With a row NEEDED_IF_READ a pass runs all the same when another one that runs reads its images. */
+static void run_for_reader(const struct graph *graph, struct graph_pass *pass) {
+    if (pass->runs || !glint_pass_row(pass->pass, GLINT_ROW_NEEDED_IF_READ, NULL)) return;
+    for (size_t i = 0; i < graph->pass_count; i++) {
+        const struct graph_pass *reader = &graph->passes[i];
+        if (!reader->runs || !glint_pass_depends(reader->pass, pass->pass)) continue;
+        snprintf(pass->reason, sizeof pass->reason, "%s/%s reads its images", reader->pass->slot,
+                 reader->pass->variant);
+        pass->runs = true;
+        return;
+    }
+}
+
 /* Decides by its rows NEEDS, CALLED_BY and FACT whether the pass runs and which facts are false. The reason states the figures. */
 static bool decide_by_facts(const struct graph *graph, struct graph_pass *pass, const struct graph_inputs *inputs,
                             struct faults *faults, struct glint_error *err) {
@@ -137,6 +150,7 @@ static bool decide_by_facts(const struct graph *graph, struct graph_pass *pass, 
             text_list(pass->reason, sizeof pass->reason, reason);
     }
     if (!decide_by_callers(graph, pass, facts, faults, err)) return false;
+    run_for_reader(graph, pass);
     if (!pass->runs) use_alias(pass);
     if (!pass->reason[0]) snprintf(pass->reason, sizeof pass->reason, "always runs");
     return true;

@@ -13,6 +13,7 @@ DISPATCH(depth_half)
 DISPATCH_LIST(tile_list, shown)
 PUSH(float, min_weight, 0.0, 0.0, 1.0, "1", "glint", "surfaces that reflect less than this fraction of the radiance towards the viewer trace no rays; 0: all surfaces trace")
 NEEDS(reflections)
+NEEDED_IF_READ
 PER_RAY
 #include "shared/shown_rows.h"
 ROLE(RAY_NORMAL, normal_half)

@@ -35,7 +35,8 @@ struct function_list {
     const struct function *items;
     size_t count;
 };
-extern const struct function_list functions_elementary, functions_patterns, functions_geometry, functions_lobes;
+extern const struct function_list functions_elementary, functions_patterns, functions_geometry, functions_lobes,
+    functions_hemisphere;
 
 static const double pi = 3.14159265358979323846;
 

@@ -1,0 +1,15 @@
+/* What every variant of this slot reads and writes. */
+#line 102
+SLOT("Ambient occlusion at full resolution")
+READ(texture2D, occlusion_half)
+OPTIONAL_READ(texture2D, occlusion_blurred, R16F, HALF, 1)
+READ(texture2D, depth_half)
+READ(texture2D, normal_half)
+READ(utexture2D, pick)
+READ(texture2D, depth_full)
+READ(texture2D, normal_full)
+WRITE(image2D, occlusion, R16F, "1", FULL, "visibility", 1, "the final half-resolution occlusion at full resolution, 0 to 1; 1: fully visible")
+PUSH(float, intensity, 1.0, 0.0, 4.0, "1", "glint", "factor on the occluded part; 0: no occlusion")
+PUSH(float, power,     1.0, 0.1, 8.0, "1", "glint", "visibility is raised to this power; 1: as estimated")
+DISPATCH(occlusion)
+NEEDS(surfaces)

@@ -1,0 +1,309 @@
+/* ao_trace, ao_blur and ao_apply against closed forms, in frames that show all that occludes. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "occlusion.h"
+#include "unit.h"
+
+static const double pi = 3.14159265358979323846;
+enum { WIDE = 160, HIGH = 120, WORDS = 8 };
+
+/* ---- closed forms ---- */
+
+/* A wall of endless height at a distance: the directions that meet it within the radius are, projected onto the unit disc, a segment of it. */
+static double beside_wall(double distance, double radius) {
+    const double c = distance / radius;
+    return c >= 1 ? 1 : 1 - (acos(c) - c * sqrt(1 - c * c)) / pi;
+}
+/* A wall of a height at a distance, endlessly long: half of the disc less half of an ellipse. */
+static double beside_low_wall(double distance, double height) {
+    return 1 - 0.5 * (1 - distance / hypot(distance, height));
+}
+/* A plane opposite: the directions within the cone in which it is nearer than the radius. */
+static double below_plate(double gap, double radius) {
+    return gap >= radius ? 1 : pow(gap / radius, 2);
+}
+/* A sphere that touches the plane, which all of it is above: its solid angle's share, by the cosine to its centre. */
+static double beside_sphere(double away, double radius) {
+    return 1 - pow(radius, 3) / pow(hypot(away, radius), 3);
+}
+
+/* Quadrature of the same scenes; 400² cells leave 1e-3 of a border's length. */
+static void closed_forms_agree_with_quadrature(UNUSED void **state) {
+    static const double up[3] = {0, 1, 0};
+    const struct shapes wall = {.floor_y = -1, .wall_z = -5, .wall_top = INFINITY};
+    const struct shapes low = {.floor_y = -1, .wall_z = -5, .wall_top = -0.5};
+    const struct shapes plates = {.floor_y = -1, .ceiling_y = 1};
+    const struct shapes ball = {.floor_y = -1, .sphere = {0, -0.5, -5, 0.5}};
+    for (double d = 0.05; d < 1.2; d += 0.23) {
+        const double at[3] = {0, -1, -5 + d}, at_ball[3] = {0.6 * d, -1, -5 + 0.8 * d};
+        assert_true(fabs(shapes_visibility(&wall, at, up, 1, 400) - beside_wall(d, 1)) < 1e-3);
+        assert_true(fabs(shapes_visibility(&low, at, up, 1e9, 400) - beside_low_wall(d, 0.5)) < 1e-3);
+        assert_true(fabs(shapes_visibility(&plates, at, up, 2 + d, 400) - below_plate(2, 2 + d)) < 1e-3);
+        assert_true(fabs(shapes_visibility(&ball, at_ball, up, 1e9, 400) - beside_sphere(d, 0.5)) < 1e-3);
+    }
+    assert_true(fabs(beside_wall(1e-9, 1) - 0.5) < 1e-6);
+}
+
+/* ---- every variant against them ---- */
+
+/* The visibility that is expected at a point of a scene; NaN where the frame does not show all that occludes. */
+typedef double (*expected_at)(const double position[3], const double normal[3]);
+
+struct errors {
+    double mean, most, bias;
+    int count;
+};
+
+static struct errors errors_of(struct gpu *gpu, const struct plain *plain, const char *const *words,
+                               expected_at expected) {
+    struct errors errors = {0};
+    uint32_t width, height;
+    occlusion_arrange(gpu, words);
+    gpu_run(gpu);
+    float *found = gpu_floats(gpu, "occlusion", &width, &height);
+    for (uint32_t i = 0; i < width * height; i++) {
+        double position[3], normal[3];
+        if (!shapes_pixel(plain->user, plain, i % width, i / width, position, normal)) {
+            assert_true(found[i] == 1);
+            continue;
+        }
+        const double right = expected(position, normal), error = (double)found[i] - right;
+        if (isnan(right)) continue;
+        assert_true(isfinite(error));
+        errors.mean += fabs(error);
+        errors.bias += error;
+        errors.most = fmax(errors.most, fabs(error));
+        errors.count++;
+    }
+    free(found);
+    errors.mean /= errors.count;
+    errors.bias /= errors.count;
+    return errors;
+}
+
+#define FINE "downsample=none", "ao_apply=bilinear"
+/* Enough samples that what is left is the variant's own error. */
+#define FINE_HORIZON "ao_trace=horizon", "ao_trace.slices=16", "ao_trace.steps=32", "ao_trace.thickness=1e6"
+#define FINE_HEMISPHERE "ao_trace=hemisphere", "ao_trace.samples=256"
+#define FINE_REFERENCE "ao_trace=reference", "ao_trace.directions=64"
+
+struct trial {
+    const char *words[WORDS + 4];
+    double mean, most; /* bounds */
+    const char *reason;
+};
+
+static void try_all(struct gpu *gpu, const struct plain *plain, const struct trial *trials, size_t count,
+                    expected_at expected) {
+    occlusion_load(gpu, plain);
+    for (size_t i = 0; i < count; i++) {
+        const struct errors e = errors_of(gpu, plain, trials[i].words, expected);
+        print_message("# %s %s: mean error %.4f, largest %.4f, bias %+.4f of %d pixels\n", trials[i].words[2],
+                      trials[i].words[3] ? trials[i].words[3] : "", e.mean, e.most, e.bias, e.count);
+        assert_true(e.count > 60);
+        if (!(e.mean <= trials[i].mean && e.most <= trials[i].most))
+            fail_msg("%s: expected at most %g and %g: %s", trials[i].words[2], trials[i].mean, trials[i].most,
+                     trials[i].reason);
+    }
+}
+#define TRY(gpu, plain, trials, expected) try_all(gpu, plain, trials, sizeof(trials) / sizeof *(trials), expected)
+
+static const struct shapes corner = {.floor_y = -1, .wall_z = -5, .wall_top = INFINITY};
+/* On either side; not where the radius of 1 m reaches beyond the picture, and not within the texel at the edge. */
+static double at_corner(const double position[3], const double normal[3]) {
+    const double away = normal[1] > 0.5 ? position[2] + 5 : position[1] + 1;
+    return fabs(position[0]) < 1.2 && position[1] < 1 && position[2] < -3 && away > 0.05 ? beside_wall(away, 1) : NAN;
+}
+static void a_corner_hides_half_of_the_directions(void **state) {
+    static const struct trial trials[] = {
+        {{FINE, FINE_HORIZON}, 0.02, 0.08, "steps"},
+        {{FINE, FINE_REFERENCE}, 0.03, 0.2, "the noise of 64 directions is 0.06 for a visibility of a half"},
+        {{FINE, FINE_HEMISPHERE, "ao_trace.spread=0"}, 0.1, 0.3, "points, not rays"}};
+    const struct plain plain = occlusion_frame(&corner, 60);
+    TRY(*state, &plain, trials, at_corner);
+}
+
+static const struct shapes low_wall = {.floor_y = -1, .wall_z = -5, .wall_top = -0.5};
+/* In the middle of the picture, near the wall: what of the endless wall lies beyond the picture, 3.3 m away, hides less than 0.01. */
+static double at_low_wall(const double position[3], const double normal[3]) {
+    const double away = position[2] + 5;
+    return normal[1] > 0.5 && fabs(position[0]) < 0.5 && away > 0.05 && away < 0.6 ? beside_low_wall(away, 0.5) : NAN;
+}
+static void a_wall_hides_by_its_height(void **state) {
+    static const struct trial trials[] = {
+        {{FINE, FINE_HORIZON, "ao_trace.radius_m=4", "ao_trace.growth=3"}, 0.03, 0.08, "steps"},
+        {{FINE, FINE_REFERENCE, "ao_trace.radius_m=4"}, 0.04, 0.2, "noise"}};
+    const struct plain plain = occlusion_frame(&low_wall, 60);
+    TRY(*state, &plain, trials, at_low_wall);
+}
+
+static const struct shapes plates = {.floor_y = -1, .ceiling_y = 1};
+static double at_plates(const double position[3], UNUSED const double normal[3]) {
+    return fabs(position[0]) < 0.5 && position[2] < -5 && position[2] > -7 ? below_plate(2, 3) : NAN;
+}
+/* Everything between the lowest and the highest point of a slice is not hidden: horizons alone say so. */
+static void a_plate_opposite_leaves_the_horizon_open(void **state) {
+    static const struct trial trials[] = {{{FINE, FINE_REFERENCE, "ao_trace.radius_m=3"}, 0.06, 0.25, "noise"},
+                                          {{FINE, "ao_trace=horizon", "ao_trace.slices=16", "ao_trace.steps=64",
+                                            "ao_trace.growth=1", "ao_trace.thickness=0.3", "ao_trace.radius_m=3"},
+                                           0.15,
+                                           0.4,
+                                           "sectors"}};
+    const struct plain plain = occlusion_frame(&plates, 90);
+    TRY(*state, &plain, trials, at_plates);
+    const char *const solid[] = {FINE,
+                                 "ao_trace=horizon",
+                                 "ao_trace.slices=16",
+                                 "ao_trace.steps=32",
+                                 "ao_trace.behind=solid",
+                                 "ao_trace.radius_m=3",
+                                 NULL};
+    const struct errors e = errors_of(*state, &plain, solid, at_plates);
+    print_message("# solid: mean error %.4f\n", e.mean);
+    assert_true(e.bias < -0.2);
+}
+
+static const struct shapes ball = {.floor_y = -1, .sphere = {0, -0.5, -5, 0.5}};
+/* On the floor on this side of the ball. */
+static double at_ball(const double position[3], const double normal[3]) {
+    const double away = hypot(position[0], position[2] + 5);
+    return normal[1] > 0.999 && position[1] < -0.999 && position[2] > -4.9 && away > 0.1 && away < 1.5
+               ? beside_sphere(away, 0.5)
+               : NAN;
+}
+static void a_ball_hides_the_floor_that_it_lies_on(void **state) {
+    static const struct trial trials[] = {
+        {{FINE, FINE_HORIZON, "ao_trace.radius_m=3", "ao_trace.growth=1", "ao_trace.thickness=0.02"}, 0.26, 0.5, "what the ball hides of itself"},
+        {{FINE, FINE_HORIZON, "ao_trace.radius_m=3", "ao_trace.growth=1", "ao_trace.thickness=0.005"}, 0.9, 0.9, ""},
+        {{FINE, FINE_HORIZON, "ao_trace.radius_m=3", "ao_trace.growth=3", "ao_trace.thickness=0.1"}, 0.9, 0.9, ""},
+        {{FINE, FINE_REFERENCE, "ao_trace.radius_m=3"}, 0.06, 0.5, "what the ball hides of itself"}};
+    const struct plain plain = occlusion_frame(&ball, 40);
+    TRY(*state, &plain, trials, at_ball);
+}
+
+/* ---- nothing occludes itself ---- */
+
+/* A plain seen at every angle up to the horizon, from near and far away, in half floats, at both resolutions. */
+static void an_open_plain_is_fully_visible(void **state) {
+    static const char *const variants[] = {"ao_trace=horizon", "ao_trace=hemisphere", "ao_trace=reference"};
+    struct gpu *gpu = *state;
+    for (int far = 0; far < 2; far++)
+        for (int v = 0; v < 3; v++)
+            for (int half = 0; half < 2; half++) {
+                const struct shapes plain_floor = {.floor_y = far ? -100 : -1};
+                const struct plain plain = occlusion_frame(&plain_floor, 60);
+                const char *const words[] = {half ? "downsample=pick" : "downsample=none",
+                                             variants[v],
+                                             "ao_blur=separable",
+                                             "ao_apply=planes",
+                                             "ao_trace.radius_in=screen",
+                                             NULL};
+                uint32_t width, height;
+                int hidden = 0;
+                double most = 0;
+                occlusion_load(gpu, &plain);
+                occlusion_arrange(gpu, words);
+                gpu->float_precision = false;
+                gpu_run(gpu);
+                float *found = gpu_floats(gpu, "occlusion", &width, &height);
+                for (uint32_t i = 0; i < width * height; i++) {
+                    hidden += found[i] != 1;
+                    most = fmax(most, 1 - (double)found[i]);
+                }
+                print_message("# %s, %s, %d m: %d pixels hidden, at most %g\n", variants[v], half ? "half" : "full",
+                              far ? 100 : 1, hidden, most);
+                if (v < 2) assert_int_equal(hidden, 0);
+                else assert_true(most < 0.1);
+                free(found);
+            }
+}
+
+/* ---- noise ---- */
+
+/* The mean over many frames of one slice of two steps is that of many slices of two steps. */
+static void noise_is_mean_free(void **state) {
+    static const char *const patterns[] = {"ao_trace.pattern=white", "ao_trace.pattern=grid", "ao_trace.pattern=blue"};
+    struct gpu *gpu = *state;
+    const struct plain plain = occlusion_frame(&corner, 60);
+    occlusion_load(gpu, &plain);
+    for (int p = 0; p < 3; p++) {
+        float *mean[2];
+        for (int many = 0; many < 2; many++) {
+            const char *const words[] = {"downsample=pick",
+                                         "ao_trace=horizon",
+                                         patterns[many ? 0 : p],
+                                         many ? "ao_trace.slices=8" : "ao_trace.slices=1",
+                                         "ao_trace.steps=4",
+                                         many ? "pipeline.rays=16" : "pipeline.rays=64",
+                                         NULL};
+            occlusion_arrange(gpu, words);
+            gpu_run(gpu);
+            mean[many] = gpu_floats(gpu, "occlusion_half", NULL, NULL);
+        }
+        double bias = 0, square = 0;
+        const int texels = WIDE * HIGH / 4;
+        for (int i = 0; i < texels; i++) {
+            const double d = (double)mean[0][i] - (double)mean[1][i];
+            bias += d / texels;
+            square += d * d / texels;
+        }
+        print_message("# %s: bias %+.5f, RMS %.5f\n", patterns[p], bias, sqrt(square));
+        assert_true(fabs(bias) < 1e-3 && square < 0.02 * 0.02);
+        free(mean[0]), free(mean[1]);
+    }
+}
+
+/* ---- what is not a surface ---- */
+
+static void spoiled(const struct plain *plain, float *values) {
+    const uint32_t pixels = plain->width * plain->height;
+    shapes_spoil(plain, values);
+    for (uint32_t i = 0; i < pixels; i++) {
+        if (i % 7 == 0) values[PLAIN_NORMAL_X * pixels + i] = NAN;
+        if (i % 11 == 0)
+            for (uint32_t k = 0; k < 3; k++) values[(PLAIN_NORMAL_X + k) * pixels + i] = 0;
+        if (i % 13 == 0) values[i] = i % 2 ? INFINITY : NAN;
+        if (i % 17 == 0) values[i] = i % 2 ? 0 : -3;
+    }
+}
+static void invalid_pixels_are_visible_and_spoil_no_others(void **state) {
+    static const char *const variants[] = {"ao_trace=horizon", "ao_trace=hemisphere", "ao_trace=reference"};
+    struct gpu *gpu = *state;
+    struct plain plain = occlusion_frame(&corner, 60);
+    plain.spoil = spoiled;
+    occlusion_load(gpu, &plain);
+    for (int v = 0; v < 3; v++)
+        for (int apply = 0; apply < 2; apply++) {
+            const char *const words[] = {"downsample=pick", variants[v], "ao_blur=separable",
+                                         apply ? "ao_apply=planes" : "ao_apply=bilinear", NULL};
+            occlusion_arrange(gpu, words);
+            gpu_run(gpu);
+            float *found = gpu_floats(gpu, "occlusion", NULL, NULL);
+            int occluded = 0;
+            for (uint32_t i = 0; i < WIDE * HIGH; i++) {
+                assert_true(found[i] >= 0 && found[i] <= 1);
+                if (i % 7 == 0 || i % 11 == 0 || i % 13 == 0 || i % 17 == 0) assert_true(found[i] == 1);
+                occluded += found[i] < 0.9F;
+            }
+            print_message("# %s: %d pixels occluded\n", variants[v], occluded);
+            assert_true(occluded > 500);
+            free(found);
+        }
+}
+
+int main(void) {
+    cmocka_set_test_filter(getenv("ONLY"));
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(closed_forms_agree_with_quadrature),
+        cmocka_unit_test(a_corner_hides_half_of_the_directions),
+        cmocka_unit_test(a_wall_hides_by_its_height),
+        cmocka_unit_test(a_plate_opposite_leaves_the_horizon_open),
+        cmocka_unit_test(a_ball_hides_the_floor_that_it_lies_on),
+        cmocka_unit_test(an_open_plain_is_fully_visible),
+        cmocka_unit_test(noise_is_mean_free),
+        cmocka_unit_test(invalid_pixels_are_visible_and_spoil_no_others),
+    };
+    return cmocka_run_group_tests_name("gpu_occlusion", tests, gpu_set_up, gpu_tear_down);
+}
