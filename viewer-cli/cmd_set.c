@@ -129,14 +129,28 @@ static const char *without_prefix(const char *key) {
     return strncmp(key, "glint.", 6) ? key : key + 6;
 }
 
+/* The name of a key, with the number that stands in `key` in place of NNN, where it has one. */
+static const char *numbered(const char *known, const char *key, char text[80]) {
+    const char *place = strstr(known, "NNN");
+    const size_t before = place ? (size_t)(place - known) : 0;
+    if (!place || strncmp(known, key, before) != 0 || strspn(key + before, "0123456789") != 3) return known;
+    snprintf(text, 80, "%.*s%.3s%s", (int)before, known, key + before, place + 3);
+    return text;
+}
+
 /* Whether the key is one of FORMAT.md's or an attribute of a part. */
 static bool check_key(const struct glint_edit *edit, const char *key, struct glint_error *err) {
+    enum { NUMBERED = 32 };
+    char texts[NUMBERED][80];
+    size_t used = 0;
     const struct glint_exr_part_info *part;
     struct glint_nearest near = glint_nearest_to(without_prefix(key));
     struct glint_edit_key known;
     for (size_t i = 0; glint_edit_key(i, &known); i++) {
-        if (!strcmp(known.name, without_prefix(key))) return true;
-        glint_nearest_offer(&near, known.name);
+        const char *name = used < NUMBERED ? numbered(known.name, without_prefix(key), texts[used]) : known.name;
+        used += name != known.name;
+        if (!strcmp(name, without_prefix(key)) && !strstr(name, "NNN")) return true;
+        glint_nearest_offer(&near, name);
     }
     for (size_t p = 0; (part = glint_edit_part(edit, p)) != NULL; p++)
         for (size_t a = 0; a < part->attribute_count; a++) {

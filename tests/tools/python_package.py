@@ -42,7 +42,8 @@ def same(a, b):
 class Tests:
     def __init__(self):
         self.folder = tempfile.TemporaryDirectory()
-        for name, options in (("plain", ()), ("encoded", ("--encoding", ENCODED, "--offset=1000,2000,3000"))):
+        light = ("--also=ao,sun,shadow,volume", "--truth-of=reflection,occlusion,sun,indirect")
+        for name, options in (("plain", light), ("encoded", ("--encoding", ENCODED, "--offset=1000,2000,3000"))):
             subprocess.run([GLINT, "sample", "lake", "--light=4", "-o", self.path(f"{name}.exr"), "--size", "32x18", "--cube-size", "8", "--planar-size", "16x8",
                             "--truth", "1", "--foreground", *options], check=True)
         self.gbuffer = {"depth.Z": np.full((4, 6), 0.5, "f4"), "normal": np.broadcast_to(np.float32([0, 1, 0]), (4, 6, 3)),
@@ -164,6 +165,7 @@ class Tests:
             with glint.Writer(copy, capture.frame, **options) as writer:
                 for part in capture.parts.values():
                     writer.add(part.name, {c: part.read_raw(c) for c in part.channels}, part.encodings, cubemap=part.cubemap, planar=part.planar, sky=part.sky, probe=part.probe,
+                               indirect=part.indirect, shadow=part.shadow, volume=part.volume, truth=part.truth,
                                storage={c.name: c.storage for c in part.channels.values()}, attributes=part.attributes)
             said("idiff", "-q", "-a", "-fail", "0", "-failpercent", "0", capture.path, copy)
             again = glint.open(copy)
@@ -171,7 +173,7 @@ class Tests:
             for part in capture.parts.values():
                 other = again[part.name]
                 assert part.channels == other.channels and part.encodings == other.encodings and part.attributes == other.attributes
-                assert all(same(getattr(part, name), getattr(other, name)) for name in ("cubemap", "planar", "sky", "probe"))
+                assert all(same(getattr(part, name), getattr(other, name)) for name in ("cubemap", "planar", "sky", "probe", "indirect", "shadow", "volume", "truth"))
                 for c in part.channels:
                     assert part.read_raw(c).tobytes() == other.read_raw(c).tobytes(), (part, c)
             was, now = headers(capture.path), headers(copy)
@@ -242,6 +244,29 @@ class Tests:
         assert np.array_equal(fine.probe.box.center, [1e6, 2, 3]) and np.array_equal(fine.probe.box.min, [-1, -2, -3]) and coarse.probe.box is None
         assert (fine.index, fine.level, coarse.index, coarse.level) == (3, 0, 3, 1) and capture["probe.004"].probe.roughness is None
         said(GLINT, "validate", capture.path)
+
+    def test_light_comes_back(self):
+        frame = glint.Frame(glint.Camera(EYE, CLIP), sun=glint.Sun([0, 0.6, -0.8], 0.005, [6, 5, 4]),
+                            lights=[glint.Light([1e6, 2, 3], [1, 2, 3], range=9), glint.Light([0, 1, 0], [1, 1, 1], cone=glint.Cone([0, -1, 0], 0.25, 0.5))])
+        matrix = np.diag([0.1, 0.2, -0.5, 1.0])
+        faces_of = " ".join(f"{side}{axis}.{c}" for axis in "xyz" for side in "pn" for c in "RGB")
+        one = dict(channels={"visibility": np.full((4, 6), 0.5, "f2")})
+        more = [("indirect", dict(channels=self.lit, indirect=glint.Indirect(True))), ("ao", one), ("sun", one),
+                ("shadow.000", dict(channels={"depth.Z": np.full((2, 2), 0.25, "f4")}, shadow=glint.Shadow(matrix))),
+                ("shadow.001", dict(channels={"depth.Z": np.full((2, 2), 0.25, "f4")}, shadow=glint.Shadow(matrix, [1, 0], 0.001, 1))),
+                ("volume.000", dict(channels={faces_of: np.ones((6, 2, 18), "f2")}, volume=glint.LightVolume(matrix, 3))),
+                ("truth.occlusion", dict(**one, truth=glint.Truth(radius=2.0)))]
+        capture = self.write("light.exr", frame=frame, more=more)
+        said(GLINT, "validate", capture.path)
+        sun, lights = capture.frame.sun, capture.frame.lights
+        assert np.allclose(sun.direction, [0, 0.6, -0.8], atol=1e-15) and sun.angular_radius_rad == 0.005 and np.array_equal(sun.irradiance, [6, 5, 4])
+        assert len(lights) == 2 and np.array_equal(lights[0].position, [1e6, 2, 3]) and lights[0].range == 9 and lights[0].cone is None
+        assert np.array_equal(lights[1].cone.axis, [0, -1, 0]) and (lights[1].cone.inner_rad, lights[1].cone.outer_rad) == (0.25, 0.5)
+        first, second = capture["shadow.000"].shadow, capture["shadow.001"].shadow
+        assert np.array_equal(first.world_to_shadow, matrix) and np.array_equal(first.range, [0, 1]) and first.light is None
+        assert np.array_equal(second.range, [1, 0]) and second.bias == 0.001 and second.light == 1
+        assert capture["volume.000"].volume.slices == 3 and capture["indirect"].indirect.occluded and capture["truth.occlusion"].truth.radius == 2
+        assert capture["ao"].shadow is None and capture["sun"].truth is None
 
     def test_a_sibling_holds_cube_maps(self):
         cube = dict(cubemap=glint.CubeMap([0, 1, 0]))

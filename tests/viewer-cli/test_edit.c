@@ -54,7 +54,7 @@ static const char *value_of(const char *key, const char *form) {
         {"light.001.coneInner", "0.5"},
         {"light.001.coneOuter", "1.5"},
         {"occluded", "0"},
-        {"worldToShadow", "0.5,0,0,1,0,0.5,0,2,0,0,-0.25,0,0,0,-1,0"}, /* a perspective */
+        {"worldToShadow", "0.5,0,0,1,0,0.5,0,2,0,0,-0.25,1,0,0,-1,0"}, /* a perspective */
         {"shadowRange", "1,0.25"},
         {"shadowLight", "0"},
         {"worldToGrid", "0,0,0.5,1,0,0.25,0,2,-0.5,0,0,3,0,0,0,1"},

@@ -113,15 +113,14 @@ struct glint_material_model {
 struct glint_sun {
     double direction[3];       /* unit vector in world space towards it */
     double angular_radius_rad; /* of its disc; 0: a point */
-    float irradiance[3];       /* radiance · sr, on a surface that faces it, with nothing between; 0: not known */
+    float irradiance[3];       /* radiance · sr, on a surface that faces it; 0: not known */
 };
 
 /* A point light, or a spot light if it has a cone. */
 #define GLINT_MAX_LIGHTS 64
 struct glint_cone {
-    double axis[3]; /* unit vector in world space along which the light shines */
-    double inner_rad,
-        outer_rad; /* angles from the axis: full intensity up to the first one, none from the second one on */
+    double axis[3];              /* unit vector in world space along which the light shines */
+    double inner_rad, outer_rad; /* angles from the axis: full intensity up to the first, none from the second on */
 };
 struct glint_light {
     double position[3]; /* world */
@@ -227,13 +226,11 @@ struct glint_planar {
 
 /* ---- Light and shadow ---- */
 
-/* The ambient or baked part of `lit`. */
 struct glint_indirect {
-    bool occluded; /* the engine's own ambient occlusion is already in it */
+    bool occluded; /* the engine's own ambient occlusion is already in it, and in `lit` */
 };
 
-/* A shadow map: shadow = world_to_shadow · world. After division by w, x from -1 to 1 is the map from left to right, y as clip_y says, and
-   z is the depth that the map stores. */
+/* shadow = world_to_shadow · world; divided by w, x from -1 to 1 is the map from left to right, y as clip_y says, z the stored depth. */
 struct glint_shadow {
     double world_to_shadow[16]; /* row-major, for column vectors, invertible: orthographic or perspective */
     double range[2];            /* the depths nearest to the light and farthest from it, in [0, 1]; both 0: 0 and 1 */
@@ -242,10 +239,10 @@ struct glint_shadow {
     uint32_t light;             /* number of the light in glint_frame */
 };
 
-/* A grid of ambient cubes, whose slices are stored one below the other: a part of cells_x × (cells_y · slices) pixels. */
+/* A grid of ambient cubes, slices one below the other: a part of cells_x × (cells_y · slices) pixels. Cell (i, j, k) lies from (i, j, k) to
+   (i + 1, j + 1, k + 1) of grid = world_to_grid · world. */
 struct glint_light_volume {
-    double world_to_grid
-        [16];        /* grid = world_to_grid · world; cell (i, j, k) lies from (i, j, k) to (i + 1, j + 1, k + 1) */
+    double world_to_grid[16];
     uint32_t slices; /* cells along z */
 };
 
