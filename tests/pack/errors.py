@@ -165,7 +165,7 @@ class Tests:
         lines = [int(line.split(":")[1]) for line in found]
         assert lines == sorted(lines) and len(set(lines)) == len(keys), lines
         meanings = (("frame.exposure", -1), ("parts.gbuffer.normal.X", "nothing.r"), ("parts.lit.R", "nothing.r"), ("parts.lit.G", {"texture": "lit", "channel": "q"}),
-                    ("parts.ao", {"R": 1}))
+                    ("parts.curvature", {"R": 1}))
         found, places, said = self.together(*meanings)
         for place in places[1:]:
             assert any(line.split(": ")[1] == place.split(": ")[1] for line in found), (place, said)

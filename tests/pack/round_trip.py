@@ -69,7 +69,7 @@ class Tests:
         lamp = self.path("lamp.exr")
         glint("set", path, *(f"light.000.{key}={value}" for key, value in (("position", "1,2,3"), ("intensity", "4,3,2"), ("axis", "0,-0.6,0.8"), ("coneOuter", 0.5))),
               "shadow.000:shadowLight=0", "indirect:occluded=1", "-o", lamp)
-        self.check_bytes(lamp)
+        self.check_bytes(self.there_and_back(lamp))
         self.check_bytes(path)
         said, known = glint("info", lamp), json.loads(glint("info", lamp, "--json"))
         assert "sun towards (" in said and "1 point and spot light" in said and "light 000" in said and "cells of light" in said, said

@@ -240,6 +240,24 @@ static void fog_and_up_are_in_metres(UNUSED void **unused) {
     assert_true(fabsf(block.fog_height.y - 50) < 1e-4f);
 }
 
+/* The world's axes and units of light are the block's; without a sun, what a capture's struct holds otherwise does not count. */
+static void the_sun_is_as_the_capture_says(UNUSED void **unused) {
+    struct glint_frame frame = {
+        .metres_per_unit = 0.01,
+        .sun = {.direction = {0.48, 0.6, -0.64}, .angular_radius_rad = 0.25, .irradiance = {3, 2, 1}}};
+    struct frame_block block;
+    for (int i = 0; i < 3; i++)
+        frame.camera.world_to_view[4 * i + (i + 1) % 3] = 1; /* a third of a turn about the diagonal */
+    frame.camera.view_to_clip[0] = frame.camera.view_to_clip[5] = frame.camera.view_to_clip[14] = 1;
+    fill_block(&block, &frame);
+    assert_true(block.sun_direction.x == 0 && block.sun_direction.w == 0 && block.sun_irradiance.x == 0);
+    frame.has_sun = true;
+    fill_block(&block, &frame);
+    assert_true(block.sun_direction.x == 0.48f && block.sun_direction.y == 0.6f && block.sun_direction.z == -0.64f);
+    assert_true(block.sun_direction.w == 0.25f);
+    assert_true(block.sun_irradiance.x == 3 && block.sun_irradiance.y == 2 && block.sun_irradiance.z == 1);
+}
+
 /* std140 as in the shader: offsets in a block of 16-byte members. */
 static void the_layout_is_std140(UNUSED void **unused) {
     assert_int_equal(offsetof(struct frame_block, world_from_view), 64);
@@ -255,6 +273,7 @@ int main(void) {
         cmocka_unit_test(a_frame_far_from_the_origin_has_the_same_block),
         cmocka_unit_test(rotations_in_floats_do_not_move_the_camera),
         cmocka_unit_test(fog_and_up_are_in_metres),
+        cmocka_unit_test(the_sun_is_as_the_capture_says),
         cmocka_unit_test(the_layout_is_std140),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

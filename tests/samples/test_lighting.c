@@ -13,10 +13,20 @@ struct frame {
     float *surface, *lit, *indirect, *mask; /* depth, vertex normal, albedo; R G B; R G B; visibility */
 };
 
+static void print_violation(UNUSED void *user, const char *rule, const char *message) {
+    print_error("%s: %s\n", rule, message);
+}
+
+/* With all that the stand-in engine can write of its light, and all truths. */
 static struct frame take(const char *path, const char *scene, const double offset[3]) {
-    struct glint_sample_options o = {.width = W, .height = H, .cube_size = 8, .light_samples = 16, .also = 15};
+    struct glint_sample_options o = {
+        .width = W, .height = H, .cube_size = 8, .light_samples = 16, .also = 15, .truth_samples = 2, .truths = 31};
+    struct glint_error err = {0};
+    size_t violations = 1;
     memcpy(o.offset, offset, sizeof o.offset);
     write_sample(scene, path, &o);
+    assert_true(glint_capture_validate(path, NULL, print_violation, NULL, &violations, &err));
+    assert_int_equal(violations, 0);
     struct frame f = {.capture = open_capture(path)};
     f.says = glint_capture_frame(f.capture);
     f.surface =
