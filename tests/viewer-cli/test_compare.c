@@ -162,8 +162,8 @@ static void an_effect_is_chosen_by_name(UNUSED void **state) {
     fputs("{\"name\": \"bare\", \"title\": \"Normals\", \"source\": \"glint\", \"slots\": {\"downsample\": \"none\"}}",
           preset);
     fclose(preset);
-    glint_fails(2, "--effect reflection: no slot of the pipeline makes the reflection", "stability", in_folder("box.exr"),
-                "-p", in_folder("bare.json"), "--effect=reflection");
+    glint_fails(2, "--effect reflection: no slot of the pipeline makes the reflection", "stability",
+                in_folder("box.exr"), "-p", in_folder("bare.json"), "--effect=reflection");
     char *text = glint_ok("passes", "--json");
     json_t *json = parse_json(text);
     const json_t *effects = json_object_get(json, "effects");
