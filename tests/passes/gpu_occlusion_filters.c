@@ -163,7 +163,7 @@ static void every_switch_has_an_effect(void **state) {
         {"ao_trace=hemisphere",
          {"ao_trace.samples=8", "ao_trace.range=none", "ao_trace.range=hard", "ao_trace.spread=0.3",
           "ao_trace.thickness=0.1", "ao_trace.radius_part=0.3"}},
-        {"ao_trace=reference",
+        {"ao_trace=dda",
          {"ao_trace.directions=8", "ao_trace.cells=2", "ao_trace.pass_behind=false", "ao_trace.inside=false",
           "ao_trace.thickness=0.1", "ao_trace.thickness_m=1e6", "ao_trace.solid=0"}},
     };
