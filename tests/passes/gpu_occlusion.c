@@ -184,10 +184,10 @@ static double at_ball(const double position[3], const double normal[3]) {
 }
 static void a_ball_hides_the_floor_that_it_lies_on(void **state) {
     static const struct trial trials[] = {
-        {{FINE, FINE_HORIZON, "ao_trace.radius_m=3", "ao_trace.growth=1", "ao_trace.thickness=0.005"},
+        {{FINE, FINE_HORIZON, "ao_trace.radius_m=3", "ao_trace.growth=1", "ao_trace.thickness=0.1"},
          0.05,
          0.15,
-         "objects are 15 mm thick, which the ball is at its rim alone"},
+         "objects are 0.3 m thick, which the ball is not everywhere"},
         {{FINE, FINE_DDA, "ao_trace.radius_m=3", "ao_trace.inside=false"},
          0.05,
          0.3,
