@@ -141,7 +141,8 @@ static void skipped_texels_would_have_been_visible(void **state) {
             print_message("# scene %zu, %s: %.1f fetches a texel, %.1f without the boxes\n", s, variants[v],
                           fetches[0] / width / height, fetches[1] / width / height);
             assert_memory_equal(found[0], found[1], width * height * sizeof **found);
-            assert_true(s == 2 || fetches[0] < 0.8 * fetches[1]);
+            /* points of the hemisphere may be hidden by anything in front of them */
+            assert_true(v == 1 || s == 2 || fetches[0] < 0.8 * fetches[1]);
             free(found[0]), free(found[1]);
         }
 }
@@ -157,14 +158,14 @@ static void every_switch_has_an_effect(void **state) {
          {"ao_trace.radius_in=screen", "ao_trace.radius_m=0.3", "ao_trace.pattern=none", "ao_trace.pattern=blue",
           "ao_trace.shuffle=false", "ao_trace.averaged=ratio", "ao_trace.averaged=visible", "ao_trace.behind=solid",
           "ao_trace.growth=1", "ao_trace.thickness=0.05", "ao_trace.bias=0.5", "ao_trace.lift=0.3"}},
-        {"ao_trace=horizon", {"ao_trace.slices=3", "ao_trace.steps=3", "ao_trace.picks=false"}},
+        {"ao_trace=horizon", {"ao_trace.slices=3", "ao_trace.steps=3"}},
         {"ao_trace.behind=decay", {"ao_trace.decay=0.9", "ao_trace.fade=0.5"}},
         {"ao_trace=hemisphere",
          {"ao_trace.samples=8", "ao_trace.range=none", "ao_trace.range=hard", "ao_trace.spread=0.3",
           "ao_trace.thickness=0.1", "ao_trace.radius_part=0.3"}},
-        {"ao_trace=reference",
+        {"ao_trace=dda",
          {"ao_trace.directions=8", "ao_trace.cells=2", "ao_trace.pass_behind=false", "ao_trace.inside=false",
-          "ao_trace.thickness=0.1", "ao_trace.thickness_m=1e6", "ao_trace.seam=0", "ao_trace.solid=0"}},
+          "ao_trace.thickness=0.1", "ao_trace.thickness_m=1e6", "ao_trace.solid=0"}},
     };
     static const struct shapes scene = {.floor_y = -1, .wall_z = -6, .wall_top = 1, .sphere = {0, -0.4, -3, 0.5}};
     struct gpu *gpu = *state;
@@ -196,7 +197,6 @@ static void every_switch_has_an_effect(void **state) {
 }
 
 int main(void) {
-    cmocka_set_test_filter(getenv("ONLY"));
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_blur_averages_a_surface_and_no_other),
         cmocka_unit_test(a_blur_of_nothing_changes_nothing),

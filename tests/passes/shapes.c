@@ -15,12 +15,14 @@ static void meet_plane(int axis, double place, double highest, const double from
 
 static void meet_sphere(const double sphere[4], const double from[3], const double direction[3], double *nearest,
                         double normal[3]) {
-    double along = 0, away2 = 0;
+    double along = 0, away2 = 0, length2 = 0;
     for (int k = 0; k < 3; k++) {
         along += (sphere[k] - from[k]) * direction[k];
         away2 += (sphere[k] - from[k]) * (sphere[k] - from[k]);
+        length2 += direction[k] * direction[k];
     }
-    const double inside = along * along - away2 + sphere[3] * sphere[3], t = along - sqrt(inside);
+    const double inside = along * along - length2 * (away2 - sphere[3] * sphere[3]),
+                 t = (along - sqrt(inside)) / length2;
     if (!(inside > 0 && t > 1e-9 && t < *nearest)) return;
     *nearest = t;
     for (int k = 0; k < 3; k++) normal[k] = (from[k] + t * direction[k] - sphere[k]) / sphere[3];

@@ -11,7 +11,7 @@ struct shapes {
     double sphere[4];        /* centre and radius; 0: none */
 };
 
-/* Where a ray from `from` meets a surface first: the distance, +inf where nowhere, and its unit normal towards the ray. */
+/* Where a ray from `from` meets a surface first: the distance in lengths of `direction`, +inf where nowhere, and its unit normal towards the ray. */
 double shapes_hit(const struct shapes *shapes, const double from[3], const double direction[3], double normal[3]);
 /* Cosine-weighted fraction of the hemisphere about a unit normal in which no surface is nearer than the radius: quadrature over steps² directions. */
 double shapes_visibility(const struct shapes *shapes, const double at[3], const double normal[3], double radius,

@@ -28,7 +28,6 @@ float in_range(Receiver r, float depth_m) {
 Estimate estimate(ivec2 texel, Receiver r) {
     Estimate result = Estimate(1.0, INFINITE, 0u, 0u);
     vec3 tangent, bitangent, shift = numbers_at(texel);
-    if (!may_be_occluded(r, false, result)) return result;
     tangent_frame(r.normal, tangent, bitangent);
     float front = frame.depth_range.z;
     precise float hidden = 0.0;
@@ -52,4 +51,5 @@ Estimate estimate(ivec2 texel, Receiver r) {
     if (hidden > 0.0) result.visibility = 1.0 - hidden / float(samples);
     return result;
 }
+const bool NEARBY = false;
 #include "main.glsl"

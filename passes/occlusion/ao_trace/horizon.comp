@@ -101,7 +101,6 @@ Estimate estimate(ivec2 texel, Receiver r) {
     // A shading normal may face away from the viewer.
     precise vec3 normal = normalize(r.normal + max(0.01 - dot(r.normal, view), 0.0) * view);
     r.normal = normal;
-    if (!may_be_occluded(r, true, result)) return result;
     tangent_frame(view, tangent, bitangent);
     precise float hidden = 0.0, all = 0.0;
     for (int i = 0; i < slices; ++i) {
@@ -117,4 +116,5 @@ Estimate estimate(ivec2 texel, Receiver r) {
     else result.visibility = (averaged == averaged_visible ? all / float(slices) : 1.0) - hidden / float(slices);
     return result;
 }
+const bool NEARBY = true;
 #include "main.glsl"

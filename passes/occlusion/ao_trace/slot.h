@@ -14,7 +14,6 @@ CHOICE2(radius_in, world, world, screen, "Mafia DE article, SSAO", "world: surfa
 CHOICE2(normals, shading, shading, vertex, "Mafia DE article, GBuffer Pass", "normal about which directions are distributed; vertex: the geometric one where the capture has it")
 PUSH(float, radius_m, 1.0, 0.0, 1e6, "m", "glint", "distance up to which surfaces occlude, with radius_in=world; 0: nothing occludes")
 PUSH(float, radius_part, 0.1, 0.0, 4.0, "1", "Mafia DE article, SSAO (without a value)", "the same as a fraction of the picture's height, with radius_in=screen")
-DISPATCH(occlusion_half)
 NEEDS(surfaces)
 PER_RAY
 ACCUMULATE(occlusion_half)

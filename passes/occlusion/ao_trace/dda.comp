@@ -2,9 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "shared/bindings.glsl"
-#include "reference.pass.h"
+#include "dda.pass.h"
 #include "shared/push_begin.glsl"
-#include "reference.pass.h"
+#include "dda.pass.h"
 };
 #include "receiver.glsl"
 #include "shared/blue_noise.glsl"
