@@ -97,8 +97,8 @@ static bool find_compiled(struct spirv *spirv, struct shaders *shaders, const ch
         found->next = shaders->first;
         shaders->first = found;
     }
-    spirv->words = found->words;
-    spirv->bytes = found->bytes;
+    spirv->words = spirv->unprobed = found->words;
+    spirv->bytes = spirv->unprobed_bytes = found->bytes;
     return true;
 }
 
@@ -108,7 +108,11 @@ bool spirv_find(struct spirv *spirv, struct shaders *shaders, const struct pipel
     struct glint_error own = {0};
     char *code = entry->shader ? shader_flatten(entry->shader, pass, shaders->folder, &own)
                                : shader_flatten_pass(pass, shaders->folder, &own);
-    *spirv = (struct spirv){.words = pass->spirv, .bytes = pass->spirv_bytes, .tiles = true};
+    *spirv = (struct spirv){.words = pass->spirv,
+                            .bytes = pass->spirv_bytes,
+                            .unprobed = pass->unprobed,
+                            .unprobed_bytes = pass->unprobed_bytes,
+                            .tiles = true};
     if (own.code != GLINT_OK) return glint_fail(err, own.code, "%s", own.message);
     if (code) {
         spirv->from = entry->shader ? entry->shader : shaders->folder;
