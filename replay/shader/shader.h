@@ -13,6 +13,7 @@ enum { FRAME_WORDS = sizeof(struct frame_block) / sizeof(uint32_t) };
 struct shaders {
     char *folder; /* or NULL */
     struct compiled *first;
+    bool compiler; /* glslang is initialised */
 };
 bool shaders_init(struct shaders *shaders, const char *folder, struct glint_error *err);
 void shaders_finish(struct shaders *shaders);

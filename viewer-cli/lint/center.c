@@ -56,8 +56,8 @@ static double match_score(struct search *s, size_t c, const double offset[3]) {
                                   ? lint_cube_distance(&s->tried, texel, d, away) / (double)texel[4]
                                   : s->tried.cube_scale;
         const double under = (double)s->nearest[at] * factor - away, over = away - (double)s->farthest[at] * factor;
-        const double off = fmax(0, fmax(under, over));
-        sum += fmax(0, 1 - off / slack);
+        const double off = lint_larger(0, lint_larger(under, over));
+        sum += lint_larger(0, 1 - off / slack);
     }
     return sum / (double)s->count;
 }

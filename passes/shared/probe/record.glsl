@@ -57,8 +57,9 @@ void probe_pixel(ivec2 pixel) {
 
 // Sets a texel of a coarser level: the invocation works for all texels of the pipeline's resolution in it.
 void probe_level(ivec2 texel, int level) {
+    if (probe_pass == 0u) return;
     probe_texel(texel);
-    if (probe_pass == 0u || level == 0) return;
+    if (level == 0) return;
     probed = UNPROBED;
     probed_level = level;
     probed_home = texel;
