@@ -86,7 +86,8 @@ static void check_sky_texels(const struct lint_data *data, struct lint_findings 
 static double depth_within(const struct glint_cubemap *map, const double p[3]) {
     double within = INFINITY, square = 0;
     for (int k = 0; k < 3; k++) {
-        if (map->inner == GLINT_VOLUME_BOX) within = lint_smaller(within, lint_smaller(p[k] - map->box_min[k], map->box_max[k] - p[k]));
+        if (map->inner == GLINT_VOLUME_BOX)
+            within = lint_smaller(within, lint_smaller(p[k] - map->box_min[k], map->box_max[k] - p[k]));
         square += pow(p[k] - map->sphere_center[k], 2);
     }
     if (map->inner == GLINT_VOLUME_SPHERE) within = map->sphere_radius - sqrt(square);
