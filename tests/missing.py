@@ -13,7 +13,7 @@ from tap import programs  # noqa: E402
 
 BUILD = sys.argv[1]
 # One test for each way in which tests run other programs, and its case that does.
-WITHOUT = {"mandoc": ("cli_help", "man_pages_have_no_lint"), "idiff": ("cli_diff", "verdicts_are_idiffs"), "iinfo": ("cli_view_more", "longitude_and_latitude_*"),
+WITHOUT = {"mandoc": ("cli_help", "man_pages_have_no_lint"), "idiff": ("cli_diff", "verdicts_are_idiffs"), "oiiotool": ("cli_view_more", "longitude_and_latitude_*"),
            "exrheader": ("foreign_tools", "*"), "exrinfo": ("gpu_run_files", "foreign_tools_*"), "chromium-headless-shell": ("cli_page", "*")}
 
 
