@@ -146,7 +146,8 @@ def write_passes(root, build, out, depfile, *entries):
     c += ['static const struct glint_row capture_rows[] = {', '#include "capture_images.h"', '};', '',
           'static const struct glint_pass pass_table[] = {']
     for p in passes:
-        spirv = f'.spirv = spirv_{p.symbol}, .spirv_bytes = sizeof spirv_{p.symbol}, ' if p.kind == 'spirv' else ''
+        spirv = ''.join(f'.{field} = {name}, .{field}_bytes = sizeof {name}, ' for field, name in (
+            ('spirv', f'spirv_{p.symbol}'), ('unprobed', f'spirv_{p.symbol}_unprobed'))) if p.kind == 'spirv' else ''
         host = f'.host = glint_host_{p.symbol}, ' if p.kind == 'host' else ''
         c += [f'    {{.effect = "{p.effect}", .folder = "{p.folder}", .slot = "{p.slot}", .variant = "{p.variant}", {spirv}{host}',
               f'     .title = title_{p.symbol}, .source = source_{p.symbol},',

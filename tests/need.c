@@ -28,6 +28,12 @@ static bool found(const char *name) {
     return false;
 }
 
+/* GLINT_TEST_ONLY, a pattern of names, leaves out the other cases of a program. */
+__attribute__((constructor)) static void choose_cases(void) {
+    const char *only = getenv("GLINT_TEST_ONLY");
+    if (only) cmocka_set_test_filter(only);
+}
+
 void need_program(const char *name) {
     if (strchr(name, '/') || found(name)) return;
     for (size_t i = 0; i < sizeof programs / sizeof *programs; i++)

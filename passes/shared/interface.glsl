@@ -1,7 +1,11 @@
 // The interface of every pass besides its declaration: constants that the host sets, the frame, the samplers. The generated
 // shared/bindings.glsl includes it. Other bindings of set 0 and other constants are rows of the declaration (passes/row_kinds.py).
 layout(constant_id = 0) const bool diagnostics = false;
+#ifdef NO_PROBES // the module of runs without probed pixels (spirv.py)
+const uint probe_pass = 0u;
+#else
 layout(constant_id = 999) const uint probe_pass = 0u; // while pixels are probed: the pass's place in the run, from 1 (shared/probe/record.glsl)
+#endif
 layout(constant_id = 3) const bool halves = true; // false: images declared as half floats are full floats
 layout(constant_id = 4) const uint dispatch_phase = 0u; // the number of this dispatch among the pass's rows DISPATCH…
 const uint ALL_TILES = 0xFFFFFFFFu; // no list: the dispatch covers the whole image

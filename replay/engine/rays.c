@@ -29,7 +29,9 @@ static const struct glint_pass accumulate = {.slot = "accumulate",
                                              .rows = rows,
                                              .row_count = BINDINGS,
                                              .spirv = spirv_accumulate,
-                                             .spirv_bytes = sizeof spirv_accumulate};
+                                             .spirv_bytes = sizeof spirv_accumulate,
+                                             .unprobed = spirv_accumulate,
+                                             .unprobed_bytes = sizeof spirv_accumulate};
 enum { PUSH_WORDS = 4 };
 
 static bool describe_sum(const struct run *run, struct sum *sum, struct glint_error *err) {

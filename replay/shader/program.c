@@ -156,8 +156,9 @@ static bool create_layouts(struct program *program, struct gpu *gpu, VkDescripto
 static bool create_pipeline(struct program *program, struct gpu *gpu, const struct spirv *spirv,
                             const struct constants *constants, bool some_layers, const char *name,
                             struct glint_error *err) {
-    const VkShaderModuleCreateInfo module_info = {
-        .sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO, .codeSize = spirv->bytes, .pCode = spirv->words};
+    const VkShaderModuleCreateInfo module_info = {.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
+                                                  .codeSize = constants->probed ? spirv->bytes : spirv->unprobed_bytes,
+                                                  .pCode = constants->probed ? spirv->words : spirv->unprobed};
     VkShaderModule module;
     if (!vk_ok(vkCreateShaderModule(gpu->device, &module_info, NULL, &module), name, err)) return false;
     device_set_name(gpu, VK_OBJECT_TYPE_SHADER_MODULE, (uint64_t)(uintptr_t)module, name);

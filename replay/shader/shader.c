@@ -50,8 +50,6 @@ static bool compile_text(struct compiled *out, const char *path, const char *cod
                                    .default_profile = GLSLANG_CORE_PROFILE,
                                    .messages = GLSLANG_MSG_SPV_RULES_BIT | GLSLANG_MSG_VULKAN_RULES_BIT,
                                    .resource = glslang_default_resource()};
-    if (!glslang_initialize_process())
-        return glint_fail(err, GLINT_ERROR_UNSUPPORTED, "%s: glslang cannot start", path);
     glslang_shader_t *shader = glslang_shader_create(&input);
     glslang_program_t *program = glslang_program_create();
     bool ok = false;
@@ -72,8 +70,16 @@ static bool compile_text(struct compiled *out, const char *path, const char *cod
     }
     if (program) glslang_program_delete(program);
     if (shader) glslang_shader_delete(shader);
-    glslang_finalize_process();
     return ok;
+}
+
+/* Initialising and finalising glslang is global to the process, counted, and not thread-safe. The first compilation after it parses GLSL's built-in
+   functions, which takes longer than most shaders: so what is initialised stays so as long as the device. */
+static pthread_mutex_t one_at_a_time = PTHREAD_MUTEX_INITIALIZER;
+
+static bool start_compiler(struct shaders *shaders, const char *path, struct glint_error *err) {
+    if (!shaders->compiler) shaders->compiler = glslang_initialize_process() != 0;
+    return shaders->compiler || glint_fail(err, GLINT_ERROR_UNSUPPORTED, "%s: glslang cannot start", path);
 }
 
 static bool find_compiled(struct spirv *spirv, struct shaders *shaders, const char *path, const char *code,
@@ -83,10 +89,8 @@ static bool find_compiled(struct spirv *spirv, struct shaders *shaders, const ch
     while (found && !XXH128_isEqual(found->text, hash)) found = found->next;
     if (!found) {
         found = calloc(1, sizeof *found);
-        /* Initialising and finalising glslang is global to the process and not thread-safe. */
-        static pthread_mutex_t one_at_a_time = PTHREAD_MUTEX_INITIALIZER;
         pthread_mutex_lock(&one_at_a_time);
-        const bool ok = found && compile_text(found, path, code, err);
+        const bool ok = found && start_compiler(shaders, path, err) && compile_text(found, path, code, err);
         pthread_mutex_unlock(&one_at_a_time);
         if (!ok) {
             if (!found) glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
@@ -97,8 +101,8 @@ static bool find_compiled(struct spirv *spirv, struct shaders *shaders, const ch
         found->next = shaders->first;
         shaders->first = found;
     }
-    spirv->words = found->words;
-    spirv->bytes = found->bytes;
+    spirv->words = spirv->unprobed = found->words;
+    spirv->bytes = spirv->unprobed_bytes = found->bytes;
     return true;
 }
 
@@ -108,7 +112,11 @@ bool spirv_find(struct spirv *spirv, struct shaders *shaders, const struct pipel
     struct glint_error own = {0};
     char *code = entry->shader ? shader_flatten(entry->shader, pass, shaders->folder, &own)
                                : shader_flatten_pass(pass, shaders->folder, &own);
-    *spirv = (struct spirv){.words = pass->spirv, .bytes = pass->spirv_bytes, .tiles = true};
+    *spirv = (struct spirv){.words = pass->spirv,
+                            .bytes = pass->spirv_bytes,
+                            .unprobed = pass->unprobed,
+                            .unprobed_bytes = pass->unprobed_bytes,
+                            .tiles = true};
     if (own.code != GLINT_OK) return glint_fail(err, own.code, "%s", own.message);
     if (code) {
         spirv->from = entry->shader ? entry->shader : shaders->folder;
@@ -139,5 +147,8 @@ void shaders_finish(struct shaders *shaders) {
         free(one);
     }
     free(shaders->folder);
+    pthread_mutex_lock(&one_at_a_time);
+    if (shaders->compiler) glslang_finalize_process();
+    pthread_mutex_unlock(&one_at_a_time);
     *shaders = (struct shaders){0};
 }

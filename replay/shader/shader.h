@@ -13,6 +13,7 @@ enum { FRAME_WORDS = sizeof(struct frame_block) / sizeof(uint32_t) };
 struct shaders {
     char *folder; /* or NULL */
     struct compiled *first;
+    bool compiler; /* glslang is initialised */
 };
 bool shaders_init(struct shaders *shaders, const char *folder, struct glint_error *err);
 void shaders_finish(struct shaders *shaders);
@@ -20,6 +21,8 @@ void shaders_finish(struct shaders *shaders);
 struct spirv {
     const uint32_t *words; /* owned by the pass or by struct shaders */
     size_t bytes;
+    const uint32_t *unprobed; /* what runs without probed pixels */
+    size_t unprobed_bytes;
     const char *from; /* the file or folder that it was compiled from, or NULL */
     uint64_t hash;
     bool frame_words[FRAME_WORDS]; /* the words of the uniform block that it reads */

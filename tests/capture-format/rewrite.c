@@ -7,6 +7,24 @@
 
 #include "unit.h"
 
+/* Reads all channels of one stored type at once: each call decodes the whole part. */
+static void read_channels(struct rewrite *r, size_t part, struct rewrite_part *to, enum glint_stored stored) {
+    static const enum glint_type types[] = {GLINT_F16, GLINT_F32, GLINT_U32};
+    const char *names[REWRITE_CHANNELS];
+    size_t count = 0, at[REWRITE_CHANNELS];
+    struct glint_error err = {0};
+    for (size_t c = 0; c < to->part.channel_count; c++)
+        if (to->channels[c].stored == stored) at[count] = c, names[count++] = to->channels[c].name;
+    const size_t bytes = types[stored] == GLINT_F16 ? 2 : 4, pixels = (size_t)to->part.width * to->part.height;
+    char *all = malloc(pixels * count * bytes + 1);
+    assert_non_null(all);
+    if (count && !glint_exr_read(r->exr, part, names, count, types[stored], all, 0, &err)) fail_msg("%s", err.message);
+    for (size_t i = 0; i < count; i++)
+        for (size_t p = 0; p < pixels; p++)
+            memcpy((char *)to->data[at[i]] + p * bytes, all + (p * count + i) * bytes, bytes);
+    free(all);
+}
+
 void rewrite_load(struct rewrite *r, const char *path) {
     struct glint_error err = {0};
     memset(r, 0, sizeof *r);
@@ -25,17 +43,16 @@ void rewrite_load(struct rewrite *r, const char *path) {
                                            .channels = to->channels,
                                            .channel_count = from->channel_count,
                                            .attributes = to->attributes,
-                                           .attribute_count = from->attribute_count};
+                                           .attribute_count = from->attribute_count,
+                                           .compression = GLINT_NONE};
         for (size_t c = 0; c < from->channel_count; c++) {
-            static const enum glint_type types[] = {GLINT_F16, GLINT_F32, GLINT_U32};
-            const enum glint_stored stored = from->channels[c].stored;
-            const char *names[] = {from->channels[c].name};
             to->data[c] = malloc((size_t)from->width * from->height * 4);
             assert_non_null(to->data[c]);
-            to->channels[c] = (struct glint_exr_channel){.name = names[0], .stored = stored, .data = to->data[c]};
-            if (!glint_exr_read(r->exr, r->count, names, 1, types[stored], to->data[c], 0, &err))
-                fail_msg("%s", err.message);
+            to->channels[c] = (struct glint_exr_channel){
+                .name = from->channels[c].name, .stored = from->channels[c].stored, .data = to->data[c]};
         }
+        for (int stored = GLINT_STORED_HALF; stored <= GLINT_STORED_UINT; stored++)
+            read_channels(r, r->count, to, (enum glint_stored)stored);
     }
 }
 

@@ -15,7 +15,7 @@
 #include "fixture.h"
 #include "glint/pack.h"
 
-enum { MUTANTS = 1000 };
+static size_t mutants = 300; /* or as many as the argument says */
 
 static uint64_t state = 20;
 
@@ -221,7 +221,7 @@ static void test_mutants(void **user) {
     (void)user;
     size_t size = 0, packed = 0;
     char *text = read_file(manifest, &size);
-    for (size_t i = 0; i < MUTANTS; i++) {
+    for (size_t i = 0; i < mutants; i++) {
         json_t *root = json_loadb(text, size, 0, NULL);
         const int kind = (int)draw(3);
         const bool files = i % 3 == 2;
@@ -238,8 +238,8 @@ static void test_mutants(void **user) {
         packed += check(i);
     }
     free(text);
-    print_message("%zu of %d were packed, the others refused with a line\n", packed, MUTANTS);
-    assert_in_range(packed, MUTANTS / 20, MUTANTS * 3 / 4);
+    print_message("%zu of %zu were packed, the others refused with a line\n", packed, mutants);
+    assert_in_range(packed, mutants / 20, mutants * 3 / 4);
 }
 
 static int set_up(void **user) {
@@ -258,7 +258,8 @@ static int set_up(void **user) {
     return ok ? 0 : 1;
 }
 
-int main(void) {
+int main(int argc, char **argv) {
+    if (argc > 1) mutants = (size_t)atoi(argv[1]);
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_mutants)};
     return cmocka_run_group_tests(tests, set_up, NULL);
 }

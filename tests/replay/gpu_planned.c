@@ -1,8 +1,10 @@
-/* Plans change nothing: the images equal those of a replay that skips nothing, bit for bit. */
+/* Plans change nothing: the images equal those of a replay that skips nothing, bit for bit. With an argument, of every scene with every preset;
+   without, of every scene with two presets and every preset with some scenes. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "glint/samples.h"
 #include "painted.h"
@@ -22,7 +24,9 @@ static size_t differences_of_file(struct pair *pair, const char *path, size_t *l
     return differ;
 }
 
-/* ---- Every sample scene with every preset ---- */
+/* ---- Sample scenes with presets ---- */
+
+static bool all_pairs;
 
 static const char *sampled(const struct fixture *fixture, const char *scene, int frame, char path[256]) {
     const struct glint_sample_options options = {.width = WIDTH,
@@ -33,9 +37,10 @@ static const char *sampled(const struct fixture *fixture, const char *scene, int
                                                  .frames = FRAMES,
                                                  .light_samples = 2};
     struct glint_error err = {0};
-    snprintf(path, 256, "%s/%s.exr", fixture->folder, scene);
-    if (frame == 1) pair_check(glint_sample_write(scene, path, &options, NULL, NULL, &err), &err);
+    char shot[256];
+    snprintf(shot, sizeof shot, "%s/%s.exr", fixture->folder, scene);
     snprintf(path, 256, "%s/%s.%04d.exr", fixture->folder, scene, frame);
+    if (access(path, R_OK) != 0) pair_check(glint_sample_write(scene, shot, &options, NULL, NULL, &err), &err);
     return path;
 }
 
@@ -45,7 +50,7 @@ static const char *mirror(const struct fixture *fixture, char path[256]) {
         .width = PATHS_WIDTH, .height = PATHS_HEIGHT, .cube_size = 128, .light_samples = 2};
     struct glint_error err = {0};
     snprintf(path, 256, "%s/mirror.exr", fixture->folder);
-    pair_check(glint_sample_write("desert_night", path, &options, NULL, NULL, &err), &err);
+    if (access(path, R_OK) != 0) pair_check(glint_sample_write("desert_night", path, &options, NULL, NULL, &err), &err);
     return path;
 }
 
@@ -138,12 +143,14 @@ static void a_chain_that_no_pass_reads_is_not_made(void **state) {
 static void the_picture_of_a_plan_is_the_whole_picture(void **state) {
     struct pair *pair = pair_of(state);
     struct fixture *fixture = pair->fixture;
-    size_t scenes, left_out = 0, faults = 0;
+    size_t scenes, presets = 0, left_out = 0, faults = 0;
     const struct glint_sample *samples = glint_samples(&scenes);
     char path[256];
+    while (glint_preset(presets)) presets++;
     for (size_t s = 0; s < scenes; s++) sampled(fixture, samples[s].name, 1, path);
-    for (size_t p = 0; glint_preset(p); p++)
+    for (size_t p = 0; p < presets; p++)
         for (size_t s = 0; s < scenes; s++) {
+            if (!all_pairs && s % presets != p && (s + scenes / 2) % presets != p) continue;
             pair_use(pair, glint_preset(p));
             for (int frame = 1; frame <= FRAMES; frame++) {
                 snprintf(path, sizeof path, "%s/%s.%04d.exr", fixture->folder, samples[s].name, frame);
@@ -467,7 +474,8 @@ static void a_wrong_list_of_layers_is_found(void **state) {
     fixture_check_messages(pair->fixture);
 }
 
-int main(void) {
+int main(int argc, UNUSED char **argv) {
+    all_pairs = argc > 1;
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_device_counts_as_the_host_does),
         cmocka_unit_test(a_plan_may_change_from_frame_to_frame),

@@ -90,6 +90,9 @@ static void every_pass_compiles_to_what_is_built_in(void **state) {
         assert_int_equal(words, without_source(passes[i].spirv, passes[i].spirv_bytes, built_in));
         if (memcmp(mine, built_in, words * sizeof *mine) != 0) fail_msg("%s: differs", name);
         free(all), free(mine), free(built_in);
+        spirv.words = passes[i].unprobed, spirv.bytes = passes[i].unprobed_bytes;
+        spirv_find_uses(&spirv);
+        assert_false(spirv.probes);
     }
 }
 

@@ -47,6 +47,13 @@ class Tests:
             glint("report", *(self.path(r) for r in runs), "-o", out)
         self.browser.show(out)
 
+    def compared(self):
+        """The folder of a comparison of two presets."""
+        folder = self.path("compared")
+        if not os.path.exists(folder):
+            glint("compare", self.capture, "--presets=mafia3,kf2", "--repeat=1", "-o", folder)
+        return folder
+
     def table(self, title, which=0):
         """Its lines below the headings."""
         return self.browser.evaluate(f"{TABLE}({json.dumps(title)})[{which}].slice(1)")
@@ -141,7 +148,7 @@ class Tests:
         self.browser.quiet()
 
     def test_a_shot_is_played_with_its_error_and_flicker(self):
-        glint("sample", "room", "-o", self.path("s.exr"), "--size=64x36", "--cube-size=16", "--frames=3", "--truth=4")
+        glint("sample", "room", "--light=4", "-o", self.path("s.exr"), "--size=64x36", "--cube-size=16", "--frames=3", "--truth=4")
         glint("replay", *(self.path(f"s.000{i}.exr") for i in (1, 2, 3)), "-o", self.path("shot"), "--against=truth")
         self.show("shot")
         rows = self.table("Error and flicker", 2)
@@ -250,8 +257,7 @@ class Tests:
             assert first.read() == again.read()
 
     def test_presets_beside_each_other_have_a_page(self):
-        compared = self.path("compared")
-        glint("compare", self.capture, "--presets=mafia3,kf2", "--repeat=1", "-o", compared)
+        compared = self.compared()
         with open(os.path.join(compared, "table.json"), encoding="utf-8") as file:
             presets = json.load(file)["captures"][0]["presets"]
         self.browser.show(os.path.join(compared, "index.html"))
@@ -269,8 +275,7 @@ class Tests:
         self.browser.quiet()
 
     def test_presets_are_compared_pixel_by_pixel(self):
-        compared = self.path("pixels")
-        glint("compare", self.capture, "--presets=mafia3,kf2", "--repeat=1", "-o", compared)
+        compared = self.compared()
         with open(os.path.join(compared, "page.json"), encoding="utf-8") as file:
             assert all(picture["values"]["every"] == 1 for section in json.load(file)["sections"] for block in section["blocks"]
                        if "stage" in block for picture in block["stage"]["pictures"])

@@ -9,6 +9,7 @@ import sys
 import zlib
 
 from browser import run_tests
+from pictures import read_png
 
 GLINT = sys.argv[1]
 SIZE = (48, 27)
@@ -20,14 +21,6 @@ def glint(*words, status=0):
     run = subprocess.run([GLINT, *words], capture_output=True, text=True)
     assert run.returncode == status, (words, run.returncode, run.stdout[-2000:], run.stderr)
     return run.stdout
-
-
-def texels(path):
-    """Rows of pixels of a PNG."""
-    text = subprocess.run(["oiiotool", "--dumpdata", path], capture_output=True, text=True).stdout
-    width = int(re.search(r": +(\d+) x", text).group(1))
-    pixels = [tuple(map(int, row.split()[:3])) for row in re.findall(r"Pixel[^:]*: ([ \d]+)", text)]
-    return [pixels[i : i + width] for i in range(0, len(pixels), width)]
 
 
 class Tests:
@@ -270,7 +263,7 @@ class Tests:
         rows = zlib.decompress(dict(chunks)[b"fdAT"][4:])
         assert len(rows) == height * (1 + 3 * width) and not any(rows[:: 1 + 3 * width])
         second = [[tuple(rows[y * (1 + 3 * width) + 1 + 3 * x :][:3]) for x in range(width)] for y in range(height)]
-        first, both = texels(flicker), texels(beside)
+        first, both = read_png(flicker), read_png(beside)
         assert len(first) == height and first != second
         assert all(both[y][:width] == first[y] and both[y][width + 12 : 2 * width + 12] == second[y] for y in range(height))
 

@@ -420,8 +420,8 @@ static void history_must_be_of_the_frame_before(UNUSED void **state) {
     free(glint_ok("replay", in_folder("shot.0001.exr"), "-o", in_folder("one")));
     free(glint_ok("replay", in_folder("shot.0002.exr"), history));
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
-        free(glint_ok("sample", others[i].scene, "-o", in_folder(others[i].name), others[i].size, others[i].first,
-                      "--cube-size=8"));
+        free(glint_ok("sample", others[i].scene, "--light=4", "-o", in_folder(others[i].name), others[i].size,
+                      others[i].first, "--cube-size=8"));
         glint_fails(2, others[i].said, "replay", in_folder(others[i].name), history);
         glint_fails(2, others[i].said, "probe", in_folder(others[i].name), "5,5", history);
     }

@@ -11,6 +11,7 @@ import tempfile
 import threading
 
 import tap
+from pictures import read_png
 
 GLINT = sys.argv[1]
 
@@ -28,9 +29,9 @@ def dump(path):
 
 class Png:
     def __init__(self, path):
-        head = call("iinfo", path, text=True)
-        self.width, self.height = map(int, re.search(r": +(\d+) x +(\d+)", head).groups())
-        self.texels = [tuple(map(int, row[:3])) for row in dump(path)]
+        rows = read_png(path)
+        self.width, self.height = len(rows[0]), len(rows)
+        self.texels = [texel for row in rows for texel in row]
 
     def __call__(self, x, y):
         return self.texels[y * self.width + x]
@@ -225,7 +226,8 @@ colorspaces:
         assert found == {"R": (2, 0, 4), "G": (0, 2, 4), "B": (0, 0, 6)}, found
         png = self.path("bad.png")
         call(GLINT, "view", path, "--as", "invalid", "--no-legend", "-o", png)
-        assert [Png(png)(x, 0) for x in (0, 2)] == [(255, 0, 255), (0, 255, 255)] and len(set(Png(png)(4, 0))) == 1
+        shown = Png(png)
+        assert [shown(x, 0) for x in (0, 2)] == [(255, 0, 255), (0, 255, 255)] and len(set(shown(4, 0))) == 1
 
 
 with tempfile.TemporaryDirectory() as place:

@@ -38,12 +38,13 @@ static void fill_distance_ranges(struct search *s, size_t c) {
 
 /* How well a cube map's distances match from a centre: the mean over all positions of a value that falls from 1 for equal distances to
    0 at the tolerance, so that the best centre is in the middle of all acceptable ones. Occluded positions count as 0: a centre that
-   sees fewer of them explains less. */
-static double match_score(struct search *s, size_t c, const double offset[3]) {
+   sees fewer of them explains less. Positions are left out once the mean can no longer reach `least`: then only that is known. */
+static double match_score(struct search *s, size_t c, const double offset[3], double least) {
     const struct lint_cube *cube = &s->data->cubes[c];
+    const double enough = least * (double)s->count - 1e-6; /* beyond all rounding of the sum */
     double sum = 0;
     memcpy(s->tried.center_offset[c], offset, sizeof s->tried.center_offset[c]);
-    for (size_t i = 0; i < s->count; i++) {
+    for (size_t i = 0; i < s->count && sum + (double)(s->count - i) >= enough; i++) {
         double d[3], u, v;
         lint_from_center(s->data, &s->tried, c, s->places[i], d);
         const double away = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]), slack = away * (0.02 + 3.0 / cube->size);
@@ -56,8 +57,8 @@ static double match_score(struct search *s, size_t c, const double offset[3]) {
                                   ? lint_cube_distance(&s->tried, texel, d, away) / (double)texel[4]
                                   : s->tried.cube_scale;
         const double under = (double)s->nearest[at] * factor - away, over = away - (double)s->farthest[at] * factor;
-        const double off = fmax(0, fmax(under, over));
-        sum += fmax(0, 1 - off / slack);
+        const double off = lint_larger(0, lint_larger(under, over));
+        sum += lint_larger(0, 1 - off / slack);
     }
     return sum / (double)s->count;
 }
@@ -69,7 +70,7 @@ static double search_lattice(struct search *s, size_t c, double step, int reach,
         for (int y = -reach; y <= reach; y++)
             for (int z = -reach; z <= reach; z++) {
                 const double o[3] = {from[0] + x * step, from[1] + y * step, from[2] + z * step};
-                const double found = match_score(s, c, o);
+                const double found = match_score(s, c, o, best);
                 if (found <= best) continue;
                 best = found;
                 memcpy(offset, o, sizeof o);
@@ -96,7 +97,7 @@ static void shorten_offset(struct search *s, size_t c, double *best, double offs
     for (int k = 0; k < 3; k++) {
         double o[3] = {offset[0], offset[1], offset[2]};
         o[k] = 0;
-        const double found = match_score(s, c, o);
+        const double found = match_score(s, c, o, *best - 0.01);
         if (found < *best - 0.01) continue;
         *best = found;
         offset[k] = 0;
@@ -112,7 +113,7 @@ static void search_cube_center(struct search *s, size_t c) {
     typical_distances(s, c, &typical, &near);
     double step = typical / (ACROSS + 1);
     fill_distance_ranges(s, c);
-    const double before = match_score(s, c, none);
+    const double before = match_score(s, c, none, 0);
     double best = before;
     if (before < most) {
         best = search_lattice(s, c, step, ACROSS / 2, best, offset);

@@ -86,13 +86,14 @@ static void check_sky_texels(const struct lint_data *data, struct lint_findings 
 static double depth_within(const struct glint_cubemap *map, const double p[3]) {
     double within = INFINITY, square = 0;
     for (int k = 0; k < 3; k++) {
-        if (map->inner == GLINT_VOLUME_BOX) within = fmin(within, fmin(p[k] - map->box_min[k], map->box_max[k] - p[k]));
+        if (map->inner == GLINT_VOLUME_BOX)
+            within = lint_smaller(within, lint_smaller(p[k] - map->box_min[k], map->box_max[k] - p[k]));
         square += pow(p[k] - map->sphere_center[k], 2);
     }
     if (map->inner == GLINT_VOLUME_SPHERE) within = map->sphere_radius - sqrt(square);
     for (uint32_t i = 0; map->inner == GLINT_VOLUME_HULL && i < map->plane_count; i++) {
         const double *n = map->planes[i], length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-        within = fmin(within, -(n[0] * p[0] + n[1] * p[1] + n[2] * p[2] + n[3]) / length);
+        within = lint_smaller(within, -(n[0] * p[0] + n[1] * p[1] + n[2] * p[2] + n[3]) / length);
     }
     return within;
 }

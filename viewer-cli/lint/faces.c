@@ -16,11 +16,16 @@ static void count_votes(struct lint_votes *votes, const struct lint_data *data, 
     const double away = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     if (!(away > 0) || !isfinite(away)) return;
     const int face = cube_face_of(d, &u, &v);
+    const float *turned[LINT_TURNS];
+    for (int turn = 0; turn < LINT_TURNS; turn++) {
+        double tu = u, tv = v;
+        lint_turn(turn, &tu, &tv);
+        turned[turn] = lint_texel(cube, 0, tu, tv);
+    }
+    const size_t face_floats = (size_t)5 * cube->size * cube->size;
     for (int stored = 0; stored < 6; stored++)
         for (int turn = 0; turn < LINT_TURNS; turn++) {
-            double tu = u, tv = v;
-            lint_turn(turn, &tu, &tv);
-            const int shows = lint_shows(reading, cube, lint_texel(cube, stored, tu, tv), d, away);
+            const int shows = lint_shows(reading, cube, turned[turn] + (size_t)stored * face_floats, d, away);
             votes->agree[face][stored][turn] += shows > 0;
             votes->beyond[face][stored][turn] += shows < 0;
         }

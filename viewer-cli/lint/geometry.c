@@ -254,7 +254,7 @@ double lint_normal_rounding(const struct lint_data *data, const struct lint_read
         const double moved[3] = {v[0] + (corner & 1 ? h : -h), v[1] + (corner & 2 ? h : -h),
                                  v[2] + (corner & 4 ? h : -h)};
         if (!normal_of(reading, view, moved, n)) return -1;
-        least = fmin(least, n[0] * normal[0] + n[1] * normal[1] + n[2] * normal[2]);
+        least = lint_smaller(least, n[0] * normal[0] + n[1] * normal[1] + n[2] * normal[2]);
     }
     return least;
 }

@@ -127,6 +127,14 @@ void lint_motion(const struct lint_data *data, const struct lint_reading *readin
 
 /* ---- Cube maps. In the innermost loops, and so inline. ---- */
 
+/* fmax and fmin, which compilers call rather than inline. */
+static inline double lint_larger(double a, double b) {
+    return a > b || isnan(b) ? a : b;
+}
+static inline double lint_smaller(double a, double b) {
+    return a < b || isnan(b) ? a : b;
+}
+
 /* Applies one of eight orientations to a texture coordinate: bit 0 mirrors u, bit 1 mirrors v, bit 2 swaps them afterwards. */
 static inline void lint_turn(int turn, double *u, double *v) {
     if (turn & 1) *u = 1 - *u;
@@ -153,7 +161,8 @@ static inline const float *lint_texel(const struct lint_cube *cube, int face, do
 static inline double lint_cube_distance(const struct lint_reading *reading, const float *texel, const double d[3],
                                         double away) {
     const double distance = (double)texel[4] * reading->cube_scale;
-    return reading->cube_planar ? distance * (away / fmax(fabs(d[0]), fmax(fabs(d[1]), fabs(d[2])))) : distance;
+    return reading->cube_planar ? distance * (away / lint_larger(fabs(d[0]), lint_larger(fabs(d[1]), fabs(d[2]))))
+                                : distance;
 }
 
 /* Whether a texel shows the surface at the end of a vector from the centre, of length `away`. 1: it does; 0: the texel's surface is nearer; -1:

@@ -56,7 +56,7 @@ static double facet_rounding(double p[5][3], const double error[5], const double
                                     (p[i + 1][k] - eye[k]) * error[i + 1] / depth[i + 1]);
             }
         if (!(facet_normal((const double(*)[3])e, to_eye, n) > 0)) return -1;
-        least = fmin(least, dot(n, normal));
+        least = lint_smaller(least, dot(n, normal));
     }
     return least;
 }

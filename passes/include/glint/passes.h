@@ -148,6 +148,8 @@ struct glint_pass {
     size_t row_count;
     const uint32_t *spirv; /* NULL for a host pass */
     size_t spirv_bytes;
+    const uint32_t *unprobed; /* the same without the code that records probed pixels */
+    size_t unprobed_bytes;
     glint_host_pass host; /* NULL for a shader */
 };
 

@@ -1,5 +1,6 @@
 // Records the steps of probed pixels while they are computed (replay/engine/probe.c). Without probes the constant probe_pass is 0 and the
-// compiler removes all of this; with probes no other value of a pass changes.
+// compiler removes all of this: once, when glint is built (NO_PROBES), or in the driver, for users' shaders. With probes no other value of a
+// pass changes.
 #ifndef GLINT_PROBE
 #define GLINT_PROBE
 #define PROBE(kind, title) const uint PROBE_##kind = __LINE__;
@@ -27,7 +28,11 @@ uint probed_last;       // and the last that may lie in `probed_home`, a texel o
 ivec2 probed_home;
 int probed_level = 0;
 
+#ifdef NO_PROBES
+#define probing() false
+#else
 bool probing() { return probe_pass != 0u && probed != UNPROBED; }
+#endif
 
 void probe_place(ivec2 place, uint first, uint count) {
     uint key = uint(place.y) << 16u | uint(place.x), low = first, high = first + count;
@@ -52,8 +57,9 @@ void probe_pixel(ivec2 pixel) {
 
 // Sets a texel of a coarser level: the invocation works for all texels of the pipeline's resolution in it.
 void probe_level(ivec2 texel, int level) {
+    if (probe_pass == 0u) return;
     probe_texel(texel);
-    if (probe_pass == 0u || level == 0) return;
+    if (level == 0) return;
     probed = UNPROBED;
     probed_level = level;
     probed_home = texel;
