@@ -81,7 +81,8 @@ vec4 antialiased_color(ivec2 pixel) {
     Sample now = current(pixel), past = past_of(pixel);
     float a = share_of(past), b = share_of(now), total = a + b;
     if (!(total > 0.0)) return vec4(0.0);
-    return vec4(storable((a * past.color + b * now.color) / total, frame.up.w), past.weight + now.weight);
+    // This form leaves a picture that equals its history as it is, bit for bit.
+    return vec4(storable(past.color + (now.color - past.color) * (b / total), frame.up.w), past.weight + now.weight);
 }
 
 void main() {
