@@ -51,8 +51,11 @@ static float *mask_of(struct gpu *gpu, const struct shot *shot) {
 }
 
 static void reset(struct gpu *gpu, const char *variant) {
+    static const char *const others[] = {"downsample",    "screen_trace", "cubemap_active", "cubemap_select",
+                                         "cubemap_trace", "resolve",      "upscale",        NULL};
     char text[64];
     gpu_reset(gpu);
+    gpu_without(gpu, others);
     snprintf(text, sizeof text, "disocclusion=%s", variant);
     gpu_use(gpu, text);
     gpu_use(gpu, "taa=composed");

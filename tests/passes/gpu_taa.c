@@ -298,7 +298,8 @@ static void a_picture_like_its_history_stays_as_it_is(void **state) {
         for (int n = 0; n < 6; n++, shot.number++) {
             run(gpu, &shot, 0);
             if (n == 0) continue;
-            float *found = gpu_floats(gpu, "antialiased", NULL, NULL), *composed = gpu_floats(gpu, "composed", NULL, NULL);
+            float *found = gpu_floats(gpu, "antialiased", NULL, NULL),
+                  *composed = gpu_floats(gpu, "composed", NULL, NULL);
             for (size_t i = 0; i < W * H; i++) assert_memory_equal(found + 4 * i, composed + 4 * i, 3 * sizeof *found);
             free(found), free(composed);
         }

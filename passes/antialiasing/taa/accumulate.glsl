@@ -65,7 +65,8 @@ Sample past_of(ivec2 pixel) {
     vec4 past = still ? texelFetch(previous_antialiased, pixel, 0) : past_at(uv * vec2(frame.size.xy));
     if (!finite(past) || !(past.a > 0.0)) return Sample(vec3(0.0), 0.0);
     if (neighbourhood != neighbourhood_none && (clamp_still || !still)) past.rgb = clamped(past.rgb, pixel);
-    float kept = uncovered > 1.0 ? 1.0 : 1.0 - hidden;
+    // A still pixel's history is its own mean, in which all surfaces within it have their part; a moving one's also contains hidden texels.
+    float kept = uncovered > 1.0 || still ? 1.0 : 1.0 - hidden;
     return Sample(past.rgb, kept * min(past.a, history));
 }
 
