@@ -1,5 +1,6 @@
 /* The mask of surfaces that the previous frame did not show, against the geometry of the picture. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -26,6 +27,7 @@ static bool on_square(const struct shot *shot, int x, int y) {
 static void paint(const struct plain *plain, float *values) {
     const struct shot *shot = plain->user;
     for (size_t i = 0; i < W * H; i++) {
+        values[PLAIN_SPECULAR * W * H + i] = 0; /* only the mask matters */
         if (shot->sky) values[PLAIN_DEPTH * W * H + i] = INFINITY;
         if (!on_square(shot, (int)(i % W), (int)(i / W))) continue;
         values[PLAIN_DEPTH * W * H + i] = OBJECT_M;

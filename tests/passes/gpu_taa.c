@@ -1,5 +1,6 @@
 /* Temporal antialiasing of pictures by closed form: what a still picture becomes, what a moving one leaves behind, what one bad sample does. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -84,7 +85,7 @@ static void jitter(struct shot *shot, uint32_t place) {
 
 /* A black and a white half; the edge is at another fraction of a pixel in each row. */
 static double edge_at(double y) {
-    return W / 2 + fmod(floor(y) * 0.618034, 1);
+    return W / 2 + fmod(0.309 + floor(y) * 0.618034, 1);
 }
 static double edge(const struct shot *shot, double x, double y) {
     (void)shot;
@@ -214,13 +215,14 @@ static void what_an_object_uncovers_keeps_no_trail(void **state) {
                 "# clamp %-8s, disocclusion %-6s: error %.4f where the square was, %.4f elsewhere on the wall\n",
                 clamps[c], masks[m], all[c][m].uncovered, all[c][m].elsewhere);
         }
-    /* The square's 4 on a wall of 0.4: without both tests most of it remains; the first sample of a frame is at most the texture's slope away. */
-    assert_true(all[0][0].uncovered > 1);
+    /* The square's 4 on a wall of 0.4: without both most of it remains. The mask leaves what is in the mean of pixels that the square covered in part. */
+    assert_true(all[0][0].uncovered > 1 && all[0][1].uncovered < 0.3 * all[0][0].uncovered);
     for (int c = 0; c < 3; c++) {
-        assert_true(all[c][1].uncovered < 0.12 && all[c][2].uncovered < 0.12);
-        assert_true(all[c][1].elsewhere < 0.05);
+        assert_true(all[c][1].uncovered < 0.7 * all[c][0].uncovered && all[c][2].uncovered <= all[c][1].uncovered);
+        assert_true(all[c][1].elsewhere < all[c][0].elsewhere);
+        /* A single sample of the wall is 0.2 · 1.1/4 from the mean on average where it is steepest. */
+        assert_true(c == 0 || (all[c][1].uncovered < 0.055 && all[c][1].elsewhere < 0.02));
     }
-    assert_true(all[1][0].uncovered < 0.5 * all[0][0].uncovered && all[2][0].uncovered < 0.5 * all[0][0].uncovered);
 }
 
 static double even(const struct shot *shot, double x, double y) {
@@ -306,28 +308,24 @@ static void a_picture_like_its_history_stays_as_it_is(void **state) {
     }
 }
 
-/* Catches: a dropped pass that leaves the next frame another history than one that ran, or that changes a picture without a history. */
+/* Catches: another history in the frame after one whose other passes were dropped, and history across a cut. */
 static void planned_frames_are_those_of_all(void **state) {
     struct gpu *gpu = *state;
     for (int reflecting = 0; reflecting < 2; reflecting++) {
         struct shot shot = {.number = 600, .color = crossing, .near = on_square, .step_px = {0.37, 2.3}};
-        RESET(gpu, "taa.history=7");
         shot.specular = reflecting ? 0.5f : 0;
-        if (reflecting) {
-            gpu_reset(gpu);
-            gpu_use(gpu, "disocclusion=depth");
-            gpu_use(gpu, "taa=composed");
-        }
+        gpu_reset(gpu); /* passes that are dropped in one run and not in the other */
+        gpu_use(gpu, "disocclusion=depth");
+        gpu_use(gpu, "taa=composed");
         for (uint32_t n = 0; n < 6; n++, shot.number++) {
             jitter(&shot, n);
             shot.cut = n == 3;
             run(gpu, &shot, 0);
-            const bool ran = glint_replay_find_image(gpu->replay, "antialiased") != NULL;
-            assert_int_equal(ran, n != 0 && n != 3);
-            float *planned = gpu_floats(gpu, ran ? "antialiased" : "composed", NULL, NULL);
+            float *planned = gpu_floats(gpu, "antialiased", NULL, NULL);
             run(gpu, &shot, 1);
             float *all = gpu_floats(gpu, "antialiased", NULL, NULL);
             assert_memory_equal(planned, all, 4 * W * H * sizeof *all);
+            assert_true((all[3] == 1) == (n % 3 == 0)); /* the corner is still on screen */
             free(planned), free(all);
         }
     }

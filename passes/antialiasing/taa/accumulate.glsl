@@ -4,6 +4,9 @@
 #include "luminance.glsl"
 #include "neighbourhood.glsl"
 
+// Without a history the picture is passed on as it is, for the next frame.
+bool has_past() { return fact_history && frame.flags.x != 0u && frame.flags.y == 0u; }
+
 struct Sample {
     vec3 color;
     float weight; // 0: none
@@ -72,13 +75,12 @@ Sample past_of(ivec2 pixel) {
 
 float share_of(Sample s) {
     if (!by_luminance) return s.weight;
-    float mean = picture_luminance(0.0);
+    float mean = picture_mean();
     return mean > 0.0 ? s.weight / (1.0 + luminance(s.color) / mean) : s.weight;
 }
 
 vec4 antialiased_color(ivec2 pixel) {
-    // As if the pass did not run, so that the next frame finds the same history in both cases.
-    if (frame.flags.x == 0u || frame.flags.y != 0u) return vec4(picture(pixel), 1.0);
+    if (!has_past()) return vec4(picture(pixel), 1.0);
     Sample now = current(pixel), past = past_of(pixel);
     float a = share_of(past), b = share_of(now), total = a + b;
     if (!(total > 0.0)) return vec4(0.0);
@@ -89,7 +91,7 @@ vec4 antialiased_color(ivec2 pixel) {
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (dispatch_phase == 0u) {
-        if (all(lessThan(pixel, imageSize(luminance_levels)))) imageStore(luminance_levels, pixel, vec4(luminance_texel(pixel), 0.0, 0.0));
+        if (all(lessThan(pixel, imageSize(luminance_levels)))) imageStore(luminance_levels, pixel, has_past() ? vec4(luminance_texel(pixel), 0.0, 0.0) : vec4(0.0));
         return;
     }
     if (any(greaterThanEqual(pixel, imageSize(antialiased)))) return;

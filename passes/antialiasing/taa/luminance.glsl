@@ -38,4 +38,9 @@ float surrounding_luminance(ivec2 pixel, float own) {
     int level = reduction(frame.size) > 1.0 ? 2 : 3;
     return mean_without(pixel, min(level, textureQueryLevels(finer_luminance) - 1), own);
 }
+
+float picture_mean() {
+    vec2 sum = texelFetch(finer_luminance, ivec2(0), textureQueryLevels(finer_luminance) - 1).xy;
+    return sum.y > 0.0 ? sum.x / sum.y : 0.0;
+}
 float picture_luminance(float own) { return mean_without(ivec2(0), textureQueryLevels(finer_luminance) - 1, own); }
