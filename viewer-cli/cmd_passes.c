@@ -336,8 +336,8 @@ static void print_effect(const struct glint_effect *effect, bool markdown) {
     printf("%struth: %s%s%s%s (%s)\n", item, code, effect->truth, effect->truth_has_choices ? ".*" : "", code,
            effect->channels);
     printf("%scalled for by: %s%s%s\n", item, code, effect->fact, code);
-    printf("%sjudged in: %s", item,
-           effect->judged == GLINT_JUDGED_REFLECTING ? "pixels that reflect" : "all pixels but sky");
+    static const char *const judged[] = {"pixels that reflect", "all pixels but sky", "all pixels"};
+    printf("%sjudged in: %s", item, judged[effect->judged]);
     if (classes) printf(", in classes by %s%s %s%s: ", code, effect->class_part, effect->class_channel, code);
     for (size_t k = 0; k < classes; k++) {
         printf("%s%s", k ? ", " : "", effect->classes[k].name);

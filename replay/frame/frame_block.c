@@ -172,6 +172,7 @@ void frame_block_fill(struct frame_block *block, const struct glint_frame *frame
     block->counts = (uvec4){sizes->active, frame->number, sizes->cube_face, sizes->sky_face};
     block->flags = (uvec4){sizes->history, frame->cut, sizes->chain, 0};
     block->foreground = foreground_of(frame);
+    block->jitter = (vec4){(float)frame->jitter_px[0], (float)frame->jitter_px[1], 0, 0};
 }
 
 void glint_frame_directions(const struct glint_frame *frame, double matrix[3][3]) {

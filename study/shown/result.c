@@ -30,7 +30,7 @@ struct glint_classes glint_study_classes_of(const struct glint_effect *effect, c
 /* What pixels are classed by; NULL if the capture does not have it. */
 static bool read_measure(struct glint_capture *capture, const struct glint_effect *effect, size_t pixels,
                          float **measure, struct glint_error *err) {
-    const struct glint_part_info *part = glint_capture_find(capture, effect->class_part);
+    const struct glint_part_info *part = effect->class_part ? glint_capture_find(capture, effect->class_part) : NULL;
     *measure = NULL;
     if (!part || !glint_part_can_read(part, effect->class_channel)) return true;
     if ((size_t)part->width * part->height != pixels)
@@ -40,7 +40,8 @@ static bool read_measure(struct glint_capture *capture, const struct glint_effec
 }
 
 static bool is_judged(const struct glint_effect *effect, float depth, float metalness, float specular) {
-    return depth < INFINITY && (effect->judged == GLINT_JUDGED_SURFACES || metalness > 0 || specular > 0);
+    return effect->judged == GLINT_JUDGED_ALL ||
+           (depth < INFINITY && (effect->judged == GLINT_JUDGED_SURFACES || metalness > 0 || specular > 0));
 }
 
 uint8_t *glint_study_labels(struct glint_capture *capture, const struct glint_effect *effect, struct glint_error *err) {

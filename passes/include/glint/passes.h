@@ -166,7 +166,8 @@ bool glint_pass_assumes(const struct glint_pass *pass, const struct glint_row *p
 /* The pixels of a picture in which an effect is judged. */
 enum glint_judged {
     GLINT_JUDGED_REFLECTING, /* surfaces with specular or metalness */
-    GLINT_JUDGED_SURFACES    /* all but sky */
+    GLINT_JUDGED_SURFACES,   /* all but sky */
+    GLINT_JUDGED_ALL         /* sky, too */
 };
 enum { GLINT_EFFECT_RESULTS = 4, GLINT_EFFECT_CLASSES = 3 };
 /* A family of slots that makes one term of the picture, from the rows of passes/EFFECT/effect.h. The slots are those whose passes name it as

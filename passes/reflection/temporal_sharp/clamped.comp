@@ -60,6 +60,7 @@ void main() {
                                        travelled_at(pixel / int(reduction(frame.size))));
         float longest = history_limit(history, roughness, where.turned, ndf == ndf_ggx);
         bool inside = all(greaterThanEqual(where.uv, vec2(0.0))) && all(lessThanEqual(where.uv, vec2(1.0)));
+        if (has_disocclusion && texelFetch(disocclusion, pixel, 0).x >= uncovered) inside = false;
         vec4 past = inside ? textureLod(sampler2D(previous_stable, linear_clamp), where.uv, 0.0) : vec4(0.0);
         if (longest >= 1.0 && finite(past) && past.a > 0.0) {
             if (clamp_history) past = clamped(past, pixel, roughness);

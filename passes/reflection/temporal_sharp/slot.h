@@ -14,4 +14,5 @@ DISPATCH(reflection_stable)
 NEEDS(reflecting)
 REFERENCE_NONE("a frame of the reference has enough rays of its own")
 REFERENCE_WITH(resolve_sharp, "it stabilizes what resolve_sharp computes")
+OPTIONAL_READ(texture2D, disocclusion, R16F, FULL, 0)
 #include "shared/shown_rows.h"

@@ -1,0 +1,17 @@
+/* What every variant of this slot reads and writes. */
+#line 102
+SLOT("Surfaces that the previous frame did not show")
+READ(texture2D, depth_full)
+READ(texture2D, previous_depth)
+READ(texture2D, motion_full)
+READ(texture2D, motion_depth_full)
+WITHOUT(motion_full, "reprojected with the cameras alone")
+WRITE(image2D, disocclusion, R16F, "1", FULL, "V", 1, "fraction of the pixel's history that shows another surface, because this one was hidden or off screen: 0 … 1")
+WRITE(image2D, depth_kept, R32F, "m", FULL, "Z", INFINITY, "depth_full for the next frame, whose capture may lack it")
+HISTORY(texture2D, previous_depth_kept, depth_kept)
+DISPATCH(disocclusion)
+REFERENCE_NONE("the reference is a single frame, which has no history")
+SPEC(bool,  motion,    true,  0, 1, "1", "Mafia DE article, Temporal AA", "use motion vectors where the capture has them; off: the camera's motion only")
+CHOICE2(hidden_by, nearer, nearer, any, "Mafia DE article, Temporal AA", "what the previous frame has to show for a surface to be hidden. nearer: a nearer surface; any: a surface at another depth, so that surfaces that moved without a motion vector are found, too")
+PUSH(float, slope,     1.5,   0.0, 100.0, "1", "glint", "tolerance as a multiple of how much the depth changes from this pixel to its neighbours; on a plane 1 is enough")
+PUSH(float, precision_part, 0.001, 0.0, 10.0, "1", "glint", "further tolerance, as a fraction of the depth: the precision of stored depths; 10: no test of depth")

@@ -1,0 +1,108 @@
+/* The mask of surfaces that the previous frame did not show, against the geometry of the picture. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "gpu.h"
+#include "plain_capture.h"
+#include "unit.h"
+
+enum { W = 32, H = 24, WALL_M = 5, OBJECT_M = 2, STEP_PX = 3, WIDE_PX = 8 };
+
+struct shot {
+    uint32_t number;
+    double jitter_px[2], previous_jitter_px[2];
+    bool floor, sky; /* a floor that is seen at a grazing angle; a wall that is sky */
+    bool square;     /* before the wall, STEP_PX a frame to the right */
+};
+
+static int left_of(const struct shot *shot) {
+    return 4 + STEP_PX * (int)(shot->number % 100);
+}
+static bool on_square(const struct shot *shot, int x, int y) {
+    return shot->square && y >= 6 && y < 18 && x >= left_of(shot) && x < left_of(shot) + WIDE_PX;
+}
+
+static void paint(const struct plain *plain, float *values) {
+    const struct shot *shot = plain->user;
+    for (size_t i = 0; i < W * H; i++) {
+        values[PLAIN_SPECULAR * W * H + i] = 0; /* only the mask matters */
+        if (shot->sky) values[PLAIN_DEPTH * W * H + i] = INFINITY;
+        if (!on_square(shot, (int)(i % W), (int)(i / W))) continue;
+        values[PLAIN_DEPTH * W * H + i] = OBJECT_M;
+        values[PLAIN_MOTION_X * W * H + i] -= (float)STEP_PX / W;
+    }
+}
+
+static float *mask_of(struct gpu *gpu, const struct shot *shot) {
+    char path[256];
+    const struct plain plain = {.width = W,
+                                .height = H,
+                                .fov_y_degrees = 60,
+                                .frame = shot->number,
+                                .floor = shot->floor,
+                                .jitter_px = {shot->jitter_px[0], shot->jitter_px[1]},
+                                .previous_jitter_px = {shot->previous_jitter_px[0], shot->previous_jitter_px[1]},
+                                .spoil = paint,
+                                .user = shot};
+    plain_capture(gpu_path(gpu, "frame", path), &plain);
+    gpu_load(gpu, "frame");
+    gpu_run(gpu);
+    return gpu_floats(gpu, "disocclusion", NULL, NULL);
+}
+
+static void reset(struct gpu *gpu, const char *variant) {
+    static const char *const others[] = {"downsample",    "screen_trace", "cubemap_active", "cubemap_select",
+                                         "cubemap_trace", "resolve",      "upscale",        NULL};
+    char text[64];
+    gpu_reset(gpu);
+    gpu_without(gpu, others);
+    snprintf(text, sizeof text, "disocclusion=%s", variant);
+    gpu_use(gpu, text);
+    gpu_use(gpu, "taa=composed");
+}
+
+/* Of the wall exactly the columns that the square left; of the square what was off screen. Before a sky, too.
+   Catches: a mask of this frame's square, tests with the wrong sign, a previous depth of the same frame. */
+static void what_the_square_left_was_hidden(void **state) {
+    struct gpu *gpu = *state;
+    for (int sky = 0; sky < 2; sky++)
+        for (int normal = 0; normal < 2; normal++) {
+            struct shot shot = {.number = 100, .square = true, .sky = sky};
+            reset(gpu, normal ? "normal" : "depth");
+            for (int n = 0; n < 4; n++, shot.number++) {
+                float *mask = mask_of(gpu, &shot);
+                const struct shot before = {.number = shot.number - 1, .square = true};
+                for (int i = 0; i < W * H; i++) {
+                    const bool hidden = !on_square(&shot, i % W, i / W) && on_square(&before, i % W, i / W);
+                    if (mask[i] != (n == 0 || hidden ? 1.0f : 0.0f))
+                        fail_msg("frame %d, pixel %d,%d: %g", n, i % W, i / W, (double)mask[i]);
+                }
+                free(mask);
+            }
+        }
+}
+
+/* A plane at any angle, and a still edge, under jitter: nothing was hidden. Catches: a tolerance that is too small for the slope. */
+static void a_still_picture_hides_nothing(void **state) {
+    struct gpu *gpu = *state;
+    struct shot shot = {.number = 200, .floor = true};
+    reset(gpu, "depth");
+    for (int n = 0; n < 9; n++, shot.number++) {
+        memcpy(shot.previous_jitter_px, shot.jitter_px, sizeof shot.jitter_px);
+        shot.jitter_px[0] = n % 3 * 0.45 - 0.45, shot.jitter_px[1] = n / 3 * 0.45 - 0.45;
+        float *mask = mask_of(gpu, &shot);
+        for (int i = 0; n > 0 && i < W * H; i++)
+            if (mask[i] != 0) fail_msg("frame %d, pixel %d,%d: %g", n, i % W, i / W, (double)mask[i]);
+        free(mask);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_the_square_left_was_hidden),
+        cmocka_unit_test(a_still_picture_hides_nothing),
+    };
+    return cmocka_run_group_tests(tests, gpu_set_up, gpu_tear_down);
+}
