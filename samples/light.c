@@ -268,11 +268,22 @@ static bool emits(const struct view *view, const struct pixel *pixels) {
     return false;
 }
 
+/* The engine darkens nothing on screen, and says so. */
+static bool write_indirect(const struct dump *dump, const struct pixel *pixels, struct glint_error *err) {
+    const struct glint_indirect indirect = {.occluded = false};
+    struct dump_part part;
+    if (!dump_colors(&part, dump, "indirect", dump->view->width, dump->view->height, dump_half, &pixels->indirect,
+                     sizeof *pixels, err))
+        return false;
+    part.part.indirect = &indirect;
+    return dump_end(&part, dump, err);
+}
+
 bool light_write(const struct dump *dump, const struct world *world, const struct pixel *pixels,
                  const struct glint_sample_options *options, struct job *job, struct glint_error *err) {
     const struct scene *scene = world_scene(world);
     const uint32_t also = options->also;
-    if (!scene->unlit && !dump_picture(dump, "indirect", &pixels->indirect, sizeof *pixels, err)) return false;
+    if (!scene->unlit && !write_indirect(dump, pixels, err)) return false;
     if (emits(dump->view, pixels) && !dump_picture(dump, "emissive", &pixels->emission, sizeof *pixels, err))
         return false;
     return (!(also & GLINT_ALSO_AO) || write_occlusion(dump, world, (float)options->occlusion_radius, job, err)) &&
