@@ -107,7 +107,9 @@ static bool decode_direction(struct context *c, const double *n, void *member) {
     const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
     if (!(fabs(length - 1) <= 1e-3))
         return BROKEN(c, ATTRIBUTE, "expected a unit vector, found one of length %g", length);
-    const double unit[3] = {n[0] / length, n[1] / length, n[2] / length};
+    /* One that was computed in double keeps its bits. */
+    const double scale = fabs(length - 1) > 1e-12 ? 1 / length : 1,
+                 unit[3] = {scale * n[0], scale * n[1], scale * n[2]};
     memcpy(member, unit, sizeof unit);
     return true;
 }

@@ -22,13 +22,19 @@ static void put3_double(vec3 v, double out[3]) {
     out[2] = (double)v.z;
 }
 
+static void put_direction(vec3 v, double out[3]) {
+    put3_double(v, out);
+    const double length = sqrt(out[0] * out[0] + out[1] * out[1] + out[2] * out[2]);
+    for (int i = 0; i < 3 && length > 0; i++) out[i] /= length;
+}
+
 static bool has_sun(const struct scene *scene) {
     return luminance(scene->sun_irradiance) > 0;
 }
 
 void light_describe(const struct scene *scene, const double offset[3], struct glint_frame *frame) {
     frame->has_sun = has_sun(scene);
-    put3_double(scene->sun_direction, frame->sun.direction);
+    put_direction(scene->sun_direction, frame->sun.direction);
     frame->sun.angular_radius_rad = scene->sun_radius_rad;
     put3(scale(scene->sun_irradiance, scene->gain), frame->sun.irradiance);
     frame->light_count = scene->light_count;
@@ -41,7 +47,7 @@ void light_describe(const struct scene *scene, const double offset[3], struct gl
         to->range = (double)from->range;
         to->radius = (double)from->radius;
         to->has_cone = from->cos_outer < 1;
-        put3_double(from->axis, to->cone.axis);
+        put_direction(from->axis, to->cone.axis);
         to->cone.inner_rad = acos((double)from->cos_inner);
         to->cone.outer_rad = acos((double)from->cos_outer);
     }
@@ -262,11 +268,22 @@ static bool emits(const struct view *view, const struct pixel *pixels) {
     return false;
 }
 
+/* The engine darkens nothing on screen, and says so. */
+static bool write_indirect(const struct dump *dump, const struct pixel *pixels, struct glint_error *err) {
+    const struct glint_indirect indirect = {.occluded = false};
+    struct dump_part part;
+    if (!dump_colors(&part, dump, "indirect", dump->view->width, dump->view->height, dump_half, &pixels->indirect,
+                     sizeof *pixels, err))
+        return false;
+    part.part.indirect = &indirect;
+    return dump_end(&part, dump, err);
+}
+
 bool light_write(const struct dump *dump, const struct world *world, const struct pixel *pixels,
                  const struct glint_sample_options *options, struct job *job, struct glint_error *err) {
     const struct scene *scene = world_scene(world);
     const uint32_t also = options->also;
-    if (!scene->unlit && !dump_picture(dump, "indirect", &pixels->indirect, sizeof *pixels, err)) return false;
+    if (!scene->unlit && !write_indirect(dump, pixels, err)) return false;
     if (emits(dump->view, pixels) && !dump_picture(dump, "emissive", &pixels->emission, sizeof *pixels, err))
         return false;
     return (!(also & GLINT_ALSO_AO) || write_occlusion(dump, world, (float)options->occlusion_radius, job, err)) &&
