@@ -19,3 +19,4 @@ ASSUMED(thickness_m)
 ASSUMED(solid)
 ASSUMED(jump)
 REFERENCE
+REFERENCE_SET(ao_trace, directions, 1)
