@@ -110,6 +110,11 @@ static vec4 metres_of(const double units[3], const double from[3], double metres
                   (float)((units[2] - from[2]) * metres), 0};
 }
 
+void frame_block_captured_light(struct frame_block *block, const struct glint_capture *capture) {
+    const struct glint_part_info *part = glint_capture_find(capture, "indirect");
+    block->captured_light.x = part && part->has_indirect && part->indirect.occluded;
+}
+
 void frame_block_far(struct frame_block *block, const struct glint_capture *capture) {
     static const double RADIANS = 3.14159265358979324 / 180, origin[3];
     const struct glint_frame *frame = glint_capture_frame(capture);

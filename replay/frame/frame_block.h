@@ -34,6 +34,8 @@ int up_axis(enum glint_axis up, double *sign);
 void frame_block_fill(struct frame_block *block, const struct glint_frame *frame, const struct frame_sizes *sizes);
 /* Sets the fields of the planar reflection map, which stay 0 without one. */
 void frame_block_mirror(struct frame_block *block, const struct glint_frame *frame, const struct glint_planar *planar);
+/* Sets what the capture says of its part `indirect`. */
+void frame_block_captured_light(struct frame_block *block, const struct glint_capture *capture);
 /* Sets the fields of what rays find that nothing nearer continues: sky, probe, painted ground. */
 void frame_block_far(struct frame_block *block, const struct glint_capture *capture);
 

@@ -33,6 +33,7 @@ static void fill_frame_block(struct frame_plan *plan) {
     plan->block.work = (uvec4){plan->options->all, pipeline_shows_all(plan->pipeline), 0, 0};
     pipeline_classes(plan->pipeline, &classes[0], &classes[1]);
     memcpy(&plan->block.work.z, classes, sizeof classes);
+    frame_block_captured_light(&plan->block, plan->source->capture);
     frame_block_far(&plan->block, plan->source->capture);
     for (uint32_t i = 0; plan->active && i < plan->sizes.active; i++)
         if (glint_part_has_channel(plan->source->cubemaps[plan->active[i]], "distance.Z"))

@@ -65,6 +65,7 @@ void survey_capture_parts(const struct glint_capture *capture, struct glint_surv
     survey->has_fresnel = gbuffer && glint_part_has_channel(gbuffer, "material.fresnel");
     survey->has_previous = glint_capture_frame(capture)->has_previous;
     survey->has_fog = glint_capture_frame(capture)->has_fog;
+    survey->has_sun = glint_capture_frame(capture)->has_sun;
 }
 
 bool glint_survey_capture(struct glint_capture *capture, struct glint_survey *survey, struct glint_error *err) {
