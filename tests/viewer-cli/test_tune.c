@@ -140,9 +140,9 @@ static void an_interrupted_search_goes_on(UNUSED void **state) {
                                     "--vary=cubemap_trace.secant --json";
     snprintf(command, sizeof command,
              "cd %s; \"$GLINT\" tune room.exr -o c.json -p %s %s & pid=$!; "
-             "until [ \"$(cat %s/c.tune/log.jsonl 2>/dev/null | wc -l)\" -ge 9 ]; do kill -0 $pid || exit 9; sleep "
-             "0.1; done; kill -INT $pid; wait $pid",
-             in_folder(""), GLINT_TEST_PRESET, arguments, in_folder(""));
+             "until { mapfile -t lines <c.tune/log.jsonl; } 2>/dev/null && [ ${#lines[@]} -ge 4 ]; do "
+             "kill -0 $pid || exit 9; sleep 0.01; done; kill -INT $pid; wait $pid",
+             in_folder(""), GLINT_TEST_PRESET, arguments);
     struct outcome stopped = run_program("bash", "-c", command, NULL);
     assert_int_equal(stopped.status, 130);
     assert_contains(stopped.err, "the same command resumes from there");
