@@ -186,6 +186,15 @@ static void print_pass(const struct glint_pass *pass, const char *previous_slot,
         if (pass->rows[i].image) printf(" (limit: %s)", pass->rows[i].image);
         any = true;
     }
+    for (size_t i = 0, first = 1; i < pass->row_count; i++) {
+        if (pass->rows[i].kind != GLINT_ROW_CALLED_BY) continue;
+        printf("%s%s (for %s)",
+               !first ? " or "
+               : any  ? ", and "
+                      : "Runs only if the survey finds: ",
+               pass->rows[i].name, pass->rows[i].image);
+        any = true, first = 0;
+    }
     for (size_t i = 0; i < pass->row_count; i++)
         if (pass->rows[i].kind == GLINT_ROW_ALIAS)
             printf("; otherwise %s is %s", pass->rows[i].image, pass->rows[i].name);
@@ -242,7 +251,8 @@ static json_t *reference_json(const struct glint_pass *pass) {
 }
 
 static json_t *pass_json(const struct glint_pass *pass) {
-    json_t *reads = json_array(), *writes = json_array(), *parameters = json_array(), *needs = json_array();
+    json_t *reads = json_array(), *writes = json_array(), *parameters = json_array(), *needs = json_array(),
+           *called = json_array();
     for (size_t i = 0; i < pass->row_count; i++) {
         const struct glint_row *row = &pass->rows[i];
         const char *slot = "";
@@ -252,11 +262,13 @@ static json_t *pass_json(const struct glint_pass *pass) {
         } else if (glint_row_is_output(row)) json_array_append_new(writes, image_json(row, pass->slot));
         else if (glint_row_is_parameter(row)) json_array_append_new(parameters, parameter_json(pass, row));
         else if (row->kind == GLINT_ROW_NEEDS) json_array_append_new(needs, json_string(row->name));
+        else if (row->kind == GLINT_ROW_CALLED_BY)
+            json_array_append_new(called, json_pack("{s:s, s:s}", "fact", row->name, "image", row->image));
     }
-    return json_pack("{s:s, s:s, s:s, s:s, s:s, s:s, s:b, s:o, s:o, s:o, s:o, s:o}", "effect", pass->effect, "slot",
-                     pass->slot, "variant", pass->variant, "slot_title", slot_title(pass), "title", pass->title,
-                     "source", pass->source, "host", pass->host != NULL, "needs", needs, "reads", reads, "writes",
-                     writes, "parameters", parameters, "reference", reference_json(pass));
+    return json_pack("{s:s, s:s, s:s, s:s, s:s, s:s, s:b, s:o, s:o, s:o, s:o, s:o, s:o}", "effect", pass->effect,
+                     "slot", pass->slot, "variant", pass->variant, "slot_title", slot_title(pass), "title", pass->title,
+                     "source", pass->source, "host", pass->host != NULL, "needs", needs, "called_by", called, "reads",
+                     reads, "writes", writes, "parameters", parameters, "reference", reference_json(pass));
 }
 
 /* The effect whose name follows `name` in the alphabet, NULL after the last one; NULL asks for the first. */
@@ -376,7 +388,7 @@ static const char introduction[] =
     "the terms.\n\n"
     "- **Runs only if the survey finds**: the [facts](glossary.md#fact) without which a plan leaves the pass out.\n"
     "- **size**: `full` is the size of the picture and `half` that of the pipeline, which `downsample/none` makes "
-    "full, too.\n"
+    "full, too; `quarter` is half of that, and so on.\n"
     "- **fallback**: the value of the image where a texel has no result, and everywhere if the pass does not run.\n"
     "- **source**: the [document](sources.md) that a value comes from. *Not printed*: it has the parameter without a "
     "value.\n"

@@ -34,9 +34,9 @@ bool size_is_cube(enum glint_size_class size) {
            size == GLINT_SIZE_SKY_MIPS || size == GLINT_SIZE_PROBE_MIPS;
 }
 bool size_has_levels(enum glint_size_class size) {
-    return size == GLINT_SIZE_FULL_MIPS || size == GLINT_SIZE_HALF_MIPS || size == GLINT_SIZE_CUBEMAPS_MIPS ||
-           size == GLINT_SIZE_SKY_MIPS || size == GLINT_SIZE_PROBE_MIPS || size == GLINT_SIZE_PARABOLOIDS_MIPS ||
-           size == GLINT_SIZE_HALF_MIPS3;
+    return glint_size_is_picture(size) ? glint_size_levels(size) != 1
+                                       : size == GLINT_SIZE_CUBEMAPS_MIPS || size == GLINT_SIZE_SKY_MIPS ||
+                                             size == GLINT_SIZE_PROBE_MIPS || size == GLINT_SIZE_PARABOLOIDS_MIPS;
 }
 
 bool size_is_buffer(enum glint_size_class size) {

@@ -89,6 +89,24 @@ bool plan_find_sizes(struct frame_plan *plan, struct glint_error *err) {
     return true;
 }
 
+/* The rule stands at enum glint_size_class. */
+static void picture_size(const struct frame_sizes *sizes, enum glint_size_class size, uint32_t found[2]) {
+    const unsigned shift = glint_size_shift(size);
+    for (int i = 0; i < 2; i++) {
+        found[i] = shift ? sizes->half[i] >> (shift - 1) : sizes->full[i];
+        if (!found[i]) found[i] = 1;
+    }
+}
+
+static uint32_t count_levels(const struct frame_sizes *sizes, enum glint_size_class size,
+                             const struct image_desc *desc) {
+    if (!size_has_levels(size)) return 1;
+    if (size == GLINT_SIZE_PROBE_MIPS && sizes->probe_mips) return sizes->probe_mips;
+    const uint32_t all = level_count(desc->width, desc->height),
+                   most = glint_size_is_picture(size) ? glint_size_levels(size) : 0;
+    return most && most < all ? most : all;
+}
+
 bool plan_describe(const struct frame_plan *plan, const struct graph_image *image, struct image_desc *desc,
                    struct glint_error *err) {
     const struct frame_sizes *sizes = &plan->sizes;
@@ -109,17 +127,8 @@ bool plan_describe(const struct frame_plan *plan, const struct graph_image *imag
     }
     uint32_t expected[2] = {0, 0}, found[2];
     switch (row->size) {
-    case GLINT_SIZE_FULL:
-    case GLINT_SIZE_FULL_MIPS:
-        expected[0] = sizes->full[0], expected[1] = sizes->full[1];
-        break;
-    case GLINT_SIZE_HALF:
-    case GLINT_SIZE_HALF_MIPS:
-    case GLINT_SIZE_HALF_MIPS3:
-        expected[0] = sizes->half[0], expected[1] = sizes->half[1];
-        break;
-    case GLINT_SIZE_EIGHTH:
-        for (int i = 0; i < 2; i++) expected[i] = sizes->half[i] / 4 ? sizes->half[i] / 4 : 1;
+    default: /* a class of the picture */
+        picture_size(sizes, row->size, expected);
         break;
     case GLINT_SIZE_CUBEMAPS:
     case GLINT_SIZE_CUBEMAPS_MIPS:
@@ -167,9 +176,7 @@ bool plan_describe(const struct frame_plan *plan, const struct graph_image *imag
                           image->name, expected[0], expected[1] * image_layers(desc), found[0], found[1]);
     if (!expected[0] || !expected[1]) desc->layers = layers; /* no active cube map: a placeholder */
     else desc->width = expected[0], desc->height = expected[1];
-    if (size_has_levels(row->size)) desc->levels = level_count(desc->width, desc->height);
-    if (row->size == GLINT_SIZE_PROBE_MIPS && sizes->probe_mips) desc->levels = sizes->probe_mips;
-    if (row->size == GLINT_SIZE_HALF_MIPS3 && desc->levels > 3) desc->levels = 3;
+    desc->levels = count_levels(sizes, row->size, desc);
     if (desc->levels > LEVELS_MAX)
         return glint_fail(err, GLINT_ERROR_LIMIT, "image %s: %u levels, expected at most %d", image->name, desc->levels,
                           LEVELS_MAX);

@@ -49,16 +49,12 @@ static uint32_t *read_bits(const struct measuring *m, const struct glint_image *
 
 /* ---- Which images are measured ---- */
 
-static bool is_per_pixel(enum glint_size_class size) {
-    return size == GLINT_SIZE_FULL || size == GLINT_SIZE_HALF || size == GLINT_SIZE_EIGHTH ||
-           size == GLINT_SIZE_FULL_MIPS || size == GLINT_SIZE_HALF_MIPS || size == GLINT_SIZE_HALF_MIPS3;
-}
 /* Tables, lists and MIP levels are not measured, nor are ids of the capture. */
 static bool is_measured(const struct glint_image *image) {
     const enum glint_size_class size = image->row->size;
     const bool uint = glint_format_is_uint(image->format);
     if (image->level || size == GLINT_SIZE_LIST || (!image->pass && uint)) return false;
-    return !uint || is_per_pixel(size);
+    return !uint || glint_size_is_picture(size);
 }
 /* Numbers of steps and fetches are counts, not decisions. */
 static bool is_decision(const struct glint_image *image) {
@@ -77,7 +73,7 @@ static bool track_image(struct measuring *m, const struct glint_image *from, str
                                             .width = from->width,
                                             .height = from->height,
                                             .components = from->components,
-                                            .per_pixel = is_per_pixel(from->row->size),
+                                            .per_pixel = glint_size_is_picture(from->row->size),
                                             .discrete = is_decision(from)};
     *t = (struct tracked){.out = image, .input = -1, .decision = -1};
     if (!image->name || !(t->base = read_bits(m, from, err)) || !(image->flips = calloc(texels, 1)) ||

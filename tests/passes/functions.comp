@@ -10,6 +10,7 @@
 };
 #include "shared/blue_noise.glsl"
 #include "shared/brdf.glsl"
+#include "shared/light_terms.glsl"
 #include "shared/random.glsl"
 #include "shared/sampling.glsl"
 #include "functions_rows.h"
@@ -37,6 +38,12 @@ vec4 evaluate(int row, int i) {
     if (row == ROW_GRAZING) {
         vec3 f0 = reflectance_at_normal(vec3(0.5), 0.0, float(i) / 255.0);
         return vec4(f0.x, reflectance_at_grazing(f0), environment_reflectance(f0, 0.3, 0.1).x, 0.0);
+    }
+    if (row == ROW_TERMS) {
+        vec4 r = random4(uvec2(i, row), 3u, 4u); // normal_jittered holds it, too
+        SunTerm sun = SunTerm(vec3(3.0, 2.0, 1.0), 2.0 * r.w - 1.0, float(i % 4) / 3.0, r.z);
+        vec3 light = changed_light(vec3(1.0 + r.x), vec3(r.x, 0.5, 1.0), r.y, vec3(float(i % 3), 0.0, r.x), vec3(0.25, 0.5, 0.75), sun);
+        return vec4(light, kept_light(r.y, float(i) / 255.0));
     }
     // Stratified: 64 x 128 cells over the random numbers.
     int k = (row - ROW_VISIBLE) * COLUMNS + i;

@@ -54,6 +54,30 @@ static void without_specular_nothing_reflects(UNUSED void **state) {
     for (int i = 1; i < COLUMNS; ++i) assert_true(texel(ROW_GRAZING, i)[2] > texel(ROW_GRAZING, i - 1)[2]);
 }
 
+/* lit - (1 - kept) ambient + traced albedo - sun albedo (mask - min(mask, shadow)) cosine/pi, and not below 0. A surface that faces away has no
+   sun to lose, and a shadow that the mask has, too, takes nothing. */
+static void the_picture_is_the_sum_of_its_terms(UNUSED void **state) {
+    static const double irradiance[] = {3, 2, 1}, albedo[] = {0.25, 0.5, 0.75};
+    double worst = 0;
+    size_t shaded = 0;
+    for (int i = 0; i < COLUMNS; ++i) {
+        const float *found = texel(ROW_TERMS, i), *r = &uniform[4 * (ROW_TERMS * COLUMNS + i)];
+        const double x = (double)r[0], kept = (double)r[1], shadow = (double)r[2], cosine = 2 * (double)r[3] - 1,
+                     mask = (i % 4) / 3.0, engine = i / 255.0;
+        const double ambient[] = {x, 0.5, 1}, traced[] = {i % 3, 0, x};
+        const double lost = cosine > 0 && shadow < mask ? (mask - shadow) * cosine / pi : 0;
+        for (int k = 0; k < 3; ++k) {
+            const double light =
+                1 + x - ambient[k] + kept * ambient[k] + albedo[k] * traced[k] - albedo[k] * lost * irradiance[k];
+            worst = fmax(worst, fabs((double)found[k] - fmax(light, 0)));
+        }
+        shaded += lost > 0;
+        worst = fmax(worst, fabs((double)found[3] - kept / (engine > 1.0 / 64 ? engine : 1.0 / 64)) / 64);
+    }
+    print_message("# worst difference %.2e; %zu of %d in a new shadow\n", worst, shaded, COLUMNS);
+    assert_true(worst < 1e-6 && shaded > COLUMNS / 8); /* floats below 4, and quotients below 64 */
+}
+
 /* Sobol's first two dimensions are a (0, 2)-sequence, also after scrambling: of the first 2^m points, each elementary box of area 2^-m
    contains exactly one. */
 static void points_of_a_pixels_rays_are_a_net(UNUSED void **state) {
@@ -128,9 +152,9 @@ static void random_numbers_are_uniform_and_inside(UNUSED void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(roughness_zero_is_an_exact_mirror),     cmocka_unit_test(without_specular_nothing_reflects),
-        cmocka_unit_test(points_of_a_pixels_rays_are_a_net),     cmocka_unit_test(visible_normals_follow_their_density),
-        cmocka_unit_test(random_numbers_are_uniform_and_inside),
+        cmocka_unit_test(the_picture_is_the_sum_of_its_terms),  cmocka_unit_test(roughness_zero_is_an_exact_mirror),
+        cmocka_unit_test(without_specular_nothing_reflects),    cmocka_unit_test(points_of_a_pixels_rays_are_a_net),
+        cmocka_unit_test(visible_normals_follow_their_density), cmocka_unit_test(random_numbers_are_uniform_and_inside),
     };
     return cmocka_run_group_tests_name("gpu_functions", tests, evaluate, release);
 }

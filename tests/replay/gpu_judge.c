@@ -1,5 +1,7 @@
 /* A judge on a device with validation: its errors, counts of rays and times. */
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "fixture.h"
@@ -141,8 +143,75 @@ static void pipelines_pay_alike_for_what_they_share(void **state) {
     fixture_check_messages(fixture);
 }
 
+/* An effect that no passes/EFFECT declares: the composed picture, by depth. Its labels and figures have closed forms here. */
+static const struct glint_effect made = {.name = "made",
+                                         .title = "Made",
+                                         .noun = "made picture",
+                                         .about = "The composed picture.",
+                                         .results = {"missing", "composed"},
+                                         .channels = "R G B",
+                                         .truth = "lit",
+                                         .judged = GLINT_JUDGED_SURFACES,
+                                         .fact = "surfaces",
+                                         .class_title = "depth",
+                                         .class_part = "gbuffer",
+                                         .class_channel = "depth.Z",
+                                         .classes = {{"near", 3}, {"far", INFINITY}},
+                                         .term = ""};
+
+/* Catches: another image, another truth, or other pixels or classes than the effect declares. */
+static void an_effect_is_judged_by_its_own_rows(void **state) {
+    struct fixture *fixture = fixture_need_device(state);
+    struct glint_error err = {0};
+    struct glint_verdict verdict;
+    struct glint_pixels found = {0};
+    const struct glint_judge_options options = {.effect = &made, .truth = true};
+    struct glint_judge *judge = glint_judge_create(fixture->device, &options, &err);
+    if (!judge || !glint_judge_load(judge, fixture->capture, &err) ||
+        !glint_judge_evaluate(judge, fixture->pipeline, 0, &verdict, NULL, NULL, &err))
+        fail_msg("%s", err.message);
+    fixture_run(fixture, NULL);
+    assert_string_equal(glint_study_made(fixture->pipeline, &made)->name, "composed");
+    assert_true(glint_study_result(fixture->replay, &made, &found, &err));
+    const struct glint_part_info *part = glint_capture_find(fixture->capture, "gbuffer");
+    const size_t pixels = (size_t)part->width * part->height;
+    static const char *const depth[] = {"depth.Z"}, *const rgb[] = {"R", "G", "B"};
+    float *z = malloc(pixels * sizeof *z), *lit = malloc(3 * pixels * sizeof *lit);
+    assert_true(z && lit && glint_capture_read(fixture->capture, part, depth, 1, GLINT_F32, z, 0, &err) &&
+                glint_capture_read(fixture->capture, glint_capture_find(fixture->capture, "lit"), rgb, 3, GLINT_F32,
+                                   lit, 0, &err));
+    double sum[3] = {0};
+    size_t count[3] = {0};
+    for (size_t i = 0; i < pixels; i++) {
+        const size_t label = !(z[i] < INFINITY) ? 0 : z[i] <= 3 ? 1 : 2;
+        assert_int_equal(glint_judge_labels(judge)[i], label);
+        for (size_t k = 0; label && k < 3; k++) {
+            const double off = (double)found.values[4 * i + k] - (double)lit[3 * i + k];
+            sum[0] += off * off, sum[label] += off * off;
+        }
+        count[0] += label > 0, count[label] += label > 0;
+    }
+    const struct glint_metric_table *table = &verdict.errors[GLINT_TARGET_TRUTH];
+    assert_int_equal(table->count, 3);
+    assert_string_equal(table->rows[1].name, "near");
+    for (size_t k = 0; k < 3; k++) {
+        assert_int_equal(table->rows[k].pixels, count[k]);
+        if (!count[k]) continue;
+        const double rmse = sqrt(sum[k] / (3 * (double)count[k]));
+        assert_true(fabs(table->rows[k].of[GLINT_METRIC_RMSE].value - rmse) < 1e-6);
+    }
+    assert_true(count[0] > 100 && sum[0] > 0);
+    assert_true(verdict.ends.rays == 0 && verdict.fetches_px == 0); /* no pass belongs to it */
+    free(z), free(lit);
+    glint_pixels_finish(&found);
+    glint_verdict_finish(&verdict);
+    glint_judge_destroy(&judge);
+    fixture_check_messages(fixture);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(an_effect_is_judged_by_its_own_rows),
         cmocka_unit_test(errors_are_those_of_the_reflection),
         cmocka_unit_test(rays_of_surfaces_that_reflect_nothing_are_not_counted),
         cmocka_unit_test(what_the_truth_does_not_know_counts_nowhere),

@@ -37,7 +37,7 @@ static void check_room(const struct fixture *fixture, uint32_t number, double sc
             const unsigned surface = roughness <= 0.1 ? 1 : roughness <= 0.5 ? 2 : 3;
             const unsigned angle = bin((on_floor ? 1.5 : 6) / distance, 0.1, 0.25, 0.5);
             const size_t i = (size_t)y * W + (size_t)x;
-            assert_int_equal(sets[GLINT_CLASSES_SURFACE].labels[i], reflects ? surface : 0);
+            assert_int_equal(sets[GLINT_CLASSES_EFFECT].labels[i], reflects ? surface : 0);
             assert_int_equal(sets[GLINT_CLASSES_ANGLE].labels[i], reflects ? angle : 0);
             assert_int_equal(sets[GLINT_CLASSES_DISTANCE].labels[i], reflects ? bin(scale * distance, 3, 10, 30) : 0);
             for (size_t k = 0; k < count; k++) seen[k][sets[k].labels[i]]++;
@@ -76,7 +76,7 @@ static void hits_are_binned_and_know_the_sky(void **state) {
         fail_msg("%s", err.message);
     assert_int_equal(count, GLINT_CAPTURE_CLASSES);
     for (size_t i = 0; i < (size_t)W * H; i++) {
-        if (!sets[GLINT_CLASSES_SURFACE].labels[i]) continue;
+        if (!sets[GLINT_CLASSES_EFFECT].labels[i]) continue;
         assert_int_equal(sets[GLINT_CLASSES_HIT].labels[i], expected[i % W % 8]);
         compared++;
     }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "fixture.h"
+#include "frame_plan.h"
 #include "graph.h"
 #include "survey.h"
 #include "unit.h"
@@ -351,8 +352,95 @@ static void passes_for_each_ray_stand_together(void **state) {
     graph_finish(&graph);
 }
 
+/* Several images call for one pass, each with a fact of its own. Catches: a pass that runs for an image whose fact does not hold or that no pass
+   makes, one that is dropped although one image calls for it, and inputs that are asked of the capture without reason. */
+static void one_image_of_several_calls_for_a_pass(void **state) {
+    DEFINE_PASS(a_maker, "v", READS("lit"), WRITES("a"));
+    DEFINE_PASS(b_maker, "v", READS("lit"), WRITES("b"));
+    DEFINE_PASS(
+        picture, "v",
+        {.kind = GLINT_ROW_READ, .name = "a", .glsl = "texture2D", .format = GLINT_FORMAT_R32F, .optional = true},
+        {.kind = GLINT_ROW_READ, .name = "b", .glsl = "texture2D", .format = GLINT_FORMAT_R32F, .optional = true},
+        {.kind = GLINT_ROW_READ,
+         .name = "stencil_full",
+         .glsl = "utexture2D",
+         .optional = true,
+         .beside = "c b",
+         .format = GLINT_FORMAT_R8UI},
+        WRITES("p"), {.kind = GLINT_ROW_CALLED_BY, .name = "yes", .image = "a"},
+        {.kind = GLINT_ROW_CALLED_BY, .name = "no", .image = "b"});
+    static const char *const only[] = {"picture", NULL};
+    struct pipeline made;
+    struct graph graph;
+    struct glint_error err;
+    MAKE(&made, &a_maker, &b_maker, &picture);
+    if (!build(state, &graph, &made, (struct glint_replay_options){0}, &err)) fail_msg("%s", err.message);
+    assert_true(graph.passes[2].runs);
+    assert_string_equal(graph.passes[2].reason, "3 of 10");
+    assert_null(graph_find(&graph, "stencil_full")->pass); /* an image of the capture, whether it has it or not */
+    assert_int_equal(graph_find(&graph, "stencil_full")->row->kind, GLINT_ROW_CAPTURE);
+    graph_finish(&graph);
+    MAKE(&made, &b_maker, &picture); /* its fact does not hold */
+    assert_true(build(state, &graph, &made, (struct glint_replay_options){0}, &err));
+    assert_false(graph.passes[1].runs);
+    assert_string_equal(graph.passes[1].reason, "0 of 10");
+    graph_finish(&graph);
+    MAKE(&made, &a_maker, &picture); /* without the other one, the capture is not asked for what is read beside it */
+    assert_true(build(state, &graph, &made, (struct glint_replay_options){0}, &err));
+    assert_true(graph.passes[1].runs);
+    assert_int_equal(graph_find(&graph, "stencil_full")->row->kind, GLINT_ROW_READ);
+    assert_int_equal(graph_find(&graph, "b")->source, SOURCE_FALLBACK);
+    graph_finish(&graph);
+    assert_false(build(state, &graph, &made, (struct glint_replay_options){.passes = only}, &err));
+    fixture_says(&err,
+                 "picture/v reads a, which a_maker makes"); /* what calls for the pass has to come from somewhere */
+    MAKE(&made, &picture);
+    assert_false(build(state, &graph, &made, (struct glint_replay_options){0}, &err));
+    fixture_says(&err, "picture/v reads a, which no known pass writes");
+}
+
+/* Full is 7 x 5 here, and half of it 4 x 3, or 7 x 5 where every pixel is traced. */
+static void pictures_are_divided_by_powers_of_two(void **state) {
+    static const struct {
+        int size;
+        uint32_t half[2], whole[2], levels, whole_levels; /* whole: while half is full */
+    } cases[] = {{GLINT_SIZE_FULL, {7, 5}, {7, 5}, 1, 1},
+                 {GLINT_SIZE_HALF, {4, 3}, {7, 5}, 1, 1},
+                 {GLINT_SIZE_QUARTER, {2, 1}, {3, 2}, 1, 1},
+                 {GLINT_SIZE_EIGHTH, {1, 1}, {1, 1}, 1, 1},
+                 {GLINT_SIZE_PICTURE(7, 1), {1, 1}, {1, 1}, 1, 1},
+                 {GLINT_SIZE_FULL_MIPS, {7, 5}, {7, 5}, 3, 3},
+                 {GLINT_SIZE_HALF_MIPS, {4, 3}, {7, 5}, 3, 3},
+                 {GLINT_SIZE_HALF_MIPS(2), {4, 3}, {7, 5}, 2, 2},
+                 {GLINT_SIZE_QUARTER_MIPS(3), {2, 1}, {3, 2}, 2, 2},
+                 {GLINT_SIZE_QUARTER_MIPS, {2, 1}, {3, 2}, 2, 2}};
+    (void)state;
+    const struct glint_replay_options options = {0};
+    struct tables tables = {0};
+    for (size_t i = 0; i < 2 * sizeof cases / sizeof *cases; i++) {
+        const size_t at = i / 2;
+        const bool whole = i % 2;
+        const struct glint_row row = {
+            .kind = GLINT_ROW_WRITE, .name = "x", .size = (enum glint_size_class)cases[at].size};
+        const struct graph_image image = {.name = "x", .row = &row, .source = SOURCE_MADE};
+        const struct frame_plan plan = {
+            .options = &options, .tables = &tables, .sizes = {.full = {7, 5}, .half = {whole ? 7 : 4, whole ? 5 : 3}}};
+        const uint32_t *expected = whole ? cases[at].whole : cases[at].half;
+        struct image_desc desc;
+        struct glint_error err = {0};
+        assert_true(plan_describe(&plan, &image, &desc, &err));
+        assert_int_equal(desc.width, expected[0]);
+        assert_int_equal(desc.height, expected[1]);
+        assert_int_equal(desc.levels, whole ? cases[at].whole_levels : cases[at].levels);
+    }
+    assert_false(glint_size_is_picture(GLINT_SIZE_CUBEMAPS));
+    assert_false(glint_size_is_picture(GLINT_SIZE_LIST));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(one_image_of_several_calls_for_a_pass),
+        cmocka_unit_test(pictures_are_divided_by_powers_of_two),
         cmocka_unit_test(smooth_and_rough_pixels_are_facts),
         cmocka_unit_test(passes_for_each_ray_stand_together),
         cmocka_unit_test(passes_run_in_the_order_of_their_images),

@@ -238,8 +238,39 @@ static void the_reference_has_no_players(UNUSED void **state) {
     glint_pipeline_destroy(&pipeline);
 }
 
+/* Catches: players of an effect that are slots of another one, and those that only the picture depends on. */
+static void players_belong_to_the_effect(void **state) {
+    static const struct glint_effect
+        far = {.name = "far", .noun = "lit levels", .results = {"reflection"}, .channels = "R G B"},
+        none = {.name = "none", .noun = "nothing", .results = {"nowhere"}, .channels = "R G B"};
+    (void)state;
+    struct glint_error err = {0};
+    struct glint_pipeline *pipeline = glint_pipeline_create("mafia3", &err);
+    assert_non_null(pipeline);
+    struct glint_players *whole = glint_players_create(pipeline, glint_effect_find("reflection"), 4, &err),
+                         *part = glint_players_create(pipeline, &far, 4, &err);
+    assert_true(whole && part);
+    bool sharp[2] = {false, false};
+    for (size_t i = 0; i < glint_players_count(whole); i++)
+        sharp[0] |= strstr(glint_player_change(whole, i), "_sharp") != NULL;
+    for (size_t i = 0; i < glint_players_count(part); i++)
+        sharp[1] |= strstr(glint_player_change(part, i), "_sharp") != NULL;
+    assert_true(sharp[0] && !sharp[1]); /* what replaces that image is behind it */
+    struct glint_pipeline *cut = glint_players_pipeline(part, 0, &err);
+    assert_non_null(cut);
+    assert_null(glint_pipeline_find(cut, "resolve_sharp"));
+    assert_non_null(glint_pipeline_find(cut, "upscale"));
+    assert_null(glint_players_create(pipeline, &none, 4, &err));
+    assert_non_null(strstr(err.message, "no pass of it makes nothing"));
+    glint_pipeline_destroy(&cut);
+    glint_players_destroy(&whole);
+    glint_players_destroy(&part);
+    glint_pipeline_destroy(&pipeline);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(players_belong_to_the_effect),
         cmocka_unit_test(what_is_not_there_joins_nothing),
         cmocka_unit_test(declarations_are_the_preset),
         cmocka_unit_test(declared_values_are_the_presets),

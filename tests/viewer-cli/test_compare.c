@@ -151,6 +151,33 @@ static void settings_reach_their_preset_alone(UNUSED void **state) {
     glint_fails(1, "nowhere.exr", "compare", in_folder("nowhere.exr"));
 }
 
+/* Names, and that JSON says which effect was judged. */
+static void an_effect_is_chosen_by_name(UNUSED void **state) {
+    glint_fails(2, "there is no effect reflektion (did you mean reflection?)", "compare", in_folder("box.exr"),
+                "--effect=reflektion");
+    glint_fails(2, "there is no effect prepare", "reference", in_folder("box.exr"), "--effect=prepare");
+    /* A preset without the slots of an effect */
+    FILE *preset = fopen(in_folder("bare.json"), "w");
+    assert_non_null(preset);
+    fputs("{\"name\": \"bare\", \"title\": \"Normals\", \"source\": \"glint\", \"slots\": {\"downsample\": \"none\"}}",
+          preset);
+    fclose(preset);
+    glint_fails(2, "--effect reflection: no slot of the pipeline makes the reflection", "stability",
+                in_folder("box.exr"), "-p", in_folder("bare.json"), "--effect=reflection");
+    char *text = glint_ok("passes", "--json");
+    json_t *json = parse_json(text);
+    const json_t *effects = json_object_get(json, "effects");
+    assert_true(json_array_size(effects) >= 1);
+    assert_string_equal(json_string_value(json_object_get(json_array_get(effects, 0), "effect")), "reflection");
+    json_decref(json);
+    free(text);
+    text = glint_ok("compare", in_folder("box.exr"), "--presets=kf2", "--repeat=1", "--effect=reflection", "--json");
+    json = parse_json(text);
+    assert_string_equal(json_string_value(json_object_get(json, "effect")), "reflection");
+    json_decref(json);
+    free(text);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(errors_are_those_of_replay),
@@ -158,6 +185,7 @@ int main(void) {
         cmocka_unit_test(water_is_compared_in_the_finished_picture),
         cmocka_unit_test(what_the_truth_does_not_know_is_neutral),
         cmocka_unit_test(settings_reach_their_preset_alone),
+        cmocka_unit_test(an_effect_is_chosen_by_name),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

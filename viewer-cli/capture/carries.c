@@ -39,8 +39,7 @@ static bool plan_preset(struct carried *c, struct glint_replay *replay, const ch
     const bool ok = pipeline && glint_replay_plan(replay, pipeline, NULL, &entries, &count, err);
     for (size_t i = 0; ok && i < count; i++) {
         const struct glint_pass *pass = entries[i].pass;
-        const bool own = strncmp(pass->folder, "prepare/", 8) != 0; /* what several effects share is none itself */
-        if (entries[i].runs && own) add_name(c->effects, pass->effect);
+        if (entries[i].runs && glint_effect_find(pass->effect)) add_name(c->effects, pass->effect);
         if (!entries[i].runs) add_name(c->left_out, pass->slot);
     }
     if (ok) missing_add(&c->missing, replay);

@@ -97,17 +97,7 @@ static bool is_picture(const struct job *job, const struct glint_run_image *imag
     snprintf(name, sizeof name, "%.*s", level ? (int)(level - image->name) : NAME_SIZE - 1, image->name);
     const struct glint_row *row = pass ? glint_pass_output(pass, name) : NULL;
     if (!row) return !image->cube && image->width == job->full[0] && image->height == job->full[1];
-    switch (row->size) {
-    case GLINT_SIZE_FULL:
-    case GLINT_SIZE_HALF:
-    case GLINT_SIZE_EIGHTH:
-    case GLINT_SIZE_FULL_MIPS:
-    case GLINT_SIZE_HALF_MIPS:
-    case GLINT_SIZE_HALF_MIPS3:
-        return true;
-    default:
-        return false;
-    }
+    return glint_size_is_picture(row->size);
 }
 
 static bool is_named(const struct list *names, const char *name) {

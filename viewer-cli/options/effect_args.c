@@ -50,7 +50,7 @@ size_t effects_find(const struct effect_search *search, const struct glint_effec
     if (search->name) {
         if (!(found[0] = named(search->name, err))) return 0;
         return is_made(search, found[0]) ||
-               glint_fail(err, GLINT_ERROR_USAGE, "--effect %s: no slot of the pipeline makes %s", search->name,
+               glint_fail(err, GLINT_ERROR_USAGE, "--effect %s: no slot of the pipeline makes the %s", search->name,
                           found[0]->noun);
     }
     for (size_t e = 0; e < all && made < EFFECTS_MAX; e++)

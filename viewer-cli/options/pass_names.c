@@ -26,30 +26,40 @@ const char *format_name(enum glint_format format) {
     return (size_t)format < sizeof names / sizeof *names ? names[format] : "?";
 }
 
+/* "half", "quarter, 3 levels" */
+static const char *picture_name(enum glint_size_class size) {
+    static const char *const shifts[] = {"full", "half", "quarter", "eighth", "sixteenth"};
+    static char buffers[8][48];
+    static unsigned turn;
+    char *text = buffers[turn++ % 8];
+    const unsigned shift = glint_size_shift(size), levels = glint_size_levels(size);
+    int length = shift < sizeof shifts / sizeof *shifts ? snprintf(text, sizeof *buffers, "%s", shifts[shift])
+                                                        : snprintf(text, sizeof *buffers, "1/%u", 1u << shift);
+    if (levels == 0) snprintf(text + length, sizeof *buffers - (size_t)length, ", levels");
+    else if (levels > 1) snprintf(text + length, sizeof *buffers - (size_t)length, ", %u levels", levels);
+    return text;
+}
+
 const char *size_name(enum glint_size_class size) {
+    enum { FIRST = GLINT_SIZE_CUBEMAPS };
     static const char *const names[] = {
-        [GLINT_SIZE_FULL] = "full",
-        [GLINT_SIZE_HALF] = "half",
-        [GLINT_SIZE_CUBEMAPS] = "cube maps",
-        [GLINT_SIZE_COCOON] = "cube maps of 32 × 32",
-        [GLINT_SIZE_SKY] = "sky",
-        [GLINT_SIZE_ACTIVE] = "active × 1",
-        [GLINT_SIZE_CHAIN] = "chain × active",
-        [GLINT_SIZE_EIGHTH] = "eighth",
-        [GLINT_SIZE_VOLUME] = "volume × active",
-        [GLINT_SIZE_FIGURES] = "512 × 1",
-        [GLINT_SIZE_PLANAR] = "planar",
-        [GLINT_SIZE_FULL_MIPS] = "full, levels",
-        [GLINT_SIZE_HALF_MIPS] = "half, levels",
-        [GLINT_SIZE_HALF_MIPS3] = "half, 3 levels",
-        [GLINT_SIZE_CUBEMAPS_MIPS] = "cube maps, levels",
-        [GLINT_SIZE_SKY_MIPS] = "sky, levels",
-        [GLINT_SIZE_PROBE_MIPS] = "probe, levels",
-        [GLINT_SIZE_PARABOLOIDS_MIPS] = "hemispheres, levels",
-        [GLINT_SIZE_LIST] = "list",
+        [GLINT_SIZE_CUBEMAPS - FIRST] = "cube maps",
+        [GLINT_SIZE_COCOON - FIRST] = "cube maps of 32 × 32",
+        [GLINT_SIZE_SKY - FIRST] = "sky",
+        [GLINT_SIZE_ACTIVE - FIRST] = "active × 1",
+        [GLINT_SIZE_CHAIN - FIRST] = "chain × active",
+        [GLINT_SIZE_VOLUME - FIRST] = "volume × active",
+        [GLINT_SIZE_FIGURES - FIRST] = "512 × 1",
+        [GLINT_SIZE_PLANAR - FIRST] = "planar",
+        [GLINT_SIZE_CUBEMAPS_MIPS - FIRST] = "cube maps, levels",
+        [GLINT_SIZE_SKY_MIPS - FIRST] = "sky, levels",
+        [GLINT_SIZE_PROBE_MIPS - FIRST] = "probe, levels",
+        [GLINT_SIZE_PARABOLOIDS_MIPS - FIRST] = "hemispheres, levels",
+        [GLINT_SIZE_LIST - FIRST] = "list",
     };
-    _Static_assert(sizeof names / sizeof *names == GLINT_SIZE_LIST + 1, "each class of sizes has a name");
-    return (size_t)size < sizeof names / sizeof *names ? names[size] : "?";
+    _Static_assert(sizeof names / sizeof *names == GLINT_SIZE_LIST - FIRST + 1, "each class of sizes has a name");
+    if (glint_size_is_picture(size)) return picture_name(size);
+    return (size_t)size - FIRST < sizeof names / sizeof *names ? names[size - FIRST] : "?";
 }
 
 const char *value_text(const struct glint_row *row, double value) {

@@ -2,6 +2,7 @@
 #ifndef GLINT_PASSES_H
 #define GLINT_PASSES_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include "glint/capture.h"
@@ -36,23 +37,36 @@ enum glint_pass_role {
 
 enum glint_value_type { GLINT_VALUE_INT, GLINT_VALUE_FLOAT, GLINT_VALUE_BOOL, GLINT_VALUE_UINT };
 
-/* Sizes of images. Names of size classes with MIPs end in _MIPS. */
+/* Sizes of images.
+
+   The classes of the picture are FULL, the capture's resolution, and FULL divided by a power of two, its shift: HALF (1), QUARTER, EIGHTH and
+   so on; GLINT_SIZE_PICTURE makes those without a name. HALF is the resolution of the pipeline: half of FULL, rounded up, or all of it if the
+   pipeline traces every pixel (row RESOLUTION). A shift beyond 1 is as large as MIP level shift - 1 of HALF, so that QUARTER is half of HALF,
+   rounded down, and at least one texel. While HALF is full, QUARTER thus is half.
+   ..._MIPS is the class with all MIP levels down to 1 × 1, ..._MIPS(n) with the n finest ones, or fewer if it has fewer. */
+#define GLINT_SIZE_PICTURE(shift, levels)                                                                              \
+    (16 * (shift) + ((levels) < 2 ? 1 - (levels) : (levels))) /* levels: 0 is all */
+#define GLINT_SIZE_FULL_MIPS(levels) GLINT_SIZE_PICTURE(0, levels)
+#define GLINT_SIZE_HALF_MIPS(levels) GLINT_SIZE_PICTURE(1, levels)
+#define GLINT_SIZE_QUARTER_MIPS(levels) GLINT_SIZE_PICTURE(2, levels)
 enum glint_size_class {
-    GLINT_SIZE_FULL,     /* the capture's resolution */
-    GLINT_SIZE_HALF,     /* half of it, rounded up; full if the pipeline traces every pixel (row RESOLUTION) */
-    GLINT_SIZE_CUBEMAPS, /* cube-map array with the capture's face size, one cube for each active cube map */
-    GLINT_SIZE_COCOON,   /* the same with faces of 32 × 32 */
-    GLINT_SIZE_SKY,      /* the sky's cube map */
-    GLINT_SIZE_ACTIVE,   /* 2D, active cube maps × 1 */
-    GLINT_SIZE_CHAIN,    /* 2D, chain length × active cube maps */
-    GLINT_SIZE_EIGHTH,   /* the coarsest level of HALF_MIPS3 as an image of its own */
-    GLINT_SIZE_VOLUME,   /* 2D, texels of the longest description of an inner volume × active cube maps */
-    GLINT_SIZE_FIGURES,  /* 2D, 512 × 1 */
-    GLINT_SIZE_PLANAR,   /* 2D, the size of the capture's planar reflection map */
-    /* The class of the same name with all MIP levels down to 1 × 1. */
-    GLINT_SIZE_FULL_MIPS,
-    GLINT_SIZE_HALF_MIPS,
-    GLINT_SIZE_HALF_MIPS3, /* only its three finest levels */
+    GLINT_SIZE_FULL = GLINT_SIZE_PICTURE(0, 1),
+    GLINT_SIZE_HALF = GLINT_SIZE_PICTURE(1, 1),
+    GLINT_SIZE_QUARTER = GLINT_SIZE_PICTURE(2, 1),
+    GLINT_SIZE_EIGHTH = GLINT_SIZE_PICTURE(3, 1),
+    GLINT_SIZE_SIXTEENTH = GLINT_SIZE_PICTURE(4, 1),
+    GLINT_SIZE_FULL_MIPS = GLINT_SIZE_PICTURE(0, 0),
+    GLINT_SIZE_HALF_MIPS = GLINT_SIZE_PICTURE(1, 0),
+    GLINT_SIZE_QUARTER_MIPS = GLINT_SIZE_PICTURE(2, 0),
+    /* Other images. */
+    GLINT_SIZE_CUBEMAPS = 256, /* cube-map array with the capture's face size, one cube for each active cube map */
+    GLINT_SIZE_COCOON,         /* the same with faces of 32 × 32 */
+    GLINT_SIZE_SKY,            /* the sky's cube map */
+    GLINT_SIZE_ACTIVE,         /* 2D, active cube maps × 1 */
+    GLINT_SIZE_CHAIN,          /* 2D, chain length × active cube maps */
+    GLINT_SIZE_VOLUME,         /* 2D, texels of the longest description of an inner volume × active cube maps */
+    GLINT_SIZE_FIGURES,        /* 2D, 512 × 1 */
+    GLINT_SIZE_PLANAR,         /* 2D, the size of the capture's planar reflection map */
     GLINT_SIZE_CUBEMAPS_MIPS,
     GLINT_SIZE_SKY_MIPS,
     GLINT_SIZE_PROBE_MIPS,       /* the levels of the capture's probe, however many it has */
@@ -62,6 +76,17 @@ enum glint_size_class {
        readers then run over whole images. */
     GLINT_SIZE_LIST
 };
+static inline bool glint_size_is_picture(enum glint_size_class size) {
+    return size < GLINT_SIZE_CUBEMAPS;
+}
+/* Of a class of the picture: its shift, and its number of MIP levels, 0 for all. */
+static inline unsigned glint_size_shift(enum glint_size_class size) {
+    return (unsigned)size / 16;
+}
+static inline unsigned glint_size_levels(enum glint_size_class size) {
+    const unsigned code = (unsigned)size % 16;
+    return code < 2 ? 1 - code : code;
+}
 
 /* The order in which the levels of a row DISPATCH_LEVELS run. */
 enum glint_level_order { GLINT_ORDER_down /* fine to coarse */, GLINT_ORDER_up /* coarse to fine */ };
