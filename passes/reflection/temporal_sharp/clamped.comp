@@ -46,6 +46,14 @@ float travelled_at(ivec2 texel) {
     return shown ? texelFetch(travelled, texel, 0).x : 0.0;
 }
 
+// Whether the previous frame showed another surface there. In a still picture jitter alone shows both sides of an edge in turn, so that only what is
+// hidden wholly counts.
+bool is_uncovered(ivec2 pixel, vec2 moved) {
+    if (!has_disocclusion) return false;
+    bool still = all(lessThan(abs(moved * vec2(frame.size.xy)), vec2(1.0 / 256.0)));
+    return texelFetch(disocclusion, pixel, 0).x >= (still ? max(uncovered, 1.0) : uncovered);
+}
+
 void main() {
     ivec2 pixel = tile_texel(1.0);
     if (any(greaterThanEqual(pixel, imageSize(reflection_stable)))) return;
@@ -60,7 +68,7 @@ void main() {
                                        travelled_at(pixel / int(reduction(frame.size))));
         float longest = history_limit(history, roughness, where.turned, ndf == ndf_ggx);
         bool inside = all(greaterThanEqual(where.uv, vec2(0.0))) && all(lessThanEqual(where.uv, vec2(1.0)));
-        if (has_disocclusion && texelFetch(disocclusion, pixel, 0).x >= uncovered) inside = false;
+        if (is_uncovered(pixel, where.uv - uv)) inside = false;
         vec4 past = inside ? textureLod(sampler2D(previous_stable, linear_clamp), where.uv, 0.0) : vec4(0.0);
         if (longest >= 1.0 && finite(past) && past.a > 0.0) {
             if (clamp_history) past = clamped(past, pixel, roughness);

@@ -15,5 +15,5 @@ PUSH(float, history,         15.0, 0.0, 255.0, "1", "Mafia III talk, Temporal fi
 PUSH(float, window,          1.0,  0.0, 100.0, "standard deviations", "Mafia III talk, Temporal filter", "max deviation of a mirror's history from the neighbourhood's mean")
 PUSH(float, sharp_roughness, 0.1,  0.0, 1.0,  "1", "Mafia III talk, Temporal filter", "roughness at which the clamp is infinitely wide; rougher surfaces are passed through")
 NEEDS_BY(smooth, sharp_roughness)
-PUSH(float, uncovered, 1.0, 0.0, 1.01, "1", "Mafia III talk, Temporal filter; Mafia DE article, Temporal AA", "there is no history where at least this fraction of it shows another surface, by the image disocclusion; 1.01: no test")
+PUSH(float, uncovered, 0.1, 0.0, 1.01, "1", "Mafia III talk, Temporal filter; chosen by measuring", "where the picture moves there is no history if at least this fraction of it shows another surface, by the image disocclusion, if the pipeline makes it; where it is still, if all of it does; 1.01: no test")
 #include "shared/reproject_rows.h"
