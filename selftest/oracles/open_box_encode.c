@@ -117,7 +117,7 @@ double open_box_encode_roughness(const struct open_box *c, double r) {
         return 1 - r;
     case GLINT_ROUGHNESS_POWER:
         return 2 / (r * r * r * r) - 2; /* infinite for a mirror */
-    case GLINT_ROUGHNESS_LOG2_POWER: /* power 2^(10 v + 1), as read where nothing else is said */
+    case GLINT_ROUGHNESS_LOG2_POWER:    /* power 2^(10 v + 1), as read where nothing else is said */
         return (log2(2 / (r * r * r * r) - 2) - 1) / 10;
     default:
         return r;

@@ -450,6 +450,7 @@ bool glint_capture_validate(const char *path, const struct glint_limits *limits,
 /* Names of common parts. */
 #define GLINT_PART_GBUFFER "gbuffer"
 #define GLINT_PART_LIT "lit"
+#define GLINT_PART_INDIRECT "indirect"
 #define GLINT_PART_SCENE "scene"
 #define GLINT_PART_SKY "sky"
 #define GLINT_PART_PROBE "probe.000" /* the only probe that passes use */
