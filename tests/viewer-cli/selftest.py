@@ -126,6 +126,11 @@ MUTANTS = [
     ("reproject", "position + normalize(position) * travelled_m", "position", ["reflections' places"]),
     ("reproject", "divergence * 2.0", "divergence", ["views that turn"]),
     ("reproject", "view.z * front > 0.0 ?", "true ?", ["behind the camera before"]),
+    ("hemisphere", "e - sine * cosine", "e + sine * cosine", ["occluded part of a slice"]),
+    ("hemisphere", "HALF_PI + gamma", "HALF_PI", ["side of a slice"]),
+    ("hemisphere", "radius = sqrt(u.x)", "radius = u.x", ["cosine-weighted direction"]),
+    ("light_terms", "min(sun.mask, sun.shadow)", "sun.shadow", ["changed light"]),
+    ("light_terms", "1.0 / 64.0", "1.0 / 63.0", ["kept light"]),
 ]
 
 

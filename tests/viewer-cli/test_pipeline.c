@@ -257,8 +257,8 @@ static void passes_describe_what_replay_accepts(UNUSED void **state) {
     char *effect = glint_ok("passes", "prepare"), *list = glint_ok("passes");
     assert_contains(effect, "downsample/pick: ");
     assert_null(strstr(effect, "resolve/hit: "));
-    assert_contains(list, "\nprepare     downsample ");
-    assert_contains(list, "\nreflection  resolve ");
+    assert_contains(list, "\nprepare       downsample ");
+    assert_contains(list, "\nreflection    resolve ");
     free(effect);
     free(list);
     json = parse_json(devices);

@@ -1,5 +1,5 @@
 // The picture of this frame averaged with the history. Next include of a variant; it defines picture(pixel) before.
-#include "shared/earlier.glsl"
+#include "prepare/disocclusion/earlier.glsl"
 #include "shared/stable.glsl"
 #include "luminance.glsl"
 #include "neighbourhood.glsl"
