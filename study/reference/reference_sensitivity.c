@@ -18,9 +18,13 @@ static void add_row(struct glint_reference_sensitivity *sensitivity, const struc
     added->ran = !added->reason[0];
 }
 
-static void list_assumptions(const struct glint_pipeline *pipeline, struct glint_reference_sensitivity *sensitivity) {
+/* Assumptions of other effects do not change the result. */
+static void list_assumptions(const struct glint_reference *reference, struct glint_reference_sensitivity *sensitivity) {
+    const struct glint_pipeline *pipeline = reference->pipeline;
     for (size_t i = 0; i < glint_pipeline_pass_count(pipeline); i++) {
         const struct glint_pass *pass = glint_pipeline_pass(pipeline, i);
+        const struct glint_effect *own = glint_effect_find(pass->effect);
+        if (own && own != reference->effect) continue;
         for (size_t r = 0; r < pass->row_count; r++) {
             if (!glint_row_is_parameter(&pass->rows[r]) || !glint_pass_assumes(pass, &pass->rows[r])) continue;
             const double value = glint_pipeline_value(pipeline, pass, &pass->rows[r]);
@@ -100,7 +104,7 @@ bool glint_reference_sensitivity(struct glint_reference *reference, uint32_t ray
     struct halves base = {0};
     size_t runs = 1;
     *sensitivity = (struct glint_reference_sensitivity){0};
-    list_assumptions(reference->pipeline, sensitivity);
+    list_assumptions(reference, sensitivity);
     for (size_t i = 0; i < sensitivity->count; i++) runs += sensitivity->rows[i].ran;
     part.share = 1 / (double)runs;
     bool ok = (rays > 0 && rays <= GLINT_REFERENCE_RAYS_MAX) ||

@@ -167,7 +167,7 @@ class Tests:
         assert self.browser.evaluate(caption).startswith(f"frame {worst + 1}: composed") and "largest error" in self.browser.evaluate(caption)
         assert self.browser.evaluate("document.querySelector('aside h4').textContent") == f"frame {worst + 1}"
         sources = set()
-        for track in ("Final image", "Reflection", "Truth", "Error"):
+        for track in ("Final image", "Reflections", "Truth", "Error"):
             self.browser.evaluate(f"[...{player}.querySelectorAll('button')].find(b => b.textContent === '{track}').click()")
             assert self.browser.evaluate(f"{player}.querySelector('img').decode().then(() => {player}.querySelector('img').naturalWidth)") == 64
             sources.add(self.browser.evaluate(f"{player}.querySelector('img').src"))
@@ -192,7 +192,7 @@ class Tests:
         with open(os.path.join(self.path("a"), "errors.json"), encoding="utf-8") as file:
             (everything,) = [s for s in json.load(file)["against_truth"]["image"]["surfaces"] if s["surfaces"] == "all"]
         self.show("a")
-        (report,) = [row for table in (0, 1) for row in self.table("Error", table) if row[0] == "all" and len(row) > 5]
+        (report,) = [row for table in (0, 1) for row in self.table("Error of the reflection", table) if row[0] == "all" and len(row) > 5]
         assert int(report[1].replace("\u202f", "")) == everything["pixels"]
         assert abs(float(report[4]) - everything["rmse"]) < 1e-3, (report, everything)
         assert not os.path.exists(os.path.join(self.path("b"), "errors.json"))
@@ -216,7 +216,7 @@ class Tests:
 
     def test_classes_of_pixels_have_names_of_their_own(self):
         self.show("a")
-        names = [row[0] for row in self.table("Error", 2)]
+        names = [row[0] for row in self.table("Error of the reflection", 2)]
         assert len(set(names)) == len(names) and "hit distance: farther" in names and "distance: farther" in names, names
         intervals = self.browser.evaluate("document.querySelectorAll('td.interval').length")
         assert intervals > len(names), intervals
@@ -263,14 +263,14 @@ class Tests:
         self.browser.show(os.path.join(compared, "index.html"))
         assert self.browser.evaluate("[...document.querySelectorAll('h2')].map(e => e.textContent)") == [NAME]
         assert self.browser.evaluate("[...document.querySelectorAll('h3')].map(e => e.textContent)") == \
-            ["Error against time", "Error by surface", "End reasons of rays", "Reflection", "Its error, 0 (dark) to 1 (bright); grey: not compared", "Image"]
+            ["Error against time", "Error by class", "End reasons of rays", "Reflections", "Its error, 0 (dark) to 1 (bright); grey: not compared", "Image"]
         (rows,) = [t for t in self.browser.evaluate(f"{TABLE}({json.dumps(NAME)})") if t[0][-1] == "notes"]
         for row, preset in zip(rows[1:], presets, strict=True):
             (everything,) = [s for s in preset["surfaces"] if s["surfaces"] == "all"]
             assert row[0] == preset["preset"] and abs(float(row[5]) - everything["symmetric"]) < 1e-4, (row, everything)
         # the truth has no error of its own, and this scene has no final image
         stages = self.browser.evaluate("[...document.querySelectorAll('.stage')].map(s => [...new Set([...s.querySelectorAll('option, .bar button')].map(o => o.textContent))])")
-        assert [s[5:8] for s in (stages[0], stages[2])] == [["truth", "mafia3", "kf2"], ["without reflections", "mafia3", "kf2"]], stages
+        assert [s[5:8] for s in (stages[0], stages[2])] == [["truth", "mafia3", "kf2"], ["without effects", "mafia3", "kf2"]], stages
         assert stages[1][:5] == ["Slider", "Side by side", "Flicker", "mafia3", "kf2"], stages
         self.browser.quiet()
 
