@@ -37,7 +37,7 @@ static void reference_is_near_the_truth_and_others_are_compared_with_it(UNUSED v
     char *folder = NULL;
     assert_true(asprintf(&folder, "--against=reference=%s", in_folder("reference")) > 0);
     text = glint_ok("replay", in_folder("fine.exr"), "--preset=reference", "--set=pipeline.rays=1", folder, "--json",
-                    "--set=downsample.jitter=false", "--set=screen_trace.length_m=0");
+                    "--set=downsample.jitter=false", "--set=screen_trace.length_m=0", "--effect=reflection");
     json = parse_json(text);
     run = json_array_get(json_object_get(json, "runs"), 0);
     const json_t *same =
