@@ -21,10 +21,11 @@ static bool is_made(const struct effect_search *search, const struct glint_effec
     return search->pipeline_count == 0;
 }
 
-/* Of a capture that cannot be opened here nothing is known; that is reported where it is replayed. */
-static bool has_truth(const struct effect_search *search, const struct glint_effect *effect, const char *path) {
+/* What cannot be opened here, or is read only once from a pipe, counts for the first effect, whose replay reports what is wrong with it. */
+static bool has_truth(const struct effect_search *search, const struct glint_effect *effect, bool first,
+                      const char *path) {
     struct glint_capture *capture = strcmp(path, "-") != 0 ? glint_capture_open(path, NULL, NULL) : NULL;
-    bool found = capture == NULL;
+    bool found = !capture && first;
     char part[96];
     for (size_t p = 0; capture && p < search->pipeline_count; p++) {
         glint_study_truth_part(effect, search->pipelines[p], part);
@@ -35,11 +36,11 @@ static bool has_truth(const struct effect_search *search, const struct glint_eff
 }
 
 static bool is_judged(const struct effect_search *search, const struct glint_pipeline *reference,
-                      const struct glint_effect *effect) {
+                      const struct glint_effect *effect, bool first) {
     bool judged = !search->reference && !search->truths;
     if (reference) judged = glint_study_made(reference, effect) != NULL;
     for (size_t c = 0; search->truths && !judged && c < search->truths->count; c++)
-        judged = has_truth(search, effect, search->truths->items[c]);
+        judged = has_truth(search, effect, first, search->truths->items[c]);
     return judged;
 }
 
@@ -61,7 +62,7 @@ size_t effects_find(const struct effect_search *search, const struct glint_effec
     if (search->reference && !reference) return 0;
     for (size_t e = 0; e < made; e++) {
         const struct glint_effect *effect = found[e];
-        if (!is_judged(search, reference, effect)) continue;
+        if (!is_judged(search, reference, effect, e == 0)) continue;
         memmove(&found[judged + 1], &found[judged], (e - judged) * sizeof *found);
         found[judged++] = effect;
     }
