@@ -4,7 +4,7 @@
 
 #include "glint/exr.h"
 
-enum { REWRITE_PARTS = 40, REWRITE_ATTRIBUTES = 96, REWRITE_CHANNELS = 24 };
+enum { REWRITE_PARTS = 40, REWRITE_ATTRIBUTES = 512, REWRITE_CHANNELS = 24 };
 
 struct rewrite_part {
     struct glint_exr_part part;

@@ -21,7 +21,7 @@ CASES = [
     ("repl", "replay"),
     ("help selft", "selftest"),
     ("replay --prese", "--preset="),
-    ("replay s.exr --preset=mafia_de_", "--preset=mafia_de_taa"),
+    ("replay s.exr --preset=mafia_de_t", "--preset=mafia_de_taa"),
     ("replay s.exr -p kf", "kf2"),
     ("replay s.exr -p min", "mine"),
     ("replay s.exr -p ./my.", "./my.json"),

@@ -9,7 +9,7 @@
 #include "cases/images/image_case_lists.h"
 #include "harness/texture_filter.h"
 
-enum { COLUMNS = 256, LISTS = 5, IMAGE_LISTS = 7 };
+enum { COLUMNS = 256, LISTS = 6, IMAGE_LISTS = 7 };
 
 static const struct function_list *const lists[LISTS] = {&functions_elementary, &functions_patterns,
                                                          &functions_geometry,   &functions_lobes,
