@@ -21,32 +21,34 @@ static bool is_made(const struct effect_search *search, const struct glint_effec
     return search->pipeline_count == 0;
 }
 
-/* What cannot be opened here, or is read only once from a pipe, counts for the first effect, whose replay reports what is wrong with it. */
-static bool has_truth(const struct effect_search *search, const struct glint_effect *effect, bool first,
-                      const char *path) {
-    struct glint_capture *capture = strcmp(path, "-") != 0 ? glint_capture_open(path, NULL, NULL) : NULL;
-    bool found = !capture && first;
+/* Whether the capture holds the truth of the effect, as one of the pipelines estimates it. */
+static bool holds_truth(const struct effect_search *search, const struct glint_effect *effect,
+                        const struct glint_capture *capture) {
     char part[96];
-    for (size_t p = 0; capture && p < search->pipeline_count; p++) {
+    for (size_t p = 0; p < search->pipeline_count; p++) {
         glint_study_truth_part(effect, search->pipelines[p], part);
-        found |= glint_capture_find(capture, part) != NULL;
+        if (glint_capture_find(capture, part)) return true;
     }
-    glint_capture_close(&capture);
-    return found;
+    return false;
 }
 
-static bool is_judged(const struct effect_search *search, const struct glint_pipeline *reference,
-                      const struct glint_effect *effect, bool first) {
-    bool judged = !search->reference && !search->truths;
-    if (reference) judged = glint_study_made(reference, effect) != NULL;
-    for (size_t c = 0; search->truths && !judged && c < search->truths->count; c++)
-        judged = has_truth(search, effect, first, search->truths->items[c]);
-    return judged;
+/* Marks the effects whose truth one of the captures holds. What cannot be opened here, or is read only once from a pipe, counts for the first
+   effect, whose replay reports what is wrong with it. */
+static void judge_by_truths(const struct effect_search *search, const struct glint_effect *const effects[],
+                            size_t count, bool judged[]) {
+    for (size_t c = 0; c < search->truths->count; c++) {
+        const char *path = search->truths->items[c];
+        struct glint_capture *capture = strcmp(path, "-") != 0 ? glint_capture_open(path, NULL, NULL) : NULL;
+        if (!capture) judged[0] = true;
+        for (size_t e = 0; capture && e < count; e++) judged[e] |= holds_truth(search, effects[e], capture);
+        glint_capture_close(&capture);
+    }
 }
 
 size_t effects_find(const struct effect_search *search, const struct glint_effect *found[EFFECTS_MAX],
                     struct glint_error *err) {
-    size_t all, made = 0, judged = 0;
+    size_t all, made = 0, kept = 0;
+    bool judged[EFFECTS_MAX];
     const struct glint_effect *effects = glint_effects(&all);
     if (search->name) {
         if (!(found[0] = named(search->name, err))) return 0;
@@ -60,14 +62,13 @@ size_t effects_find(const struct effect_search *search, const struct glint_effec
     if (made == 1) return made;
     struct glint_pipeline *reference = search->reference ? glint_pipeline_create("reference", err) : NULL;
     if (search->reference && !reference) return 0;
-    for (size_t e = 0; e < made; e++) {
-        const struct glint_effect *effect = found[e];
-        if (!is_judged(search, reference, effect, e == 0)) continue;
-        memmove(&found[judged + 1], &found[judged], (e - judged) * sizeof *found);
-        found[judged++] = effect;
-    }
+    for (size_t e = 0; e < made; e++)
+        judged[e] = reference ? glint_study_made(reference, found[e]) != NULL : !search->truths;
+    if (search->truths) judge_by_truths(search, found, made, judged);
+    for (size_t e = 0; e < made; e++)
+        if (judged[e]) found[kept++] = found[e];
     if (reference) glint_pipeline_destroy(&reference);
-    return judged ? judged : made;
+    return kept ? kept : made;
 }
 
 const struct glint_effect *effect_find(const struct command *command, const char *name,
