@@ -1,4 +1,5 @@
 /* Sensitivity of the reference to ASSUMED parameters: compares references with changed parameters that use the same random numbers. */
+#include "question.h"
 #include "reference.h"
 
 #include <math.h>
@@ -23,8 +24,7 @@ static void list_assumptions(const struct glint_reference *reference, struct gli
     const struct glint_pipeline *pipeline = reference->pipeline;
     for (size_t i = 0; i < glint_pipeline_pass_count(pipeline); i++) {
         const struct glint_pass *pass = glint_pipeline_pass(pipeline, i);
-        const struct glint_effect *own = glint_effect_find(pass->effect);
-        if (own && own != reference->effect) continue;
+        if (!study_concerns(reference->effect, pass)) continue;
         for (size_t r = 0; r < pass->row_count; r++) {
             if (!glint_row_is_parameter(&pass->rows[r]) || !glint_pass_assumes(pass, &pass->rows[r])) continue;
             const double value = glint_pipeline_value(pipeline, pass, &pass->rows[r]);

@@ -17,14 +17,18 @@ bool study_parameter_text(const struct glint_pipeline *pipeline, const char *slo
     return true;
 }
 
+bool study_concerns(const struct glint_effect *effect, const struct glint_pass *pass) {
+    const struct glint_effect *own = glint_effect_find(pass->effect);
+    return !own || own == effect;
+}
+
 /* The i-th row with role DEFINES_RESULT among the pipeline's passes, without those of effects other than `effect` (NULL: with all); NULL past
    the last. */
 static const struct glint_row *question_row(const struct glint_pipeline *pipeline, const struct glint_effect *effect,
                                             size_t i, const struct glint_pass **pass) {
     for (size_t p = 0; p < glint_pipeline_pass_count(pipeline); p++) {
         *pass = glint_pipeline_pass(pipeline, p);
-        const struct glint_effect *own = glint_effect_find((*pass)->effect);
-        if (effect && own && own != effect) continue;
+        if (effect && !study_concerns(effect, *pass)) continue;
         for (size_t r = 0; r < (*pass)->row_count; r++) {
             const struct glint_row *row = &(*pass)->rows[r];
             if (row->kind == GLINT_ROW_ROLE && row->first == GLINT_ROLE_DEFINES_RESULT && i-- == 0) return row;
