@@ -232,8 +232,10 @@ static bool draws_normals(const struct glint_pipeline *pipeline) {
 bool against_compare(struct against *against, size_t number, struct glint_replay *replay, struct glint_capture *capture,
                      const struct glint_pipeline *pipeline, struct comparison *c, struct glint_error *err) {
     const struct glint_effect *effect = against->effects[number];
+    const struct glint_row *made = glint_study_made(pipeline, effect);
     struct glint_error image = {0};
     *c = (struct comparison){.effect = effect,
+                             .unit = made ? made->unit : "1",
                              .several = against->effect_count > 1,
                              .truth = against->truth,
                              .reference = against->reference,

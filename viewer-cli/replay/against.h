@@ -38,6 +38,7 @@ void against_finish(struct against *against);
    algorithms' error, and what the reference is off the truth is information that the capture's data lack. */
 struct comparison {
     const struct glint_effect *effect;
+    const char *unit;      /* of its result */
     bool several;          /* of several that are compared */
     bool truth, reference; /* what the run is compared with */
     bool has_rays, has_image, jittered;

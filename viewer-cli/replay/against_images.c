@@ -26,7 +26,7 @@ static void list_images(const struct comparison *c, struct image images[KINDS]) 
                                         c->to_reference.flip};
     for (int k = 0; k < KINDS; k++) {
         const bool flip = k % 2 == 1;
-        images[k] = (struct image){"", flip ? "flip" : "error", flip ? "0 to 1" : "radiance", meanings[k], values[k]};
+        images[k] = (struct image){"", flip ? "flip" : "error", flip ? "0 to 1" : c->unit, meanings[k], values[k]};
         snprintf(images[k].name, sizeof images[k].name, "%s%s%s", c->several ? c->effect->name : "",
                  c->several ? "_" : "", names[k]);
     }
