@@ -141,7 +141,7 @@ static bool masked_errors(const struct answer *a, const uint8_t *mask, const uin
     return ok;
 }
 
-/* Compares the final image with the true one where water or glass covers opaque labels. */
+/* Compares the final image with the true one where water or glass covers opaque surfaces. */
 static bool read_picture(struct glint_judge *judge, struct showing *s, struct answer *a, struct glint_error *err) {
     struct glint_replay *replay = glint_judge_replay(judge);
     const struct glint_image *image = glint_study_picture(replay);
