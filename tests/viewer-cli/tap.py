@@ -1,6 +1,7 @@
 """Runs the methods test_… of an object, and reports in TAP."""
 import fnmatch
 import os
+import resource
 import sys
 import traceback
 
@@ -14,6 +15,11 @@ def explained(error):
     return traceback.format_exc()[:2000] + (f"{programs.Missing(error.filename)}\n" if missing else "")
 
 
+def cpu_seconds():
+    used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
+    return sum(u.ru_utime + u.ru_stime for u in used)
+
+
 def run(tests):
     """Whether any test failed. GLINT_TEST_ONLY, a pattern of names without test_, leaves out the others."""
     only = "test_" + os.environ.get("GLINT_TEST_ONLY", "*")
@@ -21,11 +27,12 @@ def run(tests):
     failed = 0
     print(f"1..{len(names)}", flush=True)
     for i, name in enumerate(names, 1):
-        words = name[5:].replace("_", " ")
+        words, before = name[5:].replace("_", " "), cpu_seconds()
         try:
             getattr(tests, name)()
             print(f"ok {i} - {words}", flush=True)
         except Exception as error:
             failed += 1
             print(f"not ok {i} - {words}\n# " + explained(error).replace("\n", "\n# "), flush=True)
+        print(f"# {cpu_seconds() - before:.1f} s of CPU", flush=True)
     return failed > 0
