@@ -26,12 +26,14 @@ def sources():
         yield from (os.path.relpath(os.path.join(folder, name)) for name in filter(kept, names))
 
 
+# With arguments, only these files are formatted, and only these headers compiled.
+chosen = set(sys.argv[1:])
 files = sorted(sources())
 if len(files) < 500:
     sys.exit(f"only {len(files)} files in {os.getcwd()}, expected the whole tree")
 faults = []
 # Headers of passes contain rows for two languages, which clang-format cannot format.
-formatted = [f for f in files if f.endswith((".c", ".h", ".cc")) and not re.search(r"^passes/[^i].*\.h$|\.pass\.h$", f)]
+formatted = [f for f in files if (not chosen or f in chosen) and f.endswith((".c", ".h", ".cc")) and not re.search(r"^passes/[^i].*\.h$|\.pass\.h$", f)]
 run = subprocess.run(["clang-format", "--dry-run", "-Werror", *formatted], capture_output=True, text=True)
 if run.returncode:
     faults.append(run.stderr)
@@ -71,7 +73,7 @@ generated = tempfile.TemporaryDirectory()
 os.mkdir(os.path.join(generated.name, "glint"))
 subprocess.run([sys.executable, "passes/table.py", "rows", os.path.join(generated.name, "glint/row_kinds.h")], check=True)
 includes = [a for d in ("capture-format", "pack", "passes", "replay", "study", "samples", "selftest") for a in ("-I", f"{d}/include")] + ["-I", generated.name]
-for h in (f for f in files if "/include/glint/" in f and f.endswith(".h")):
+for h in (f for f in files if (not chosen or f in chosen) and "/include/glint/" in f and f.endswith(".h")):
     for command in (["gcc", "-std=c11"], ["g++", "-std=c++17", "-x", "c++"]):
         with tempfile.NamedTemporaryFile("w", suffix=".c") as unit:
             unit.write(f'#include "{os.path.abspath(h)}"\n')

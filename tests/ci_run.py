@@ -51,7 +51,7 @@ class Tests:
             shutil.copytree(os.path.dirname(HERE), tree, ignore=shutil.ignore_patterns(".git", "build*", "out", "docs", "records", "scenes"))
             with open(os.path.join(tree, "viewer-cli/main.c"), "a", encoding="utf-8") as file:
                 file.write("int   spaced;\n")
-            done = subprocess.run([sys.executable, "tests/check_style.py"], cwd=tree, text=True, capture_output=True)
+            done = subprocess.run([sys.executable, "tests/check_style.py", "viewer-cli/main.c"], cwd=tree, text=True, capture_output=True)
         assert done.returncode == 1 and "main.c" in done.stderr and "clang-format" in done.stderr, done
 
     def test_a_program_that_gives_up_is_one_failure(self):

@@ -1,4 +1,4 @@
-"""A capture of a sample scene, dumped COUNT times (60 by default) as some engine might have it, each time in other formats and conventions, packed, and compared with
+"""A capture of a sample scene, dumped COUNT times (30 by default) as some engine might have it, each time in other formats and conventions, packed, and compared with
 the original's decoded values: random_manifests.py GLINT DECODED SCHEMA [COUNT]. Speaks TAP."""
 import math
 import os
@@ -16,7 +16,7 @@ import programs  # noqa: E402
 import texels  # noqa: E402
 
 GLINT, DECODED, SCHEMA = sys.argv[1:4]
-COUNT = int(sys.argv[4]) if len(sys.argv) > 4 else 60
+COUNT = int(sys.argv[4]) if len(sys.argv) > 4 else 30
 W, H, N = 24, 16, 4
 VIEW, CLIP, PREVIOUS_VIEW, PREVIOUS_CLIP = "world_to_view", "view_to_clip", "previous_world_to_view", "previous_view_to_clip"
 

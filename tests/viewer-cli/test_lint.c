@@ -320,10 +320,25 @@ static void damage_and_fix(struct rewrite *r, const char *id, int n) {
     outcome_free(&run);
 }
 
+static bool same_part(const struct rewrite_part *a, const struct rewrite_part *b) {
+    bool same = !strcmp(a->name, b->name) && a->part.channel_count == b->part.channel_count;
+    for (size_t c = 0; same && c < a->part.channel_count; c++)
+        same = !strcmp(a->channels[c].name, b->channels[c].name) && a->channels[c].stored == b->channels[c].stored &&
+               !memcmp(a->data[c], b->data[c],
+                       (size_t)a->part.width * a->part.height * (a->channels[c].stored == GLINT_STORED_HALF ? 2 : 4));
+    return same;
+}
+
 static bool same_pixels(void) {
-    struct outcome same = run_program("idiff", "-a", in_folder("damaged.exr"), in_folder("fixed.exr"), NULL);
-    const bool all = same.status == 0;
-    outcome_free(&same);
+    struct rewrite *files = malloc(2 * sizeof *files);
+    assert_non_null(files);
+    rewrite_load(&files[0], in_folder("damaged.exr"));
+    rewrite_load(&files[1], in_folder("fixed.exr"));
+    bool all = files[0].count == files[1].count;
+    for (size_t p = 0; all && p < files[0].count; p++) all = same_part(&files[0].parts[p], &files[1].parts[p]);
+    rewrite_finish(&files[0]);
+    rewrite_finish(&files[1]);
+    free(files);
     return all;
 }
 
