@@ -213,6 +213,8 @@ struct lint_agreement {
     struct lint_facing facing[LINT_SAMPLES]; /* LINT_FACETS, sample by sample */
 };
 enum { LINT_ENOUGH = 200 };
+void lint_measure(const struct lint_data *data, const struct lint_reading *reading, enum lint_measure m,
+                  struct lint_agreement *a);
 /* Takes the measures whose bits are set in `which`, and copies the others from `known`. NULL for `known` takes all. */
 struct lint_agreement lint_agree(const struct lint_data *data, const struct lint_reading *reading,
                                  const struct lint_agreement *known, unsigned which);

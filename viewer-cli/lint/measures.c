@@ -228,18 +228,21 @@ static struct lint_tally compare_colors(const struct lint_data *data, const stru
     return tally;
 }
 
-struct lint_agreement lint_agree(const struct lint_data *data, const struct lint_reading *reading,
-                                 const struct lint_agreement *known, unsigned which) {
+void lint_measure(const struct lint_data *data, const struct lint_reading *reading, enum lint_measure m,
+                  struct lint_agreement *a) {
     static struct lint_tally (*const take[])(const struct lint_data *, const struct lint_reading *) = {
         NULL, compare_cubemaps, compare_motion, compare_colors, lint_before, lint_light, lint_sky};
+    const struct lint_tally tally =
+        m == LINT_FACETS ? compare_facets(data, reading, a->facing) : take[m](data, reading);
+    a->count[m] = tally.count;
+    a->share[m] = tally.count ? (double)tally.agree / (double)tally.count : 0;
+}
+
+struct lint_agreement lint_agree(const struct lint_data *data, const struct lint_reading *reading,
+                                 const struct lint_agreement *known, unsigned which) {
     struct lint_agreement a = {{0}, {0}, {{0, 0}}};
     if (known) a = *known;
-    for (int m = 0; m < LINT_MEASURES; m++) {
-        if (known && !(which & (1u << m))) continue;
-        const struct lint_tally tally =
-            m == LINT_FACETS ? compare_facets(data, reading, a.facing) : take[m](data, reading);
-        a.count[m] = tally.count;
-        a.share[m] = tally.count ? (double)tally.agree / (double)tally.count : 0;
-    }
+    for (int m = 0; m < LINT_MEASURES; m++)
+        if (!known || which & (1u << m)) lint_measure(data, reading, (enum lint_measure)m, &a);
     return a;
 }

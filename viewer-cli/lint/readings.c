@@ -1,4 +1,5 @@
 /* Searches the conventions under which independent images match best: the best single change first, then further changes from there. */
+#include <assert.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -116,14 +117,22 @@ static bool is_ahead(const struct lint_agreement *from, const struct lint_agreem
     return tail(better, decided) < 0.01 / ROWS;
 }
 
+static bool is_compared(const struct lint_agreement *from, const struct lint_agreement *to, int m) {
+    return from->count[m] >= LINT_ENOUGH || to->count[m] >= LINT_ENOUGH;
+}
+
+static bool gets_worse(const struct lint_agreement *from, const struct lint_agreement *to, int m) {
+    return is_compared(from, to, m) && lint_worth(to, from, m) - lint_worth(from, to, m) < -0.02;
+}
+
 /* By how much the second agreement is better: the sum over all measures. -1 when any measure gets worse. 0 when no measure gains
    much: at least one must halve its mismatches or more than double its matches, by more than a few samples, or be proven by pairs. */
 static double gain(const struct lint_agreement *from, const struct lint_agreement *to, int *most) {
     double sum = 0, largest = 0;
     for (int m = 0; m < LINT_MEASURES; m++) {
-        if (from->count[m] < LINT_ENOUGH && to->count[m] < LINT_ENOUGH) continue;
+        if (!is_compared(from, to, m)) continue;
+        if (gets_worse(from, to, m)) return -1;
         const double before = lint_worth(from, to, m), after = lint_worth(to, from, m), difference = after - before;
-        if (difference < -0.02) return -1;
         sum += difference;
         if (difference <= largest || difference < 0.015) continue;
         if (1 - after > 0.5 * (1 - before) && after < 2.5 * before && !(m == LINT_FACETS && is_ahead(from, to)))
@@ -251,6 +260,22 @@ static void consider(struct contest *contest, const struct lint_agreement *from,
     } else if (c->gain > contest->second.gain) contest->second = *c;
 }
 
+/* Takes the measures whose bits are set in `which`, the cheap ones first. Once one of them gets worse, the reading has lost, and the rest need
+   not be known. */
+static void measure_and_consider(const struct lint_data *data, unsigned which, struct contest *contest,
+                                 const struct lint_agreement *from, struct candidate *c) {
+    static const enum lint_measure order[] = {LINT_MOTION, LINT_SKY,      LINT_BEFORE, LINT_LIGHT,
+                                              LINT_FACETS, LINT_CUBEMAPS, LINT_COLORS};
+    static_assert(sizeof order / sizeof *order == LINT_MEASURES, "each measure has its place");
+    c->agreement = *from;
+    for (size_t i = 0; i < LINT_MEASURES; i++) {
+        if (!(which & 1u << order[i])) continue;
+        lint_measure(data, &c->reading, order[i], &c->agreement);
+        if (gets_worse(from, &c->agreement, order[i])) return;
+    }
+    consider(contest, from, c);
+}
+
 static const char *what_of(const struct candidate *c) {
     return c->row < ROWS ? rows[c->row].what : "cube-map centres are wrong";
 }
@@ -287,8 +312,7 @@ static void try_rows(const struct lint_data *data, const struct lint_reading *re
         struct candidate c = {.row = i, .also = NONE, .reading = *reading};
         apply_reading(data, &c.reading, i);
         if (!memcmp(&c.reading, reading, sizeof c.reading)) continue;
-        c.agreement = lint_agree(data, &c.reading, agreement, measures_of(rows[i].id));
-        consider(contest, agreement, &c);
+        measure_and_consider(data, measures_of(rows[i].id), contest, agreement, &c);
     }
 }
 
@@ -308,8 +332,7 @@ static void try_pairs_of_normals(const struct lint_data *data, const struct lint
             first = c.reading;
             apply_reading(data, &c.reading, k);
             if (!memcmp(&c.reading, &first, sizeof first) || !memcmp(&first, reading, sizeof first)) continue;
-            c.agreement = lint_agree(data, &c.reading, agreement, 1u << LINT_FACETS);
-            consider(&pairs, agreement, &c);
+            measure_and_consider(data, 1u << LINT_FACETS, &pairs, agreement, &c);
         }
     const double together = pairs.best.agreement.share[LINT_FACETS];
     if (pairs.best.gain > contest->best.gain && together > 0.6 && together > alone + 0.15) *contest = pairs;
