@@ -1,0 +1,4 @@
+/* The mask that the engine resolved from its shadow maps. */
+PASS("The captured mask", "Mafia DE article, Parallel Split Shadows")
+#include "slot.h"
+REFERENCE
