@@ -13,6 +13,7 @@ ABSENCE("previous.gbuffer", "", "colours of the previous frame are used also whe
 ABSENCE("indirect", "", "occlusion has nothing to darken: which part of the light is ambient is not known, and light of the sun and of lamps is not to be darkened")
 ABSENCE("emissive", "", "what surfaces emit themselves is not known apart from the light that falls on them")
 ABSENCE("ao", "", "the engine's own occlusion is not there to be compared with, or taken out of the ambient light")
+ABSENCE("shadow", "", "a shadow mask cannot be made from the engine's shadow map")
 ABSENCE("sun", "", "contact shadows are all that shades the sun: what casts a shadow from farther away is not known")
 ABSENCE("gbuffer", "motion.X", "moving objects are reprojected as if they stood still, and smear")
 ABSENCE("gbuffer", "motion.Z", "objects that move along the view are compared with the previous frame at the wrong depth")

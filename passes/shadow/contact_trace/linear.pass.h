@@ -14,6 +14,6 @@ PUSH(float, growth,      1.0,   0.5, 8.0,   "1", "chosen by the measured error",
 PUSH(float, first_step,  0.0,   0.0, 1.0,   "1", "glint", "fraction of the ray's length that the first step takes, from which the growth then follows; 0: use growth")
 PUSH(float, thickness,   0.02,  0.0, 100.0, "1", "chosen by the measured error", "relative thickness: a ray behind a surface by more than this fraction of the depth misses it")
 PUSH(float, thickness_m, 0.0,   0.0, 1e6,   "m", "chosen by the measured error", "absolute thickness, added to the relative one; 1e6: everything is solid")
-PUSH(float, bias,        0.001, 0.0, 1.0,   "1", "KF2 article, Linear ray march", "min relative depth behind a surface that counts as behind")
+PUSH(float, bias,        0.002, 0.0, 1.0,   "1", "KF2 article, Linear ray march", "min relative depth behind a surface that counts as behind")
 ASSUMED(thickness)
 ASSUMED(thickness_m)
