@@ -130,6 +130,7 @@ static void a_shadow_is_as_long_as_the_sun_is_low(void **state) {
 static void the_sun_may_stand_anywhere(void **state) {
     static const double share[VARIANTS] = {0.01, 0.01, 0.012, 0.03, 0};
     struct gpu *gpu = *state;
+    int dark = 0;
     for (int azimuth = 0; azimuth < 360; azimuth += 72) {
         const struct glint_sun sun = sun_at(35, azimuth);
         const struct plain plain = frame_of(&box, &sun);
@@ -141,11 +142,13 @@ static void the_sun_may_stand_anywhere(void **state) {
             const struct counts c = count_errors(&plain, found, 0.5);
             print_message("# %s, %d degrees: of %d dark %d missed, of %d lit %d dark\n", variants[v], azimuth, c.dark,
                           c.missed, c.pixels - c.dark, c.false_dark);
-            assert_true(c.pixels > 8000 && c.dark > 50);
+            dark += c.dark;
+            assert_true(c.pixels > 8000);
             assert_true(c.missed + c.false_dark <= share[v] * c.pixels);
             free(found);
         }
     }
+    assert_true(dark > 2000);
 }
 
 /* ---- nothing shades itself ---- */
@@ -430,6 +433,7 @@ static struct glint_shadow map_of(const struct glint_sun *sun, bool reversed) {
 static void a_shadow_map_makes_the_mask(void **state) {
     static const char *const words[] = {"shadow_mask=map", "shadow_mask.taps=1", "contact_trace=dda", "contact_trace.length_m=0", NULL};
     struct gpu *gpu = *state;
+    int dark = 0;
     for (int reversed = 0; reversed < 2; reversed++)
         for (int azimuth = 0; azimuth < 360; azimuth += 60) {
             const struct glint_sun sun = sun_at(40, azimuth);
@@ -441,9 +445,11 @@ static void a_shadow_map_makes_the_mask(void **state) {
             const struct counts c = count_errors(&plain, found, INFINITY);
             print_message("# %d degrees: of %d dark %d missed, of %d lit %d dark\n", azimuth, c.dark, c.missed,
                           c.pixels - c.dark, c.false_dark);
-            assert_true(c.dark > 10 && c.missed + c.false_dark <= 0.004 * c.pixels); /* texels of 23 mm, and the bias of 40 mm */
+            dark += c.dark;
+            assert_true(c.missed + c.false_dark <= 0.004 * c.pixels); /* texels of 23 mm, and the bias of 40 mm */
             free(found);
         }
+    assert_true(dark > 1500);
 }
 
 int main(void) {
