@@ -19,18 +19,17 @@ TRACE = [
     'linear downsample=mips contact_apply=planes', 'linear downsample=mips contact_apply=bilinear', 'linear_binary', 'linear_facets',
     'hiz', 'dda', 'dda inside=false', 'dda solid=0.25', 'dda solid=4', 'dda disc=1 directions=16']
 MASK = [
-    'length_m=0', 'linear', 'shadow_mask=map length_m=0', 'shadow_mask=map taps=1 length_m=0', 'shadow_mask=map linear',
-    'shadow_mask=map linear thickness=0.005', 'shadow_mask=map linear back_faces=true', 'shadow_mask=map linear length_m=0.1',
-    'shadow_mask=map linear end_fade=0.5', 'shadow_mask=map linear border_fade=0.05', 'shadow_mask=map linear facing=false',
-    'shadow_mask=map linear skip=false', 'shadow_mask=map dda', 'shadow_mask=map dda length_m=0.1']
+    'shadow_mask=captured length_m=0', 'shadow_mask=captured linear', 'length_m=0', 'linear', 'dda', 'length_m=0 offset=0', 'linear offset=0',
+    'length_m=0 taps=3', 'linear taps=3', 'linear thickness=0.005', 'linear back_faces=true', 'linear length_m=0.1', 'linear end_fade=0.5',
+    'linear border_fade=0.05', 'linear facing=false', 'linear skip=false', 'dda length_m=0.1']
 EFFECTS = {
     'shadow': {
         'scenes': ['courtyard', 'room', 'still_life', 'kitchen'],
         'sample': ['--truth-of', 'sun', '--also', 'shadow'],
-        'slots': {'downsample': 'none', 'hiz': 'nearest', 'shadow_mask': 'captured', 'contact_trace': 'linear', 'contact_apply': 'bilinear'},
+        'slots': {'downsample': 'none', 'hiz': 'nearest', 'shadow_mask': 'map', 'contact_trace': 'linear', 'contact_apply': 'bilinear'},
         'trace': 'contact_trace', 'apply': 'contact_apply', 'fetches': 'contact_fetches',
         'tables': {'contact_trace': (TRACE, ['shadow_mask.mask=none']), 'shadow_mask': (MASK, [])}}}
-ELSEWHERE = {'facing': 'contact_apply', 'mask': 'shadow_mask', 'taps': 'shadow_mask'}
+ELSEWHERE = {'facing': 'contact_apply', 'mask': 'shadow_mask', 'taps': 'shadow_mask', 'offset': 'shadow_mask'}
 
 
 def run(command):

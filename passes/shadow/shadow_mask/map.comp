@@ -10,9 +10,12 @@
 #include "shared/sun.glsl"
 
 // The part of the compared texels that let the sun pass; points outside of the map are lit.
-float lit_by_map(vec3 world) {
-    vec4 at = frame.shadow_uv_from_world * vec4(world, 1.0);
+float lit_by_map(vec3 world, vec3 normal) {
     ivec2 size = textureSize(shadow_map, 0);
+    vec4 at = frame.shadow_uv_from_world * vec4(world, 1.0);
+    vec3 across = vec3(frame.shadow_uv_from_world[0].x, frame.shadow_uv_from_world[1].x, frame.shadow_uv_from_world[2].x);
+    float texel_m = at.w / (length(across) * float(size.x));
+    at = frame.shadow_uv_from_world * vec4(world + offset * texel_m * normal, 1.0);
     if (!(at.w > 0.0)) return 1.0;
     vec3 place = at.xyz / at.w;
     if (!(all(greaterThanEqual(place, vec3(0.0))) && all(lessThan(place, vec3(1.0))))) return 1.0;
@@ -31,11 +34,12 @@ void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, imageSize(shadow_mask)))) return;
     float depth_m = texelFetch(depth_full, pixel, 0).x, visible = 1.0;
+    vec3 normal = texelFetch(normal_full, pixel, 0).xyz;
     if (mask == mask_captured && depth_m > 0.0 && depth_m < LARGEST) {
-        if (textureSize(sun_mask, 0) == ivec2(frame.size.xy)) visible = valid_mask(texelFetch(sun_mask, pixel, 0).x);
         vec2 uv = (vec2(pixel) + 0.5) / vec2(frame.size.xy);
         vec3 view = view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
-        if (visible > 0.0) visible = min(visible, lit_by_map(mat3(frame.world_from_view) * view));
+        if (textureSize(sun_mask, 0) == ivec2(frame.size.xy)) visible = valid_mask(texelFetch(sun_mask, pixel, 0).x);
+        else if (reflects(depth_m, normal)) visible = lit_by_map(mat3(frame.world_from_view) * view, normalize(normal));
     }
     imageStore(shadow_mask, pixel, vec4(visible));
 }

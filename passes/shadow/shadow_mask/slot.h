@@ -2,9 +2,8 @@
 #line 102
 SLOT("Shadow of the sun without contact shadows")
 READ(texture2D, sun_mask)
-WITHOUT(sun_mask, "nothing but what the ray finds on screen shades the sun")
 WRITE(image2D, shadow_mask, R16F, "1", FULL, "visibility", 1, "1 in the sun, 0 in its shadow; contact shadows are added to it")
-CHOICE2(mask, captured, captured, none, "Mafia DE article, Parallel Split Shadows", "captured: contact shadows are combined with the engine's own mask; none: they are all that shades the sun, and compared with the truth's over the same length")
+CHOICE2(mask, captured, captured, none, "Mafia DE article, Parallel Split Shadows", "captured: contact shadows are combined with the mask of the engine; none: they are all that shades the sun, and compared with the truth's over the same length")
 DISPATCH(shadow_mask)
 NEEDS(sun)
 NEEDS(surfaces)
