@@ -169,8 +169,7 @@ struct glint_frame {
     uint32_t light_count;
 };
 
-/* Warnings about a valid frame, one sentence each: cameras whose stored rotation is too imprecise for their distance from the
-   origin. Returns their number. */
+/* Warnings about a valid frame, one sentence each: a camera's rotation is too imprecise that far from the origin. Returns their number. */
 enum { GLINT_NOTES = 2, GLINT_NOTE_LENGTH = 400 };
 size_t glint_frame_notes(const struct glint_frame *frame, char notes[GLINT_NOTES][GLINT_NOTE_LENGTH]);
 
