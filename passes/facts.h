@@ -37,3 +37,6 @@ FACT(fresnel, PARTS, s->has_fresnel, SAY("materials with%s a Fresnel factor", s-
 FACT(history, PARTS, s->has_history, SAY("%s", s->has_history ? "the previous frame is available" : "no previous frame, or a camera cut"))
 FACT(indirect_light, PARTS, s->has_indirect, SAY("%s part of the light that is indirect", s->has_indirect ? "a" : "no"))
 FACT(sun, PARTS, s->has_sun, SAY("%s sun", s->has_sun ? "a" : "no"))
+/* Whether contact shadows can take light away: surfaces that the captured mask leaves in the sun. */
+FACT(sunlit, PIXELS, s->has_sun && s->sunlit > 0,
+     s->has_sun ? SAY("%llu of %llu surfaces are not in the shadow of the sun's mask", N(s->sunlit), N(s->surfaces.count)) : SAY("no sun"))

@@ -28,4 +28,6 @@ FIELD(vec4,  probe_low,            "xyz: a corner of the probe's box, relative t
 FIELD(vec4,  probe_high,           "xyz: the opposite corner; w: 0")
 FIELD(mat4,  mirror_uv_from_world, "camera-relative world space to (u, v, 1, 1) times depth in m, as the planar map's camera sees it; 0 without a planar map")
 FIELD(vec4,  mirror_plane,         "xyz: unit normal of the planar map's mirror; w: n·p + w = 0 on it, in camera-relative world space, in m")
+FIELD(mat4,  shadow_uv_from_world, "camera-relative world space to (u, v, depth, 1) times w in the shadow map; 0 without a shadow map of the sun")
+FIELD(vec4,  shadow_depth,         "x: 1 where depths of the shadow map grow away from the light, -1 where they fall; y: the engine's bias; zw: 0")
 FIELD(vec4,  jitter,               "xy: shift of this frame's picture by jitter in px, x to the right and y down; zw: 0")

@@ -105,6 +105,27 @@ void frame_block_mirror(struct frame_block *block, const struct glint_frame *fra
                                  (float)(planar->plane[2] / length), (float)(offset / length * metres)};
 }
 
+/* A point p in metres, relative to this camera, is at eye + p/u in the world. The map's x and y are in [-1, 1]. */
+void frame_block_shadow(struct frame_block *block, const struct glint_frame *frame, const struct glint_shadow *shadow) {
+    const double metres = frame->metres_per_unit > 0 ? frame->metres_per_unit : 1;
+    const double down = frame->clip_y == GLINT_CLIP_Y_DOWN ? 1 : -1, *m = shadow->world_to_shadow;
+    double eye[3];
+    glint_camera_position(&frame->camera, eye);
+    for (int c = 0; c < 4; c++) {
+        double of[4];
+        for (int r = 0; r < 4; r++)
+            of[r] = c < 3 ? m[4 * r + c] / metres
+                          : m[4 * r] * eye[0] + m[4 * r + 1] * eye[1] + m[4 * r + 2] * eye[2] + m[4 * r + 3];
+        float *column = block->shadow_uv_from_world.column[c];
+        column[0] = (float)(0.5 * (of[3] + of[0]));
+        column[1] = (float)(0.5 * (of[3] + down * of[1]));
+        column[2] = (float)of[2];
+        column[3] = (float)of[3];
+    }
+    const bool falls = shadow->range[0] > shadow->range[1];
+    block->shadow_depth = (vec4){falls ? -1 : 1, (float)shadow->bias, 0, 0};
+}
+
 static vec4 metres_of(const double units[3], const double from[3], double metres) {
     return (vec4){(float)((units[0] - from[0]) * metres), (float)((units[1] - from[1]) * metres),
                   (float)((units[2] - from[2]) * metres), 0};

@@ -23,7 +23,7 @@ struct frame_block {
 };
 
 struct frame_sizes {
-    uint32_t full[2], half[2], planar[2];
+    uint32_t full[2], half[2], planar[2], shadow[2];
     uint32_t active, chain, cube_face, sky_face, probe_face, probe_mips;
     bool is_cpu;  /* that of struct glint_device_info */
     bool history; /* images of the previous frame are available */
@@ -34,6 +34,8 @@ int up_axis(enum glint_axis up, double *sign);
 void frame_block_fill(struct frame_block *block, const struct glint_frame *frame, const struct frame_sizes *sizes);
 /* Sets the fields of the planar reflection map, which stay 0 without one. */
 void frame_block_mirror(struct frame_block *block, const struct glint_frame *frame, const struct glint_planar *planar);
+/* Sets the fields of the sun's shadow map, which stay 0 without one. */
+void frame_block_shadow(struct frame_block *block, const struct glint_frame *frame, const struct glint_shadow *shadow);
 /* Sets what the capture says of its part `indirect`. */
 void frame_block_captured_light(struct frame_block *block, const struct glint_capture *capture);
 /* Sets the fields of what rays find that nothing nearer continues: sky, probe, painted ground. */

@@ -179,6 +179,8 @@ static struct glint_frame frame_of(const struct plain *plain) {
     if (plain->fog) frame.fog = *plain->fog;
     frame.has_material = plain->material != NULL;
     if (plain->material) frame.material = *plain->material;
+    frame.has_sun = plain->sun != NULL;
+    if (plain->sun) frame.sun = *plain->sun;
     frame.previous = frame.camera;
     for (int i = 0; i < 2; ++i) { /* to the right, and down */
         frame.jitter_px[i] = plain->jitter_px[i];
@@ -223,6 +225,35 @@ static bool add_pictures(struct glint_writer *writer, const struct plain *plain,
     return ok;
 }
 
+/* One plane of values. */
+static bool add_plane(struct glint_writer *writer, struct glint_part part, const char *channel, const float *values,
+                      struct glint_error *err) {
+    const struct glint_channel channels[] = {{.name = channel, .type = GLINT_F32, .data = values}};
+    part.channels = channels;
+    part.channel_count = 1;
+    return glint_writer_add_part(writer, &part, err);
+}
+
+static bool add_shadows(struct glint_writer *writer, const struct plain *plain, struct glint_error *err) {
+    enum { MAP = 256 };
+    const uint32_t pixels = plain->width * plain->height;
+    float *values = malloc((pixels > MAP * MAP ? pixels : MAP * MAP) * sizeof *values);
+    bool ok = values || no_memory(err);
+    for (uint32_t i = 0; ok && plain->sun_mask && i < pixels; ++i)
+        values[i] = plain->sun_mask(plain, i % plain->width, i / plain->width);
+    if (ok && plain->sun_mask)
+        ok = add_plane(writer, (struct glint_part){.name = "sun", .width = plain->width, .height = plain->height},
+                       "visibility", values, err);
+    for (uint32_t i = 0; ok && plain->shadow_map && i < MAP * MAP; ++i)
+        values[i] = plain->shadow_map(plain, (i % MAP + 0.5) / MAP, (i / MAP + 0.5) / MAP);
+    if (ok && plain->shadow_map)
+        ok = add_plane(writer,
+                       (struct glint_part){.name = "shadow.000", .width = MAP, .height = MAP, .shadow = &plain->shadow},
+                       "depth.Z", values, err);
+    free(values);
+    return ok;
+}
+
 bool plain_write(const char *path, const struct plain *plain, struct glint_error *err) {
     float *values = malloc((size_t)plain->width * plain->height * PLAIN_CHANNELS * sizeof *values);
     if (!values) return no_memory(err);
@@ -233,6 +264,7 @@ bool plain_write(const char *path, const struct plain *plain, struct glint_error
     struct glint_writer *writer = glint_writer_create(path, &options, err);
     bool ok = writer && glint_writer_set_frame(writer, &frame, err) && add_pictures(writer, plain, values, err);
     free(values);
+    ok = ok && add_shadows(writer, plain, err);
     ok = ok && (!plain->water || add_over(writer, plain, "water", plain->water, err)) &&
          (!plain->pane || add_over(writer, plain, "transparent", plain->pane, err));
     for (uint32_t i = 0; ok && plain->cube && i < plain->cube_count; ++i) ok = add_cube(writer, plain, i, err);

@@ -46,6 +46,11 @@ struct plain {
     const double *world_to_view;                 /* 16 values; NULL: as above */
     const struct glint_fog *fog;                 /* NULL: none */
     const struct glint_material_model *material; /* NULL: as the format has it */
+    const struct glint_sun *sun;                 /* NULL: none */
+    float (*sun_mask)(const struct plain *plain, uint32_t x, uint32_t y); /* NULL: none */
+    /* The sun's shadow map, 256 wide; NULL: none. */
+    float (*shadow_map)(const struct plain *plain, double u, double v);
+    struct glint_shadow shadow;
     enum glint_axis up;
     enum glint_compression compression;
     const void *user; /* for `spoil` */

@@ -115,19 +115,34 @@ bool glint_study_run_result(struct glint_run *run, const struct glint_effect *ef
 
 /* ---- Truth ---- */
 
-void glint_study_truth_part(const struct glint_effect *effect, const struct glint_pipeline *pipeline, char part[96]) {
+/* The choice of the parameter with a role; the default where there is no pipeline. NULL where the pipeline has no such parameter. */
+static const char *choice_of(enum glint_pass_role role, const struct glint_pipeline *pipeline, size_t *place) {
     const char *name;
     char choice[64];
-    const struct glint_pass *any = effect->truth_has_choices ? glint_pass_with_role(effect->truth_by, &name) : NULL;
-    if (!any) {
-        snprintf(part, 96, "%s", effect->truth);
-        return;
-    }
-    const struct glint_row *row = glint_pass_parameter(any, name);
-    /* The default where the pipeline has no such parameter. */
-    if (!pipeline || !study_parameter_text(pipeline, any->slot, name, choice))
-        snprintf(choice, sizeof choice, "%s", row->choices[(size_t)row->initial]);
-    snprintf(part, 96, "%s.%s", effect->truth, choice);
+    const struct glint_pass *any = glint_pass_with_role(role, &name);
+    const struct glint_row *row = any ? glint_pass_parameter(any, name) : NULL;
+    if (!row || !row->choices || (pipeline && !study_parameter_text(pipeline, any->slot, name, choice))) return NULL;
+    *place = (size_t)row->initial;
+    for (size_t i = 0; pipeline && row->choices[i]; i++)
+        if (!strcmp(row->choices[i], choice)) *place = i;
+    return row->choices[*place];
+}
+
+void glint_study_truth_part(const struct glint_effect *effect, const struct glint_pipeline *pipeline, char part[96]) {
+    size_t place;
+    const char *choice = effect->truth_has_choices ? choice_of(effect->truth_by, pipeline, &place) : NULL;
+    if (effect->truth_has_choices && !choice) choice = choice_of(effect->truth_by, NULL, &place);
+    snprintf(part, 96, choice ? "%s.%s" : "%s", effect->truth, choice);
+}
+
+static void truth_channels(const struct glint_effect *effect, const struct glint_pipeline *pipeline,
+                           struct study_channel_list *channels) {
+    size_t place;
+    study_split_channels(effect->channel_choices ? effect->channel_choices : effect->channels, channels);
+    if (!effect->channel_choices) return;
+    if (!choice_of(effect->channel_by, pipeline, &place) || place >= channels->count) place = channels->count - 1;
+    channels->names[0] = channels->names[place];
+    channels->count = 1;
 }
 
 /* The relative standard error of each pixel: 0 if the part declares none, +inf where nothing is known. */
@@ -156,7 +171,7 @@ bool glint_study_truth(struct glint_capture *capture, const struct glint_effect 
     glint_study_truth_part(effect, pipeline, name);
     const struct glint_part_info *part = glint_capture_find(capture, name);
     if (!part) return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part %s: missing", glint_capture_path(capture), name);
-    study_split_channels(effect->channels, &channels);
+    truth_channels(effect, pipeline, &channels);
     *pixels = (struct glint_pixels){part->width, part->height, channels.count,
                                     study_channels(capture, name, channels.names, channels.count, err)};
     return pixels->values && truth_errors(capture, part, error, err);

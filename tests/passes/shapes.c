@@ -28,12 +28,30 @@ static void meet_sphere(const double sphere[4], const double from[3], const doub
     for (int k = 0; k < 3; k++) normal[k] = (from[k] + t * direction[k] - sphere[k]) / sphere[3];
 }
 
+/* The ray is inside between the last entry and the first exit of the three pairs of planes. */
+static void meet_box(const double box[6], const double from[3], const double direction[3], double *nearest,
+                     double normal[3]) {
+    double enters = -INFINITY, leaves = INFINITY;
+    int axis = 0;
+    for (int k = 0; k < 3; k++) {
+        const double one = (box[k] - from[k]) / direction[k], other = (box[3 + k] - from[k]) / direction[k];
+        if (direction[k] == 0 && !(from[k] > box[k] && from[k] < box[3 + k])) return;
+        if (direction[k] == 0) continue;
+        if (fmin(one, other) > enters) enters = fmin(one, other), axis = k;
+        leaves = fmin(leaves, fmax(one, other));
+    }
+    if (!(enters < leaves && enters > 1e-9 && enters < *nearest)) return;
+    *nearest = enters;
+    for (int k = 0; k < 3; k++) normal[k] = k == axis ? -copysign(1, direction[axis]) : 0;
+}
+
 double shapes_hit(const struct shapes *shapes, const double from[3], const double direction[3], double normal[3]) {
     double nearest = INFINITY;
     if (shapes->floor_y != 0) meet_plane(1, shapes->floor_y, INFINITY, from, direction, &nearest, normal);
     if (shapes->ceiling_y != 0) meet_plane(1, shapes->ceiling_y, INFINITY, from, direction, &nearest, normal);
     if (shapes->wall_z != 0) meet_plane(2, shapes->wall_z, shapes->wall_top, from, direction, &nearest, normal);
     if (shapes->sphere[3] > 0) meet_sphere(shapes->sphere, from, direction, &nearest, normal);
+    if (shapes->box[3] > shapes->box[0]) meet_box(shapes->box, from, direction, &nearest, normal);
     return nearest;
 }
 

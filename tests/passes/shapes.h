@@ -9,6 +9,7 @@ struct shapes {
     double ceiling_y;        /* and a ceiling above it; 0: none */
     double wall_z, wall_top; /* a wall across the view, up to this height (+inf: endless); wall_z 0: none */
     double sphere[4];        /* centre and radius; 0: none */
+    double box[6];           /* its lowest and its highest corner; equal: none */
 };
 
 /* Where a ray from `from` meets a surface first: the distance in lengths of `direction`, +inf where nowhere, and its unit normal towards the ray. */

@@ -169,8 +169,7 @@ struct glint_frame {
     uint32_t light_count;
 };
 
-/* Warnings about a valid frame, one sentence each: cameras whose stored rotation is too imprecise for their distance from the
-   origin. Returns their number. */
+/* Warnings about a valid frame, one sentence each: a camera's rotation is too imprecise that far from the origin. Returns their number. */
 enum { GLINT_NOTES = 2, GLINT_NOTE_LENGTH = 400 };
 size_t glint_frame_notes(const struct glint_frame *frame, char notes[GLINT_NOTES][GLINT_NOTE_LENGTH]);
 
@@ -456,6 +455,7 @@ bool glint_capture_validate(const char *path, const struct glint_limits *limits,
 #define GLINT_PART_PROBE "probe.000" /* the only probe that passes use */
 #define GLINT_PART_WATER "water"
 #define GLINT_PART_TRANSPARENT "transparent"
+#define GLINT_PART_SHADOW "shadow.000" /* the only shadow map that passes use */
 #define GLINT_PART_MIRROR "planar.000" /* the only planar map that passes use */
 
 /* ---- The registry of roles, which writer, reader, validation and the tables of FORMAT.md are generated from ---- */

@@ -22,6 +22,7 @@ enum glint_pass_role {
     GLINT_ROLE_COMPOSED,             /* the picture, into which the slot composes the results of effects */
     GLINT_ROLE_LOBE,           /* the parameter that names the lobe that rays are drawn from: truth.reflection.LOBE */
     GLINT_ROLE_DEFINES_RESULT, /* a parameter that defines which image is estimated, not how well: the reference adopts it */
+    GLINT_ROLE_SHADOW_MASK, /* the parameter that says whether contact shadows are combined with the captured mask */
     /* Images of rays, one ray a texel. */
     GLINT_ROLE_RAY_NORMAL,   /* normal and roughness of the surface that the ray starts from */
     GLINT_ROLE_RAY_PICK,     /* the pixel that the ray starts from */
@@ -67,6 +68,7 @@ enum glint_size_class {
     GLINT_SIZE_VOLUME,         /* 2D, texels of the longest description of an inner volume × active cube maps */
     GLINT_SIZE_FIGURES,        /* 2D, 512 × 1 */
     GLINT_SIZE_PLANAR,         /* 2D, the size of the capture's planar reflection map */
+    GLINT_SIZE_SHADOW,         /* 2D, the size of the capture's shadow map */
     GLINT_SIZE_CUBEMAPS_MIPS,
     GLINT_SIZE_SKY_MIPS,
     GLINT_SIZE_PROBE_MIPS,       /* the levels of the capture's probe, however many it has */
@@ -181,7 +183,9 @@ struct glint_effect {
     const char *truth;                  /* the part, or with truth_has_choices its name before ".CHOICE" */
     enum glint_pass_role truth_by;      /* the parameter whose choice that is */
     bool truth_has_choices;
-    const char *rays; /* the part whose distance.Z is where rays of class 1 truly end, or NULL */
+    enum glint_pass_role channel_by; /* the parameter whose choice is the place of the channel among channel_choices */
+    const char *channel_choices;     /* NULL: the channel is no choice */
+    const char *rays;                /* the part whose distance.Z is where rays of class 1 truly end, or NULL */
     enum glint_judged judged;
     const char *fact; /* of passes/facts.h: without it a frame does not call for the effect */
     const char *class_title, *class_part, *class_channel; /* what pixels are classed by */

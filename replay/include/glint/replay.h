@@ -138,9 +138,10 @@ struct glint_survey {
     bool has_indirect, has_sun; /* which part of the light is indirect is known; the capture declares a sun */
     bool has_history;           /* the replay holds the images of the previous frame, and this frame is no camera cut */
     /* What follows is counted on a device only, and on_device is true if it was. With `partial` only the counts and the ranges of
-       roughness above and the two counts below are known, since no plan depends on other figures. */
+       roughness above and the three counts below are known, since no plan depends on other figures. */
     bool on_device, partial;
     uint64_t above, open; /* pixels whose view ray rises above the horizon, and those of them that show the sky */
+    uint64_t sunlit;      /* surfaces that are not in the shadow of the sun's mask; all of them where it is not known */
     uint64_t metalness[GLINT_SURVEY_BINS]; /* surfaces by metalness, in bins of 0.1 */
     /* Reflecting surfaces by the fraction of the reflection that reaches the viewer: over 1/2, over 1/4, … over 1/2048, less. */
     uint64_t weight[GLINT_SURVEY_WEIGHTS];

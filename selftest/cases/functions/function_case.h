@@ -36,7 +36,7 @@ struct function_list {
     size_t count;
 };
 extern const struct function_list functions_elementary, functions_patterns, functions_geometry, functions_lobes,
-    functions_hemisphere, functions_light;
+    functions_hemisphere, functions_light, functions_sun;
 
 static const double pi = 3.14159265358979323846;
 

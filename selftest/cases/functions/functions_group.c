@@ -9,11 +9,11 @@
 #include "cases/images/image_case_lists.h"
 #include "harness/texture_filter.h"
 
-enum { COLUMNS = 256, LISTS = 6, IMAGE_LISTS = 7 };
+enum { COLUMNS = 256, LISTS = 7, IMAGE_LISTS = 7 };
 
-static const struct function_list *const lists[LISTS] = {&functions_elementary, &functions_patterns,
-                                                         &functions_geometry,   &functions_lobes,
-                                                         &functions_hemisphere, &functions_light};
+static const struct function_list *const lists[LISTS] = {
+    &functions_elementary, &functions_patterns, &functions_geometry, &functions_lobes,
+    &functions_hemisphere, &functions_light,    &functions_sun};
 
 static const struct image_list *const image_lists[IMAGE_LISTS] = {
     &images_surfaces, &images_lists, &images_cubes, &images_planes, &images_texture_filter, &images_shown, &decodings};
@@ -100,10 +100,10 @@ static const char head[] = "#version 460\n"
                            "#include \"shared/push_begin.glsl\"\n"
                            "#include \"brdf.pass.h\"\n"
                            "};\n";
-static const char *const shared[] = {"constants", "stable",   "random",      "bayer",      "blue_noise", "brdf",
-                                     "camera",    "cone",     "cube_filter", "cubemap",    "edges",      "facet",
-                                     "fog",       "sampling", "levels",      "cube_chain", "paraboloid", "plus",
-                                     "reuse",     "steps",    "hemisphere",  "light_terms"};
+static const char *const shared[] = {"constants", "stable",   "random",      "bayer",       "blue_noise", "brdf",
+                                     "camera",    "cone",     "cube_filter", "cubemap",     "edges",      "facet",
+                                     "fog",       "sampling", "levels",      "cube_chain",  "paraboloid", "plus",
+                                     "reuse",     "steps",    "hemisphere",  "light_terms", "sun"};
 static const char helpers[] = "mat2x3 frame_of(vec3 n) { vec3 t, b; tangent_frame(n, t, b); return mat2x3(t, b); }\n"
                               "vec4 words(uvec4 v) { uvec2 w = v.xz ^ v.yw; return vec4(w.x >> 16u, w.x & 0xFFFFu, "
                               "w.y >> 16u, w.y & 0xFFFFu); }\n";

@@ -1,0 +1,490 @@
+/* shadow_mask, contact_trace and contact_apply against closed forms, in frames that show all that casts the shadow. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "occlusion.h"
+#include "unit.h"
+
+enum { WIDE = 160, HIGH = 120, WORDS = 12 };
+static const char *const variants[] = {"contact_trace=dda", "contact_trace=hiz", "contact_trace=linear_facets",
+                                       "contact_trace=linear", "contact_trace=linear_binary"};
+enum { DDA, HIZ, FACETS, LINEAR, BINARY, VARIANTS };
+
+/* ---- frames and runs ---- */
+
+/* Elevation and azimuth in degrees; 0 is ahead of the camera, 90 to the right. */
+static struct glint_sun sun_at(double elevation, double azimuth) {
+    const double e = elevation * M_PI / 180, a = azimuth * M_PI / 180;
+    return (struct glint_sun){
+        .direction = {cos(e) * sin(a), sin(e), -cos(e) * cos(a)}, .irradiance = {1, 1, 1}, .angular_radius_rad = 0.05};
+}
+
+static struct plain frame_of(const struct shapes *shapes, const struct glint_sun *sun) {
+    struct plain plain = occlusion_frame(shapes, 60);
+    plain.sun = sun;
+    return plain;
+}
+
+/* Words as for occlusion_arrange; the slots are those of contact shadows at full resolution unless they say otherwise. */
+static void arrange(struct gpu *gpu, const char *const *words) {
+    const char *all[WORDS + 4] = {"downsample=none", "shadow_mask=captured", "contact_apply=bilinear"};
+    for (size_t i = 0; i < WORDS && words[i]; i++) all[3 + i] = words[i];
+    occlusion_arrange(gpu, all);
+}
+
+static float *sun_of(struct gpu *gpu, const char *const *words) {
+    arrange(gpu, words);
+    gpu_run(gpu);
+    return gpu_floats(gpu, "sun_shadow", NULL, NULL);
+}
+
+/* ---- what is expected ---- */
+
+/* 1: lit, 0: in shadow; NAN: sky, or within a pixel of an edge of the shadow or of a surface. */
+static double expected_at(const struct plain *plain, uint32_t x, uint32_t y, double length) {
+    double centre = NAN, position[3], normal[3], ignored[3], first[3] = {0};
+    for (int k = 0; k < 9; k++) {
+        const int i = (k + 4) % 9; /* the pixel itself comes first */
+        const uint32_t px = x + (uint32_t)(i % 3) - 1, py = y + (uint32_t)(i / 3) - 1;
+        if (px >= plain->width || py >= plain->height || !shapes_pixel(plain->user, plain, px, py, position, normal))
+            return NAN;
+        double facing = 0;
+        for (int c = 0; c < 3; c++) facing += normal[c] * plain->sun->direction[c];
+        const double hit = shapes_hit(plain->user, position, plain->sun->direction, ignored);
+        const double lit = facing > 0 && (hit > length || !(hit < INFINITY));
+        if (k == 0) centre = lit, memcpy(first, normal, sizeof first);
+        if (lit != centre || memcmp(first, normal, sizeof first)) return NAN;
+    }
+    return centre;
+}
+
+struct counts {
+    int dark, missed, false_dark, pixels;
+};
+static struct counts count_errors(const struct plain *plain, const float *found, double length) {
+    struct counts c = {0};
+    for (uint32_t i = 0; i < plain->width * plain->height; i++) {
+        const double right = expected_at(plain, i % plain->width, i / plain->width, length);
+        if (isnan(right)) continue;
+        assert_true(found[i] >= 0 && found[i] <= 1);
+        c.pixels++;
+        c.dark += right == 0;
+        c.missed += right == 0 && found[i] > 0.5F;
+        c.false_dark += right == 1 && found[i] < 0.5F;
+    }
+    return c;
+}
+
+/* ---- shadows of boxes ---- */
+
+/* A box of a height on the floor, its front at z = -4; from there the shadow goes towards the camera, which sees what casts it. */
+static const struct shapes box = {.floor_y = -1, .box = {-0.6, -1, -4.6, 0.6, -0.5, -4}};
+static const struct shapes pole = {.floor_y = -1, .box = {-0.05, -1, -4.1, 0.05, 0.2, -4}};
+static const struct shapes wall = {.floor_y = -1, .wall_z = -4, .wall_top = -0.6};
+
+/* How far from the foot the middle column is dark. */
+static double length_of_shadow(const struct plain *plain, const float *found, double *pixel) {
+    double far = 0, position[3], normal[3], before = 0;
+    for (uint32_t y = plain->height - 1; y > 0; y--) {
+        if (!shapes_pixel(plain->user, plain, plain->width / 2, y, position, normal) || normal[1] < 0.5) break;
+        const double away = position[2] + 4;
+        if (found[y * plain->width + plain->width / 2] < 0.5F) {
+            *pixel = before - away;
+            return far = away;
+        }
+        before = away;
+    }
+    return far;
+}
+
+/* The shadow of a height h under a sun of elevation e is h / tan e long, and no longer than the rays reach: their length times cos e. */
+static void a_shadow_is_as_long_as_the_sun_is_low(void **state) {
+    static const struct shapes *const scenes[] = {&box, &wall, &pole};
+    static const double heights[] = {0.5, 0.4, 1.2};
+    struct gpu *gpu = *state;
+    for (int s = 0; s < 3; s++)
+        for (int e = 35; e <= (s == 0 ? 60 : 35); e += 25) {
+            const struct glint_sun sun = sun_at(e, 0);
+            const struct plain plain = frame_of(scenes[s], &sun);
+            occlusion_load(gpu, &plain);
+            for (int v = 0; v < BINARY; v++)
+                for (int brief = 0; brief <= (e == 35); brief++) {
+                    const char *const words[] = {variants[v], v == HIZ ? "hiz=nearest" : "contact_trace.lift=0",
+                                                 brief ? "contact_trace.length_m=0.3" : "contact_trace.length_m=4",
+                                                 v >= FACETS ? "contact_trace.steps=128" : NULL, NULL};
+                    const double a = e * M_PI / 180, right = fmin(heights[s] / tan(a), (brief ? 0.3 : 4) * cos(a));
+                    double pixel = 0;
+                    float *found = sun_of(gpu, words);
+                    const double length = length_of_shadow(&plain, found, &pixel);
+                    /* A sample of the linear march has to fall behind the surface by no more than the thickness. */
+                    if (!(fabs(length - right) < (v == LINEAR ? 2 : 1) * pixel + 0.03))
+                        fail_msg("scene %d, %s, %d degrees: a shadow of %g m, expected %g, a pixel is %g", s,
+                                 variants[v], e, length, right, pixel);
+                    free(found);
+                }
+        }
+}
+
+/* From every side: what the frame shows is found, and nothing else is. The share of wrong pixels that each may have. */
+static void the_sun_may_stand_anywhere(void **state) {
+    static const double share[VARIANTS] = {0.01, 0.01, 0.012, 0.03, 0};
+    struct gpu *gpu = *state;
+    int dark = 0;
+    for (int azimuth = 0; azimuth < 360; azimuth += 100) {
+        const struct glint_sun sun = sun_at(35, azimuth);
+        const struct plain plain = frame_of(&box, &sun);
+        occlusion_load(gpu, &plain);
+        for (int v = 0; v < BINARY; v++) {
+            const char *const words[] = {variants[v], v == HIZ ? "hiz=nearest" : "contact_trace.lift=0",
+                                         "contact_trace.length_m=0.5", v >= FACETS ? "contact_trace.steps=64" : NULL,
+                                         NULL};
+            float *found = sun_of(gpu, words);
+            const struct counts c = count_errors(&plain, found, 0.5);
+            print_message("# %s, %d degrees: of %d dark %d missed, of %d lit %d dark\n", variants[v], azimuth, c.dark,
+                          c.missed, c.pixels - c.dark, c.false_dark);
+            dark += c.dark;
+            assert_true(c.pixels > 8000);
+            assert_true(c.missed + c.false_dark <= share[v] * c.pixels);
+            free(found);
+        }
+    }
+    assert_true(dark > 1500);
+}
+
+/* ---- nothing shades itself ---- */
+
+static void an_open_plain_is_lit(void **state) {
+    static const struct shapes open = {.floor_y = -1};
+    static const int elevations[] = {2, 30};
+    struct gpu *gpu = *state;
+    for (int e = 0; e < 2; e++)
+        for (int azimuth = 0; azimuth < 360; azimuth += 150) {
+            const struct glint_sun sun = sun_at(elevations[e], azimuth);
+            const struct plain plain = frame_of(&open, &sun);
+            occlusion_load(gpu, &plain);
+            for (int v = 0; v < BINARY; v++)
+                for (int half = e; half < 2; half++) {
+                    const char *const words[] = {variants[v], half ? "downsample=pick" : "downsample=none",
+                                                 "contact_apply=planes", "hiz=nearest", NULL};
+                    int dark = 0;
+                    arrange(gpu, words);
+                    gpu->float_precision = false;
+                    gpu_run(gpu);
+                    float *found = gpu_floats(gpu, "sun_shadow", NULL, NULL);
+                    for (uint32_t i = 0; i < WIDE * HIGH; i++) dark += found[i] != 1;
+                    print_message("# %s, %s, elevation %d, azimuth %d: %d dark\n", variants[v], words[1], elevations[e],
+                                  azimuth, dark);
+                    if (dark >
+                        (v == LINEAR ? WIDE * HIGH / 20 : 0)) /* beside the sky it compares with the nearest texel */
+                        fail_msg("%s, %s, elevation %d, azimuth %d: %d pixels are dark", variants[v], words[1],
+                                 elevations[e], azimuth, dark);
+                    free(found);
+                }
+        }
+}
+
+/* Below the horizon nothing is lit, and no ray is traced. */
+static void a_sun_below_the_horizon_lights_nothing(void **state) {
+    static const struct shapes open = {.floor_y = -1};
+    struct gpu *gpu = *state;
+    const struct glint_sun sun = sun_at(-1, 40);
+    const struct plain plain = frame_of(&open, &sun);
+    occlusion_load(gpu, &plain);
+    for (int facing = 0; facing < 2; facing++) {
+        const char *const words[] = {variants[DDA], facing ? NULL : "contact_apply.facing=false", NULL};
+        float *found = sun_of(gpu, words);
+        uint32_t *steps = gpu_uints(gpu, "contact_steps", NULL, NULL);
+        double position[3], normal[3];
+        for (uint32_t i = 0; i < WIDE * HIGH; i++) {
+            const bool surface = shapes_pixel(&open, &plain, i % WIDE, i / WIDE, position, normal);
+            assert_true(found[i] == (surface && facing ? 0 : 1) && steps[i] == 0);
+        }
+        free(found), free(steps);
+    }
+}
+
+/* ---- switches ---- */
+
+static float dark_left(UNUSED const struct plain *plain, uint32_t x, UNUSED uint32_t y) {
+    return x < WIDE / 2 ? 0 : x % 3 ? 0.75F : 1;
+}
+static float dark_everywhere(UNUSED const struct plain *plain, UNUSED uint32_t x, UNUSED uint32_t y) {
+    return 0;
+}
+static float invalid_mask(UNUSED const struct plain *plain, uint32_t x, uint32_t y) {
+    static const float values[] = {NAN, -1, 7, INFINITY, 0.5F};
+    return values[(x + y) % 5];
+}
+
+static void the_mask_and_the_contact_shadow_meet_in_their_minimum(void **state) {
+    struct gpu *gpu = *state;
+    const struct glint_sun sun = sun_at(35, -30);
+    struct plain plain = frame_of(&box, &sun);
+    plain.sun_mask = dark_left;
+    occlusion_load(gpu, &plain);
+    static const char *const alone[] = {"contact_trace=dda", "shadow_mask.mask=none", NULL};
+    static const char *const both[] = {"contact_trace=dda", NULL};
+    static const char *const neither[] = {"contact_trace=dda", "contact_trace.length_m=0", NULL};
+    static const char *const thin[] = {"contact_trace=dda", "contact_apply.intensity=0", NULL};
+    float *contact = sun_of(gpu, alone), *found = sun_of(gpu, both), *mask = sun_of(gpu, neither),
+          *none = sun_of(gpu, thin);
+    int darker = 0;
+    double position[3], normal[3];
+    for (uint32_t i = 0; i < WIDE * HIGH; i++) {
+        assert_true(found[i] == fminf(contact[i], mask[i]) && none[i] == mask[i]);
+        darker += found[i] < mask[i];
+        if (!shapes_pixel(&box, &plain, i % WIDE, i / WIDE, position, normal)) assert_true(found[i] == 1);
+        else if (normal[1] > 0.5) assert_true(mask[i] == dark_left(&plain, i % WIDE, i / WIDE));
+    }
+    assert_true(darker > 50);
+    free(contact), free(found), free(mask), free(none);
+}
+
+/* Texels that shade no lit pixel trace no ray, at either resolution. */
+static void skipped_rays_would_have_changed_nothing(void **state) {
+    struct gpu *gpu = *state;
+    const struct glint_sun sun = sun_at(35, 30);
+    struct plain plain = frame_of(&box, &sun);
+    plain.sun_mask = dark_left;
+    occlusion_load(gpu, &plain);
+    for (int half = 0; half < 2; half++) {
+        uint64_t steps[2] = {0, 0};
+        float *found[2];
+        for (int skip = 0; skip < 2; skip++) {
+            const char *const words[] = {"contact_trace=dda", half ? "downsample=pick" : "downsample=none",
+                                         "contact_apply=planes", skip ? NULL : "contact_trace.skip=false", NULL};
+            uint32_t width, height;
+            found[skip] = sun_of(gpu, words);
+            uint32_t *taken = gpu_uints(gpu, "contact_steps", &width, &height);
+            for (uint32_t i = 0; i < width * height; i++) steps[skip] += taken[i];
+            free(taken);
+        }
+        print_message("# %d steps of %d\n", (int)steps[1], (int)steps[0]);
+        assert_memory_equal(found[0], found[1], WIDE * HIGH * sizeof(float));
+        assert_true(5 * steps[1] < 3 * steps[0] && steps[1] > 0);
+        free(found[0]), free(found[1]);
+    }
+}
+
+/* How far from the border of the picture a hit lies, as a fraction of the half. */
+static double inside_of(const struct plain *plain, uint32_t i, double distance) {
+    const double half = tan(plain->fov_y_degrees * M_PI / 360), *sun = plain->sun->direction;
+    double at[3], normal[3];
+    shapes_pixel(plain->user, plain, i % WIDE, i / WIDE, at, normal);
+    for (int k = 0; k < 3; k++) at[k] += distance * sun[k];
+    const double x = at[0] / -at[2] / half * HIGH / WIDE, y = at[1] / -at[2] / half;
+    return 1 - fmax(fabs(x), fabs(y));
+}
+
+static void hits_fade_at_the_end_and_at_the_border(void **state) {
+    struct gpu *gpu = *state;
+    const struct glint_sun sun = sun_at(35, 0);
+    const struct plain plain = frame_of(&box, &sun);
+    occlusion_load(gpu, &plain);
+    static const char *const hard[] = {"contact_trace=dda", NULL};
+    static const char *const at_end[] = {"contact_trace=dda", "contact_trace.end_fade=1", NULL};
+    static const char *const at_border[] = {"contact_trace=dda", "contact_trace.border_fade=0.5", NULL};
+    float *found = sun_of(gpu, hard), *distance = gpu_floats(gpu, "contact_distance", NULL, NULL),
+          *end = sun_of(gpu, at_end), *border = sun_of(gpu, at_border);
+    int faded = 0, bordered = 0;
+    for (uint32_t i = 0; i < WIDE * HIGH; i++) {
+        if (!(distance[i] < 0.5F)) {
+            assert_true(end[i] == found[i] && border[i] == found[i]);
+            continue;
+        }
+        assert_true(fabs((double)end[i] - (double)distance[i] / 0.5) < 1e-5);
+        assert_true(fabs((double)border[i] - (1 - inside_of(&plain, i, (double)distance[i]))) < 1e-4);
+        faded++, bordered += border[i] > 0.2F;
+    }
+    assert_true(faded > 100 && bordered > 50);
+    free(found), free(distance), free(end), free(border);
+}
+
+/* The part of a disc above a straight edge at t radii below its middle. */
+static double part_above(double t) {
+    return t >= 1 ? 1 : t <= -1 ? 0 : 1 - (acos(t) - t * sqrt(1 - t * t)) / M_PI;
+}
+/* Behind a long wall of the height 0.4 the floor sees the part of the disc above its top, which is a straight edge of the plane of the disc. */
+static void a_wide_sun_has_a_penumbra(void **state) {
+    static const char *const words[] = {"contact_trace=dda", "contact_trace.disc=1", "contact_trace.directions=48",
+                                        "contact_trace.length_m=4", NULL};
+    struct gpu *gpu = *state;
+    const double elevation = 35 * M_PI / 180;
+    struct glint_sun sun = sun_at(35, 0);
+    sun.angular_radius_rad = 0.25;
+    const struct plain plain = frame_of(&wall, &sun);
+    int part = 0;
+    occlusion_load(gpu, &plain);
+    float *found = sun_of(gpu, words);
+    for (uint32_t i = 0; i < WIDE * HIGH; i++) {
+        double position[3], normal[3];
+        if (!shapes_pixel(&wall, &plain, i % WIDE, i / WIDE, position, normal) || normal[1] < 0.5 || position[2] < -3.9)
+            continue;
+        if (fabs(position[0]) > 0.8) continue; /* rays to the side may leave the picture */
+        const double top = atan(0.4 / (position[2] + 4)), right = part_above(tan(elevation - top) / tan(0.25));
+        part += right > 0.1 && right < 0.9;
+        if (!(fabs((double)found[i] - right) < 0.12))
+            fail_msg("%g m from the wall: %g, expected %g", position[2] + 4, (double)found[i], right);
+    }
+    print_message("# %d pixels see a part of the disc\n", part);
+    assert_true(part > 150);
+    free(found);
+}
+
+/* ---- plans ---- */
+
+/* The plan changes no bit, also where the mask says that no ray is needed. */
+static void planned_is_all(void **state) {
+    static float (*const masks[])(const struct plain *, uint32_t, uint32_t) = {NULL, dark_left, dark_everywhere,
+                                                                               invalid_mask};
+    static const char *const words[] = {"contact_trace=hiz",    "hiz=nearest",  "downsample=pick",
+                                        "contact_apply=planes", "compose=brdf", NULL};
+    struct gpu *gpu = *state;
+    const struct glint_sun sun = sun_at(35, 30);
+    for (int m = 0; m < 4; m++) {
+        struct plain plain = frame_of(&box, &sun);
+        float *found[2], *composed[2];
+        plain.sun_mask = masks[m];
+        occlusion_load(gpu, &plain);
+        for (int all = 0; all < 2; all++) {
+            arrange(gpu, words);
+            gpu->all = all;
+            gpu_run(gpu);
+            found[all] = gpu_floats(gpu, "sun_shadow", NULL, NULL);
+            composed[all] = gpu_floats(gpu, "composed", NULL, NULL);
+        }
+        gpu->all = false;
+        assert_memory_equal(found[0], found[1], WIDE * HIGH * sizeof(float));
+        assert_memory_equal(composed[0], composed[1], WIDE * HIGH * 4 * sizeof(float));
+        for (uint32_t i = 0; i < WIDE * HIGH; i++) assert_true(found[0][i] >= 0 && found[0][i] <= 1);
+        free(found[0]), free(found[1]), free(composed[0]), free(composed[1]);
+    }
+}
+
+/* ---- what is not a surface, and no sun ---- */
+
+static void spoiled(const struct plain *plain, float *values) {
+    const uint32_t pixels = plain->width * plain->height;
+    shapes_spoil(plain, values);
+    for (uint32_t i = 0; i < pixels; i++) {
+        if (i % 7 == 0) values[PLAIN_NORMAL_X * pixels + i] = NAN;
+        if (i % 11 == 0)
+            for (uint32_t k = 0; k < 3; k++) values[(PLAIN_NORMAL_X + k) * pixels + i] = 0;
+        if (i % 13 == 0) values[i] = i % 2 ? INFINITY : NAN;
+        if (i % 17 == 0) values[i] = i % 2 ? 0 : -3;
+    }
+}
+static void invalid_pixels_are_lit_and_spoil_no_others(void **state) {
+    struct gpu *gpu = *state;
+    const struct glint_sun sun = sun_at(35, 20);
+    struct plain plain = frame_of(&box, &sun);
+    plain.spoil = spoiled;
+    occlusion_load(gpu, &plain);
+    for (int v = 0; v < VARIANTS; v++)
+        for (int half = 0; half < 2; half++) {
+            const char *const words[] = {variants[v], half ? "downsample=pick" : "downsample=none",
+                                         "contact_apply=planes", "hiz=nearest", NULL};
+            float *found = sun_of(gpu, words);
+            for (uint32_t i = 0; i < WIDE * HIGH; i++) {
+                assert_true(found[i] >= 0 && found[i] <= 1);
+                if (i % 7 == 0 || i % 11 == 0 || i % 13 == 0 || i % 17 == 0) assert_true(found[i] == 1);
+            }
+            free(found);
+        }
+}
+
+static void without_a_sun_there_is_no_shadow(void **state) {
+    static const char *const words[] = {"contact_trace=linear", NULL};
+    struct gpu *gpu = *state;
+    const struct plain plain = occlusion_frame(&box, 60);
+    occlusion_load(gpu, &plain);
+    arrange(gpu, words);
+    gpu->all = true;
+    gpu_run(gpu);
+    float *found = gpu_floats(gpu, "sun_shadow", NULL, NULL);
+    for (uint32_t i = 0; i < WIDE * HIGH; i++) assert_true(found[i] == 1);
+    gpu->all = false;
+    free(found);
+}
+
+/* ---- shadow maps ---- */
+
+/* An orthographic map, 6 m wide and 8 m deep, about a point under the box. */
+static const double map_middle[3] = {0, -1, -4}, map_reach = 3, map_depth = 8;
+static void map_axes(const double sun[3], double right[3], double up[3]) {
+    const double flat = hypot(sun[0], sun[2]);
+    right[0] = -sun[2] / flat, right[1] = 0, right[2] = sun[0] / flat;
+    up[0] = sun[1] * right[2] - sun[2] * right[1];
+    up[1] = sun[2] * right[0] - sun[0] * right[2];
+    up[2] = sun[0] * right[1] - sun[1] * right[0];
+}
+static float map_at(const struct plain *plain, double u, double v) {
+    const double *sun = plain->sun->direction;
+    double right[3], up[3], from[3], towards[3], normal[3];
+    map_axes(sun, right, up);
+    for (int k = 0; k < 3; k++) {
+        towards[k] = -sun[k];
+        from[k] = map_middle[k] + map_reach * ((2 * u - 1) * right[k] + (1 - 2 * v) * up[k]) + 0.5 * map_depth * sun[k];
+    }
+    const double depth = fmin(shapes_hit(plain->user, from, towards, normal) / map_depth, 1);
+    return (float)(plain->shadow.range[0] > plain->shadow.range[1] ? 1 - depth : depth);
+}
+static struct glint_shadow map_of(const struct glint_sun *sun, bool reversed) {
+    struct glint_shadow shadow = {.range = {reversed, !reversed}, .bias = 0.005};
+    double axes[3][3];
+    map_axes(sun->direction, axes[0], axes[1]);
+    memcpy(axes[2], sun->direction, sizeof axes[2]);
+    for (int r = 0; r < 3; r++) {
+        const double scale = r < 2 ? 1 / map_reach : (reversed ? 1 : -1) / map_depth;
+        shadow.world_to_shadow[4 * r + 3] = r < 2 ? 0 : 0.5;
+        for (int c = 0; c < 3; c++) {
+            shadow.world_to_shadow[4 * r + c] = scale * axes[r][c];
+            shadow.world_to_shadow[4 * r + 3] -= scale * axes[r][c] * map_middle[c];
+        }
+    }
+    shadow.world_to_shadow[15] = 1;
+    return shadow;
+}
+
+static void a_shadow_map_makes_the_mask(void **state) {
+    static const char *const words[] = {"shadow_mask=map", "shadow_mask.taps=1", "contact_trace=dda",
+                                        "contact_trace.length_m=0", NULL};
+    struct gpu *gpu = *state;
+    int dark = 0;
+    for (int reversed = 0; reversed < 2; reversed++)
+        for (int azimuth = 0; azimuth < 360; azimuth += 100) {
+            const struct glint_sun sun = sun_at(40, azimuth);
+            struct plain plain = frame_of(&box, &sun);
+            plain.shadow = map_of(&sun, reversed);
+            plain.shadow_map = map_at;
+            occlusion_load(gpu, &plain);
+            float *found = sun_of(gpu, words);
+            const struct counts c = count_errors(&plain, found, INFINITY);
+            print_message("# %d degrees: of %d dark %d missed, of %d lit %d dark\n", azimuth, c.dark, c.missed,
+                          c.pixels - c.dark, c.false_dark);
+            dark += c.dark;
+            assert_true(c.missed + c.false_dark <= 0.004 * c.pixels); /* texels of 23 mm, and the bias of 40 mm */
+            free(found);
+        }
+    assert_true(dark > 1500);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_shadow_is_as_long_as_the_sun_is_low),
+        cmocka_unit_test(the_sun_may_stand_anywhere),
+        cmocka_unit_test(an_open_plain_is_lit),
+        cmocka_unit_test(a_sun_below_the_horizon_lights_nothing),
+        cmocka_unit_test(the_mask_and_the_contact_shadow_meet_in_their_minimum),
+        cmocka_unit_test(skipped_rays_would_have_changed_nothing),
+        cmocka_unit_test(hits_fade_at_the_end_and_at_the_border),
+        cmocka_unit_test(a_wide_sun_has_a_penumbra),
+        cmocka_unit_test(planned_is_all),
+        cmocka_unit_test(invalid_pixels_are_lit_and_spoil_no_others),
+        cmocka_unit_test(without_a_sun_there_is_no_shadow),
+        cmocka_unit_test(a_shadow_map_makes_the_mask),
+    };
+    return cmocka_run_group_tests_name("gpu_shadow", tests, gpu_set_up, gpu_tear_down);
+}
