@@ -36,4 +36,7 @@ FACT(planar, PARTS, s->has_planar, SAY("%s planar reflection map", s->has_planar
 FACT(fresnel, PARTS, s->has_fresnel, SAY("materials with%s a Fresnel factor", s->has_fresnel ? "" : "out"))
 FACT(history, PARTS, s->has_history, SAY("%s", s->has_history ? "the previous frame is available" : "no previous frame, or a camera cut"))
 FACT(indirect_light, PARTS, s->has_indirect, SAY("%s part of the light that is indirect", s->has_indirect ? "a" : "no"))
+FACT(bounce, PIXELS, s->surfaces.count > 0, SAY("%llu of %llu pixels have a surface", N(s->surfaces.count), N(s->pixels)))
+FACT(light_volume, PARTS, s->has_volume, SAY("%s volume of light", s->has_volume ? "a" : "no"))
+FACT(no_light_volume, PARTS, !s->has_volume, SAY("%s volume of light", s->has_volume ? "a" : "no"))
 FACT(sun, PARTS, s->has_sun, SAY("%s sun", s->has_sun ? "a" : "no"))

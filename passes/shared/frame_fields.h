@@ -28,4 +28,6 @@ FIELD(vec4,  probe_low,            "xyz: a corner of the probe's box, relative t
 FIELD(vec4,  probe_high,           "xyz: the opposite corner; w: 0")
 FIELD(mat4,  mirror_uv_from_world, "camera-relative world space to (u, v, 1, 1) times depth in m, as the planar map's camera sees it; 0 without a planar map")
 FIELD(vec4,  mirror_plane,         "xyz: unit normal of the planar map's mirror; w: n·p + w = 0 on it, in camera-relative world space, in m")
+FIELD(mat4,  grid_from_world,      "camera-relative world space to cells of the capture's volume of light: cell (i, j, k) lies from (i, j, k) to (i + 1, j + 1, k + 1); 0 without one")
+FIELD(uvec4, grid,                 "xyz: cells of the volume of light along its axes; w: 1 when it is the capture's, 0 when a pass may make one around the camera")
 FIELD(vec4,  jitter,               "xy: shift of this frame's picture by jitter in px, x to the right and y down; zw: 0")
