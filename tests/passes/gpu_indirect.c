@@ -238,7 +238,7 @@ static void invalid_pixels_spoil_no_others(void **state) {
         gpu_run(gpu);
         float *found = gpu_floats(gpu, "indirect", NULL, NULL);
         for (uint32_t i = 0; i < WIDE * HIGH; i++) {
-            for (int k = 0; k < 3; k++) assert_true(found[4 * i + k] >= 0 && found[4 * i + k] <= 1.00001F);
+            for (uint32_t k = 0; k < 3; k++) assert_true(found[4 * i + k] >= 0 && found[4 * i + k] <= 1.00001F);
             if (i % 7 == 0 || i % 13 == 0 || i % 17 == 0) assert_true(found[4 * i] == 0);
             lit += found[4 * i] > 0.1F;
         }

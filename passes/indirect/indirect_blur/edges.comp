@@ -27,22 +27,33 @@ vec4 blurred(ivec2 texel, int level) {
     return along(texel, level, ivec2(along_x, 1 - along_x), rows ? SIDE_LEFT : SIDE_UP, rows ? SIDE_RIGHT : SIDE_DOWN);
 }
 
+// Where no texel of the coarser level is of the surface, such as on a thin bar: the mean of those around it.
+vec4 upscaled_from_others(ivec2 texel, int level) {
+    ivec2 home = texel >> 1, last = textureSize(levels, level + 1) - 1;
+    vec4 sum = vec4(0.0);
+    float total = 0.0;
+    for (int i = 0; i < 9; ++i) {
+        ivec2 at = clamp(home + ivec2(i % 3, i / 3) - 1, ivec2(0), last);
+        if (!has_ray(at, level + 1)) continue;
+        sum += texelFetch(levels, at, level + 1);
+        total += 1.0;
+    }
+    return total > 0.0 ? sum / total : vec4(0.0);
+}
+
+vec4 finer(ivec2 texel, int level) {
+    float found = 0.0;
+    if (level + 1 >= textureQueryLevels(levels) || !has_ray(texel, level)) return vec4(0.0);
+    vec4 color = upscaled(texel, level, found);
+    return found > 0.0 ? color : upscaled_from_others(texel, level);
+}
+
 void main() {
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     int level = int(dispatch_level);
-    ivec2 size = dispatch_phase == ALONG_ROWS ? imageSize(indirect_across) : imageSize(indirect_levels);
-    if (any(greaterThanEqual(texel, size))) return;
-    bool traced = texelFetch(indirect_traced, texel, level).a >= 0.0;
-    vec4 color = vec4(-1.0);
-    if (traced) {
-        color = blurred(texel, level);
-    } else if (dispatch_phase != ALONG_ROWS && level + 1 < textureQueryLevels(levels) && has_ray(texel, level)) {
-        float found;
-        color = upscaled(texel, level, found);
-        if (found == 0.0) color = vec4(0.0);
-    } else if (dispatch_phase != ALONG_ROWS) {
-        color = vec4(0.0);
-    }
-    if (dispatch_phase == ALONG_ROWS) imageStore(indirect_across, texel, color);
-    else imageStore(indirect_levels, texel, color);
+    bool rows = dispatch_phase == ALONG_ROWS, traced;
+    if (any(greaterThanEqual(texel, rows ? imageSize(indirect_across) : imageSize(indirect_levels)))) return;
+    traced = texelFetch(indirect_traced, texel, level).a >= 0.0;
+    if (rows) imageStore(indirect_across, texel, traced ? blurred(texel, level) : vec4(-1.0));
+    else imageStore(indirect_levels, texel, traced ? blurred(texel, level) : finer(texel, level));
 }

@@ -38,6 +38,8 @@ SPEC(int,   corrections, 3,   0,   16,    "1", "glint", "iterations that find wh
 SPEC(bool,  joint,      true, 0,   1,     "1", "glint", "interpolate only texels of the picture that show the surface that was hit; off: all")
 PUSH(float, contrast,   1.5,  0.0, 4.0,   "1", "glint", "factor on how much the light of a volume's cell differs between directions: 1.5 makes radiance of irradiance (of its linear part), 1: the irradiance itself, 0: the mean of all directions")
 PUSH(float, brightest,  1e6,  0.0, 1e6,   "radiance", "glint", "what a ray finds is limited to this luminance; 1e6: no limit")
+FACT(light_volume)
+FACT(no_light_volume)
 NEEDS(bounce)
 PER_RAY
 ACCUMULATE(indirect_traced)

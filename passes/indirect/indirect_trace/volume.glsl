@@ -2,11 +2,13 @@
 // Next include of a pass with the rows of slot.h.
 #include "shared/light_volume.glsl"
 
-bool has_volume() { return frame.grid.w != 0u || has_volume_radiance; }
+// Facts are constants, which leave out code; with all passes they may be true where the frame says otherwise.
+bool is_captured() { return fact_light_volume && frame.grid.w != 0u; }
+bool has_volume() { return !fact_no_light_volume || is_captured() || has_volume_radiance; }
 
 // In cells, their middles at whole numbers.
 vec3 place_in_volume(vec3 position) {
-    if (frame.grid.w != 0u) return (frame.grid_from_world * vec4(position, 1.0)).xyz - 0.5;
+    if (is_captured()) return (frame.grid_from_world * vec4(position, 1.0)).xyz - 0.5;
     return position / texelFetch(volume_direction, ivec2(0), 0).w + 0.5 * vec3(frame.grid.xyz) - 0.5;
 }
 
@@ -37,8 +39,8 @@ vec3 volume_light(vec3 position, vec3 direction, inout uint fetches) {
         if (!(weight > 0.0)) continue;
         ivec2 at = cell_texel(min(ivec3(corner) + side, cells - 1), frame.grid);
         bool open;
-        vec3 light = frame.grid.w != 0u ? captured_cell(at, direction, open) : made_cell(at, direction, open);
-        fetches += frame.grid.w != 0u ? 6u : 2u;
+        vec3 light = is_captured() ? captured_cell(at, direction, open) : made_cell(at, direction, open);
+        fetches += is_captured() ? 6u : 2u;
         if ((leaks && !open) || !finite(vec4(light, 0.0))) continue;
         sum += weight * light;
         total += weight;
