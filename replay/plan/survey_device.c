@@ -38,6 +38,7 @@ static void read_figures(struct glint_survey *survey, const uint32_t *f, bool wh
     survey->pixels = survey->sky + survey->surfaces.count;
     survey->above = f[at_above];
     survey->open = f[at_open];
+    survey->luminous = f[at_luminous];
     survey->water = f[at_water];
     survey->transparent = f[at_transparent];
     survey->moved = f[at_moved];

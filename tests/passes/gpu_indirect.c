@@ -38,12 +38,16 @@ static double by_quadrature(const struct lit_patch *patch, const double at[3], c
     return sum;
 }
 
+/* With a field of view of 90 degrees it begins and ends between two texels, 8 and 14 pixels above the horizon. */
 static const struct lit_patch overhead = {
-    {.floor_y = -1, .ceiling_y = 1}, 1, 1, {-1.5, 0, -7}, {1, 0, -4.5}};
+    {.floor_y = -1, .ceiling_y = 1}, 1, 1, {-1.5, 0, -60.0 / 8}, {1, 0, -60.0 / 14}};
 static const struct lit_patch on_wall = {
     {.floor_y = -1, .wall_z = -6, .wall_top = INFINITY}, 2, -6, {-0.75, -0.5, 0}, {0.5, 1, 0}};
 static const struct lit_patch on_floor = {
     {.floor_y = -1, .wall_z = -6, .wall_top = INFINITY}, 1, -1, {-0.5, 0, -5.5}, {0.75, 0, -4.5}};
+
+static const struct lit_patch all_floor = {
+    {.floor_y = -1, .wall_z = -6, .wall_top = INFINITY}, 1, -1, {-2, 0, -6}, {2, 0, -2}};
 
 static void form_factors_agree_with_quadrature(UNUSED void **state) {
     static const double up[3] = {0, 1, 0}, back[3] = {0, 0, 1};
@@ -72,9 +76,9 @@ struct trial {
     const char *reason;
 };
 
-/* Pixels of this distance from the patch's own plane and in the middle of the picture. */
-static bool is_judged(const struct lit_patch *patch, const double at[3]) {
-    return fabs(at[0]) < 1.5 && at[2] < -3.5 && at[2] > -7.5 && fabs(at[patch->axis] - patch->place) > 0.1;
+/* In the middle of the picture, and not nearer to the patch's plane than `away`: a ray cannot hit anything in its own texel. */
+static bool is_judged(const struct lit_patch *patch, const double at[3], double away) {
+    return fabs(at[0]) < 2.5 && at[2] < -2.5 && at[2] > -8 && fabs(at[patch->axis] - patch->place) > away;
 }
 
 static void try_all(struct gpu *gpu, const struct lit_patch *patch, double fov, const struct trial *trials,
@@ -90,14 +94,14 @@ static void try_all(struct gpu *gpu, const struct lit_patch *patch, double fov, 
         float *found = gpu_floats(gpu, "indirect", &width, &height);
         for (uint32_t i = 0; i < width * height; i++) {
             double at[3], normal[3];
-            if (!shapes_pixel(plain.user, &plain, i % width, i / width, at, normal) || !is_judged(patch, at)) continue;
+            if (!shapes_pixel(plain.user, &plain, i % width, i / width, at, normal) || !is_judged(patch, at, 0.25)) continue;
             const double right = lit_patch_seen(patch, at, normal), error = (double)found[4 * i] - right;
             mean += fabs(error), bias += error, light += right;
             judged++;
             assert_true(found[4 * i] == found[4 * i + 1] && found[4 * i + 3] == 1);
         }
         free(found);
-        assert_true(judged > 1000);
+        assert_true(judged > 400);
         print_message("# %s: mean error %.4f, bias %+.4f of %.4f, %d pixels\n", trials[t].words[5], mean / judged,
                       bias / judged, light / judged, judged);
         if (!(mean <= trials[t].mean * judged && fabs(bias) <= trials[t].bias * judged))
@@ -117,7 +121,8 @@ static const struct trial trials[] = {
      0.01,
      "64 directions, and steps that pass over the patch's border"}};
 
-static void a_lit_patch_opposite(void **state) { TRY(*state, &overhead, 90, trials); }
+/* The linear march takes longer steps across the picture than a plate seen at a grazing angle is high. */
+static void a_lit_patch_opposite(void **state) { try_all(*state, &overhead, 90, trials, 2); }
 static void a_lit_patch_beside_the_floor(void **state) { TRY(*state, &on_wall, 60, trials); }
 static void a_lit_patch_beside_a_wall(void **state) { TRY(*state, &on_floor, 60, trials); }
 
@@ -175,7 +180,7 @@ static void radiance_stays_in_a_furnace(void **state) {
 /* Each level's mean is nearly that of full resolution, blurred and upscaled; without the blur the noise is larger. */
 static void levels_share_what_they_find(void **state) {
     struct gpu *gpu = *state;
-    const struct plain plain = frame_of(&overhead, 90);
+    const struct plain plain = frame_of(&all_floor, 60);
     double error[4] = {0};
     static const char *const levels[] = {"indirect_trace.level=0", "indirect_trace.level=1", "indirect_trace.level=2",
                                          "indirect_trace.level=2"};
@@ -197,8 +202,8 @@ static void levels_share_what_they_find(void **state) {
         float *found = gpu_floats(gpu, "indirect", NULL, NULL);
         for (uint32_t i = 0; i < WIDE * HIGH; i++) {
             double at[3], normal[3];
-            if (!shapes_pixel(plain.user, &plain, i % WIDE, i / WIDE, at, normal) || !is_judged(&overhead, at)) continue;
-            const double right = lit_patch_seen(&overhead, at, normal), off = (double)found[4 * i] - right;
+            if (!shapes_pixel(plain.user, &plain, i % WIDE, i / WIDE, at, normal) || !is_judged(&all_floor, at, 1.5)) continue;
+            const double right = lit_patch_seen(&all_floor, at, normal), off = (double)found[4 * i] - right;
             error[l] += off * off, bias += off, light += right;
             judged++;
         }
@@ -206,7 +211,7 @@ static void levels_share_what_they_find(void **state) {
         error[l] = sqrt(error[l] / judged);
         print_message("# %s%s: RMSE %.4f, bias %+.4f of %.4f\n", levels[l], l == 3 ? ", not shared" : "", error[l],
                       bias / judged, light / judged);
-        assert_true(fabs(bias) < 0.15 * light); /* rays of 20 x 15 texels, blurred over a patch 2.5 m wide */
+        assert_true(fabs(bias) < 0.15 * light); /* of texels half a metre wide, blurred over three */
     }
     assert_true(error[2] < 0.1 && error[2] < 0.7 * error[3]);
 }

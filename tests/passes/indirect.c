@@ -11,11 +11,13 @@ void indirect_arrange(struct gpu *gpu, const char *const *words) {
     gpu_reset(gpu);
     gpu->float_precision = true;
     gpu_without(gpu, others);
-    for (; *words; words++) {
-        const char *point = strchr(*words, '.');
-        if (point && point < strchr(*words, '=')) gpu_set(gpu, *words);
-        else gpu_use(gpu, *words);
-    }
+    for (int parameters = 0; parameters < 2; parameters++)
+        for (const char *const *word = words; *word; word++) {
+            const char *point = strchr(*word, '.');
+            if ((point && point < strchr(*word, '=')) != parameters) continue;
+            if (parameters) gpu_set(gpu, *word);
+            else gpu_use(gpu, *word);
+        }
 }
 
 void indirect_load(struct gpu *gpu, const struct plain *plain) {

@@ -26,6 +26,9 @@ vec3 made_cell(ivec2 at, vec3 direction, out bool open) {
     return contrasted(mean.rgb, directed_irradiance(mean.rgb, texelFetch(volume_direction, at, 0).xyz, direction), contrast);
 }
 
+// The small weight of a cell inside of an object, which counts where all eight are.
+const float CLOSED = 1e-6;
+
 // Interpolates the eight cells around a point, those outside of the volume being the nearest ones inside.
 vec3 volume_light(vec3 position, vec3 direction, inout uint fetches) {
     ivec3 cells = ivec3(frame.grid.xyz);
@@ -41,7 +44,8 @@ vec3 volume_light(vec3 position, vec3 direction, inout uint fetches) {
         bool open;
         vec3 light = is_captured() ? captured_cell(at, direction, open) : made_cell(at, direction, open);
         fetches += is_captured() ? 6u : 2u;
-        if ((leaks && !open) || !finite(vec4(light, 0.0))) continue;
+        if (!finite(vec4(light, 0.0))) continue;
+        if (leaks && !open) weight *= CLOSED;
         sum += weight * light;
         total += weight;
     }

@@ -51,7 +51,7 @@ void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.xy), size = imageSize(volume_radiance);
     if (any(greaterThanEqual(at, size))) return;
     ivec3 cell = ivec3(at.x, at.y % int(frame.grid.y), at.y / int(frame.grid.y));
-    vec3 point = (vec3(cell) + 0.5 - 0.5 * vec3(frame.grid.xyz)) * cell_m, light = vec3(0.0), main_direction = vec3(0.0);
+    vec3 point = (vec3(cell) + 0.5 - 0.5 * vec3(frame.grid.xyz)) * cell_m, light = vec3(0.0), main_direction = vec3(0.0), middle = vec3(0.0);
     bool open;
     uint place = cubemap_of(point, open);
     float total = 0.0, bright = 0.0, side = 1.0 / float(taps);
@@ -63,9 +63,11 @@ void main() {
         float luminance = dot(color, vec3(0.2126, 0.7152, 0.0722));
         light += seen.w * color;
         main_direction += seen.w * luminance * seen.xyz;
+        middle += seen.w * seen.xyz;
         total += seen.w;
         bright += seen.w * luminance;
     }
     imageStore(volume_radiance, at, vec4(total > 0.0 ? light / total : vec3(0.0), open ? 1.0 : 0.0));
-    imageStore(volume_direction, at, vec4(bright > 0.0 ? main_direction / bright : vec3(0.0), cell_m));
+    // The solid angles of all directions have no direction; what they have here is the error of those that are estimated.
+    imageStore(volume_direction, at, vec4(bright > 0.0 ? main_direction / bright - middle / total : vec3(0.0), cell_m));
 }
