@@ -136,7 +136,8 @@ void frame_block_far(struct frame_block *block, const struct glint_capture *capt
     block->probe_high = metres_of(probe->box.max, origin, metres);
 }
 
-void frame_block_grid(struct frame_block *block, const struct glint_frame *frame, const struct glint_part_info *volume) {
+void frame_block_grid(struct frame_block *block, const struct glint_frame *frame,
+                      const struct glint_part_info *volume) {
     const double metres = frame->metres_per_unit > 0 ? frame->metres_per_unit : 1;
     block->grid = (uvec4){GRID_CELLS, GRID_CELLS, GRID_CELLS, 0};
     if (!volume) return;

@@ -60,7 +60,7 @@ bool plan_find_sizes(struct frame_plan *plan, struct glint_error *err) {
     const struct glint_part_info *gbuffer = glint_capture_find(capture, GLINT_PART_GBUFFER),
                                  *sky = glint_capture_find(capture, GLINT_PART_SKY),
                                  *planar = glint_capture_find(capture, GLINT_PART_MIRROR),
-                                 *grid = glint_capture_find(capture, GLINT_PART_VOLUME);
+                                 *grid = glint_capture_find(capture, PART_GRID);
     if (!gbuffer) return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part gbuffer: missing", glint_capture_path(capture));
     *sizes = (struct frame_sizes){.full = {gbuffer->width, gbuffer->height},
                                   .half = {(gbuffer->width + 1) / 2, (gbuffer->height + 1) / 2},

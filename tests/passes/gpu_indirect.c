@@ -94,7 +94,8 @@ static void try_all(struct gpu *gpu, const struct lit_patch *patch, double fov, 
         float *found = gpu_floats(gpu, "indirect", &width, &height);
         for (uint32_t i = 0; i < width * height; i++) {
             double at[3], normal[3];
-            if (!shapes_pixel(plain.user, &plain, i % width, i / width, at, normal) || !is_judged(patch, at, 0.25)) continue;
+            if (!shapes_pixel(plain.user, &plain, i % width, i / width, at, normal) || !is_judged(patch, at, 0.25))
+                continue;
             const double right = lit_patch_seen(patch, at, normal), error = (double)found[4 * i] - right;
             mean += fabs(error), bias += error, light += right;
             judged++;
@@ -122,9 +123,15 @@ static const struct trial trials[] = {
      "64 directions, and steps that pass over the patch's border"}};
 
 /* The linear march takes longer steps across the picture than a plate seen at a grazing angle is high. */
-static void a_lit_patch_opposite(void **state) { try_all(*state, &overhead, 90, trials, 2); }
-static void a_lit_patch_beside_the_floor(void **state) { TRY(*state, &on_wall, 60, trials); }
-static void a_lit_patch_beside_a_wall(void **state) { TRY(*state, &on_floor, 60, trials); }
+static void a_lit_patch_opposite(void **state) {
+    try_all(*state, &overhead, 90, trials, 2);
+}
+static void a_lit_patch_beside_the_floor(void **state) {
+    TRY(*state, &on_wall, 60, trials);
+}
+static void a_lit_patch_beside_a_wall(void **state) {
+    TRY(*state, &on_floor, 60, trials);
+}
 
 /* ---- furnaces ---- */
 
@@ -156,9 +163,16 @@ static void radiance_stays_in_a_furnace(void **state) {
     indirect_load(gpu, &plain);
     for (int way = 0; way < 4; way++)
         for (int t = 0; t < 3; t++) {
-            const char *words[] = {"downsample=mips",       tracers[t],  "hiz=nearest",
-                                   "indirect_blur=edges",   "indirect_apply=planes", "indirect_temporal=history",
-                                   "downsample.all_surfaces=true", ways[way][0], ways[way][1], NULL};
+            const char *words[] = {"downsample=mips",
+                                   tracers[t],
+                                   "hiz=nearest",
+                                   "indirect_blur=edges",
+                                   "indirect_apply=planes",
+                                   "indirect_temporal=reprojected",
+                                   "downsample.all_surfaces=true",
+                                   ways[way][0],
+                                   ways[way][1],
+                                   NULL};
             double least = INFINITY, most = 0;
             indirect_arrange(gpu, words);
             gpu_run(gpu);
@@ -202,7 +216,8 @@ static void levels_share_what_they_find(void **state) {
         float *found = gpu_floats(gpu, "indirect", NULL, NULL);
         for (uint32_t i = 0; i < WIDE * HIGH; i++) {
             double at[3], normal[3];
-            if (!shapes_pixel(plain.user, &plain, i % WIDE, i / WIDE, at, normal) || !is_judged(&all_floor, at, 1.5)) continue;
+            if (!shapes_pixel(plain.user, &plain, i % WIDE, i / WIDE, at, normal) || !is_judged(&all_floor, at, 1.5))
+                continue;
             const double right = lit_patch_seen(&all_floor, at, normal), off = (double)found[4 * i] - right;
             error[l] += off * off, bias += off, light += right;
             judged++;
@@ -236,8 +251,13 @@ static void invalid_pixels_spoil_no_others(void **state) {
     plain.spoil = spoiled;
     indirect_load(gpu, &plain);
     for (int t = 0; t < 3; t++) {
-        const char *words[] = {"downsample=mips", tracers[t], "hiz=nearest", "indirect_blur=edges",
-                               "indirect_apply=planes", "indirect_temporal=history", NULL};
+        const char *words[] = {"downsample=mips",
+                               tracers[t],
+                               "hiz=nearest",
+                               "indirect_blur=edges",
+                               "indirect_apply=planes",
+                               "indirect_temporal=reprojected",
+                               NULL};
         int lit = 0;
         indirect_arrange(gpu, words);
         gpu_run(gpu);
@@ -255,12 +275,9 @@ static void invalid_pixels_spoil_no_others(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(form_factors_agree_with_quadrature),
-        cmocka_unit_test(a_lit_patch_opposite),
-        cmocka_unit_test(a_lit_patch_beside_the_floor),
-        cmocka_unit_test(a_lit_patch_beside_a_wall),
-        cmocka_unit_test(radiance_stays_in_a_furnace),
-        cmocka_unit_test(levels_share_what_they_find),
+        cmocka_unit_test(form_factors_agree_with_quadrature), cmocka_unit_test(a_lit_patch_opposite),
+        cmocka_unit_test(a_lit_patch_beside_the_floor),       cmocka_unit_test(a_lit_patch_beside_a_wall),
+        cmocka_unit_test(radiance_stays_in_a_furnace),        cmocka_unit_test(levels_share_what_they_find),
         cmocka_unit_test(invalid_pixels_spoil_no_others),
     };
     return cmocka_run_group_tests_name("gpu_indirect", tests, gpu_set_up, gpu_tear_down);

@@ -10,8 +10,9 @@
 enum { WIDE = 160, HIGH = 120, X = 5, Y = 4, Z = 3, CELLS = X * Y * Z, SIDES = 6, WORDS = 12 };
 
 static const struct shapes corner = {.floor_y = -1, .wall_z = -6, .wall_top = INFINITY};
-static const char *const names[SIDES][3] = {{"px.R", "px.G", "px.B"}, {"nx.R", "nx.G", "nx.B"}, {"py.R", "py.G", "py.B"},
-                                            {"ny.R", "ny.G", "ny.B"}, {"pz.R", "pz.G", "pz.B"}, {"nz.R", "nz.G", "nz.B"}};
+static const char *const names[SIDES][3] = {{"px.R", "px.G", "px.B"}, {"nx.R", "nx.G", "nx.B"},
+                                            {"py.R", "py.G", "py.B"}, {"ny.R", "ny.G", "ny.B"},
+                                            {"pz.R", "pz.G", "pz.B"}, {"nz.R", "nz.G", "nz.B"}};
 
 /* ---- the capture's volume ---- */
 
@@ -107,7 +108,8 @@ static void cells_are_interpolated_in_their_grid(void **state) {
             }
         }
         free(found);
-        print_message("# %s: worst difference %.2e of %.2f to %.2f\n", all ? "all cells" : "lit cells", worst, least, most);
+        print_message("# %s: worst difference %.2e of %.2f to %.2f\n", all ? "all cells" : "lit cells", worst, least,
+                      most);
         assert_true(worst < 2e-5 && most > 4 * least); /* places in cells of numbers up to 10, a float each */
     }
 }
@@ -143,8 +145,8 @@ static void directions_see_their_sides(void **state) {
         free(found);
         const double floor = 0.5 * 2 + 0.25 * 0.75 + 0.25 * 1, wall = 0.5 * 1.25 + 0.25 * 0.75 + 0.25 * 1.75;
         const double right[2] = {mean + contrasts[c] * (floor - mean), mean + contrasts[c] * (wall - mean)};
-        print_message("# contrast %g: floor %.4f of %.4f, wall %.4f of %.4f\n", contrasts[c], sum[0] / count[0], right[0],
-                      sum[1] / count[1], right[1]);
+        print_message("# contrast %g: floor %.4f of %.4f, wall %.4f of %.4f\n", contrasts[c], sum[0] / count[0],
+                      right[0], sum[1] / count[1], right[1]);
         for (int w = 0; w < 2; w++) assert_true(fabs(sum[w] / count[w] - right[w]) < 2e-3); /* the mean of 10⁵ rays */
     }
 }
@@ -195,13 +197,14 @@ static void cube_maps_give_mean_direction_and_mask(void **state) {
                                 .cube = linear_light,
                                 .cube_size = 32,
                                 .cube_count = 1};
-    const char *words[] = {MISSED, "volume_make=gather", "volume_make.taps=16", "volume_make.cell_m=0.5",
-                           "volume_make.moved=false", NULL};
+    const char *words[] = {
+        MISSED, "volume_make=gather", "volume_make.taps=16", "volume_make.cell_m=0.5", "volume_make.moved=false", NULL};
     uint32_t width, height;
     indirect_load(gpu, &plain);
     indirect_arrange(gpu, words);
     gpu_run(gpu);
-    float *mean = gpu_floats(gpu, "volume_radiance", &width, &height), *main_way = gpu_floats(gpu, "volume_direction", NULL, NULL);
+    float *mean = gpu_floats(gpu, "volume_radiance", &width, &height),
+          *main_way = gpu_floats(gpu, "volume_direction", NULL, NULL);
     assert_true(width == 24 && height == 24 * 24);
     double worst = 0;
     int open = 0;
@@ -242,12 +245,17 @@ static void what_a_cube_map_shows_lies_at_its_distances(void **state) {
                                 .cube_count = 1};
     indirect_load(gpu, &plain);
     for (int moved = 0; moved < 2; moved++) {
-        const char *words[] = {MISSED, "volume_make=gather", "volume_make.taps=16", "volume_make.cell_m=0.5",
-                               moved ? "volume_make.moved=true" : "volume_make.moved=false", NULL};
+        const char *words[] = {MISSED,
+                               "volume_make=gather",
+                               "volume_make.taps=16",
+                               "volume_make.cell_m=0.5",
+                               moved ? "volume_make.moved=true" : "volume_make.moved=false",
+                               NULL};
         indirect_arrange(gpu, words);
         gpu_run(gpu);
         float *mean = gpu_floats(gpu, "volume_radiance", NULL, NULL);
-        for (int near = 0; near < 2; near++) seen[moved][near] = (double)mean[4 * (12 * 576 + 12 * 24 + (near ? 16 : 12))];
+        for (int near = 0; near < 2; near++)
+            seen[moved][near] = (double)mean[4 * (12 * 576 + 12 * 24 + (near ? 16 : 12))];
         free(mean);
     }
     print_message("# from the middle %.4f, 2 m nearer %.4f; not moved %.4f, %.4f\n", seen[1][0], seen[1][1], seen[0][0],

@@ -6,8 +6,8 @@
 static const double pi = 3.14159265358979323846;
 
 void indirect_arrange(struct gpu *gpu, const char *const *words) {
-    static const char *const others[] = {"screen_trace", "cubemap_select", "cubemap_trace", "resolve",
-                                         "upscale",      "compose",        NULL};
+    static const char *const others[] = {
+        "screen_trace", "cubemap_select", "cubemap_trace", "resolve", "upscale", "compose", NULL};
     gpu_reset(gpu);
     gpu->float_precision = true;
     gpu_without(gpu, others);

@@ -2,9 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "shared/bindings.glsl"
-#include "history.pass.h"
+#include "reprojected.pass.h"
 #include "shared/push_begin.glsl"
-#include "history.pass.h"
+#include "reprojected.pass.h"
 };
 // Diffuse light is the surface's own, from wherever it is seen.
 const int reprojection = 0, reprojection_surface = 0, reprojection_reflection = 1, ndf = 0, ndf_ggx = 0;
