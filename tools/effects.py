@@ -25,24 +25,21 @@ MASK = [
     'length_m=0 taps=3', 'linear taps=3', 'linear thickness=0.005', 'linear back_faces=true', 'linear length_m=0.1', 'linear end_fade=0.5',
     'linear border_fade=0.05', 'linear facing=false', 'linear skip=false', 'dda length_m=0.1']
 INDIRECT = [
-    'linear', 'linear level=1', 'linear level=0', 'linear indirect_blur=none', 'linear level=0 indirect_blur=none', 'linear indirect_blur.edges=false',
-    'linear directions=1', 'linear directions=16', 'hiz', 'dda', 'linear length_m=0', 'linear fallback=cubemaps', 'linear fallback=cubemaps corrections=0',
-    'linear fallback=black', 'linear lookup=surface', 'linear contrast=1', 'linear leaks=false', 'linear screen=current', 'linear color_source=lit',
-    'linear normals=shading', 'hiz level=1 directions=16', 'hiz level=0 directions=16',
-    'dda level=0 directions=64 pattern=sobol downsample=none indirect_blur=none indirect_apply=bilinear',
-    'dda level=0 directions=64 pattern=sobol downsample=none indirect_blur=none indirect_apply=bilinear fallback=cubemaps']
-MADE = ['linear', 'linear leaks=false', 'linear volume_make.moved=false', 'linear volume_make.cell_m=0.5', 'linear volume_make.cell_m=2', 'linear length_m=0',
-        'linear fallback=cubemaps']
+    'linear', 'linear level=1', 'linear indirect_blur=none', 'linear level=0 indirect_blur=none', 'linear indirect_blur.edges=false',
+    'linear directions=1', 'linear directions=16', 'hiz', 'linear length_m=0', 'linear fallback=cubemaps', 'linear fallback=cubemaps corrections=0',
+    'linear fallback=black', 'linear lookup=surface', 'linear contrast=1', 'linear leaks=false', 'linear screen=current', 'linear normals=shading',
+    'hiz level=1 directions=16', 'dda level=0 directions=64 pattern=sobol downsample=none indirect_blur=none indirect_apply=bilinear']
+MADE = ['linear', 'linear leaks=false', 'linear volume_make.moved=false', 'linear volume_make.cell_m=2', 'linear fallback=cubemaps']
 INDIRECT_SLOTS = {'downsample': 'mips', 'hiz': 'nearest', 'cubemap_active': 'nearest', 'volume_make': 'gather', 'indirect_trace': 'linear',
                   'indirect_blur': 'edges', 'indirect_apply': 'planes'}
 INDIRECT_SAMPLE = ['--cube-size', '128', '--truth', '128', '--truth-of', 'indirect']
 EFFECTS = {
     'indirect': {
         'scenes': ['street', 'room', 'hotel', 'courtyard'], 'sample': [*INDIRECT_SAMPLE, '--also', 'volume'], 'slots': INDIRECT_SLOTS,
-        'trace': 'indirect_trace', 'fetches': 'indirect_fetches', 'levels': 3, 'tables': {'indirect_trace': (INDIRECT, ['downsample.all_surfaces=true'])}},
+        'trace': 'indirect_trace', 'fetches': 'indirect_fetches', 'levels': 3, 'tables': {'indirect_trace': (INDIRECT, [])}},
     'indirect, no volume': {
         'effect': 'indirect', 'scenes': ['street', 'room', 'hotel', 'courtyard'], 'sample': INDIRECT_SAMPLE, 'slots': INDIRECT_SLOTS,
-        'trace': 'indirect_trace', 'fetches': 'indirect_fetches', 'levels': 3, 'tables': {'volume_make': (MADE, ['downsample.all_surfaces=true'])}},
+        'trace': 'indirect_trace', 'fetches': 'indirect_fetches', 'levels': 3, 'tables': {'volume_make': (MADE, [])}},
     'shadow': {
         'scenes': ['courtyard', 'room', 'still_life', 'kitchen'],
         'sample': ['--truth-of', 'sun', '--also', 'shadow'],
@@ -95,8 +92,8 @@ def measure(glint, name, effect, capture, folder, row, settings):
 def table(glint, name, effect, captures, folder, rows, settings):
     lines = ['| | ' + ' | '.join(captures) + ' |', '| --- |' + ' --- |' * len(captures)]
     for row in rows:
-        print(row, file=sys.stderr)
         lines.append(f'| `{row}` | ' + ' | '.join(measure(glint, name, effect, c, folder, row, settings) for c in captures.values()) + ' |')
+        print(lines[-1], file=sys.stderr)
     return '\n'.join(lines)
 
 

@@ -67,7 +67,7 @@ enum glint_size_class {
     GLINT_SIZE_VOLUME,         /* 2D, texels of the longest description of an inner volume × active cube maps */
     GLINT_SIZE_FIGURES,        /* 2D, 512 × 1 */
     GLINT_SIZE_PLANAR,         /* 2D, the size of the capture's planar reflection map */
-    GLINT_SIZE_GRID,           /* 2D, the slices of the capture's volume of light one below the other; without one 24³ cells */
+    GLINT_SIZE_GRID,           /* 2D, slices of the capture's volume of light, or of 24³ cells that a pass fills */
     GLINT_SIZE_CUBEMAPS_MIPS,
     GLINT_SIZE_SKY_MIPS,
     GLINT_SIZE_PROBE_MIPS,       /* the levels of the capture's probe, however many it has */
