@@ -54,7 +54,7 @@ HARMLESS = {
         "image, have alpha 0, and do not enter the mean",
     ("shared/cube_chain.glsl", "if (level == 0 || reach == 0) return texelFetch(faces, at, level);", "if (false) return texelFetch(faces, at, level);"):
         "level 0 is never requested, and without neighbours the only tap is the texel itself",
-    ("reflection/screen_trace/hiz.comp", "if (!pass_behind || highest * fma(thickness_m, farthest, 1.0 + thickness) >= 0.999999 * farthest) return false;",
+    ("reflection/screen_trace/hiz.glsl", "if (!pass_behind || highest * fma(thickness_m, farthest, 1.0 + thickness) >= 0.999999 * farthest) return false;",
      "if (!pass_behind || highest * fma(thickness_m, farthest, 2.0 + thickness) >= 0.999999 * farthest) return false;"):
         "more cells are tested than necessary: more steps with the same result",
     ("prepare/downsample/pick.comp", "float depth_m = texelFetch(depth_full, min(block + ivec2(i & 1, i >> 1), last), 0).x;",
@@ -63,7 +63,7 @@ HARMLESS = {
     ("reflection/resolve/blurred.comp", "precise vec2 place = uv + vec2(2 * ivec2(i % taps, i / taps) + 1 - taps) * apart;",
      "precise vec2 place = uv - vec2(2 * ivec2(i % taps, i / taps) + 1 - taps) * apart;"): "the taps are symmetric about the middle",
     ("reflection/screen_trace/linear.glsl", "if (verify) result.fetches++;", "if (false) result.fetches++;"): COUNT,
-    ("reflection/screen_trace/hiz.comp", "int coarsest_level() { return max(findMSB(min(frame.size.z, frame.size.w)) - 2, 0); }",
+    ("reflection/screen_trace/hiz.glsl", "int coarsest_level() { return max(findMSB(min(frame.size.z, frame.size.w)) - 2, 0); }",
      "int coarsest_level() { return (findMSB(min(frame.size.z, frame.size.w)) - 2); }"):
         "a ray ascends only from a level below the coarsest: level 0 is below neither 0 nor less",
     ("reflection/upscale/best_match.comp", "texel = clamp(texel, ivec2(0), last);", "texel = (texel);"):
