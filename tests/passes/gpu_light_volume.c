@@ -52,7 +52,7 @@ static bool load_volume(struct gpu *gpu, const struct volume *volume) {
     return true;
 }
 
-/* Trilinear between the middles of cells, those outside being the nearest ones inside. Dark cells do not count unless `all`. */
+/* Trilinear between the middles of cells, those outside being the nearest ones inside. Dark cells count a millionth, or as others with `all`. */
 static double interpolated(const struct volume *volume, const float *cells, const double at[3], bool all) {
     const double *m = volume->grid.world_to_grid;
     const int counts[3] = {X, Y, Z};
@@ -70,7 +70,7 @@ static double interpolated(const struct volume *volume, const float *cells, cons
             cell[k] = first + side < counts[k] ? first + side : counts[k] - 1;
         }
         const double light = (double)cells[(cell[2] * Y + cell[1]) * X + cell[0]];
-        if (!all && !(light > 0)) continue;
+        if (!all && !(light > 0)) weight *= 1e-6;
         sum += weight * light, total += weight;
     }
     return total > 0 ? sum / total : 0;
