@@ -75,6 +75,8 @@ KINDS = [
          'An image that another pass or the capture makes. All its levels are one texture. Cube maps are read as textureCube or '
          'textureCubeArray, or as texture2DArray (layers as for WRITE) where the texel is known and neither filter nor face selection is needed.',
          row='.name = #$image, .glsl = #$kind', bindings=BINDING),
+    Kind('READ_AS', 'kind, name, image', 'A READ whose binding has another name, where that of the image is taken.',
+         row='.name = #$image, .glsl = #$kind', bindings=BINDING.replace('$image', '$name'), as_kind='READ'),
     Kind('OPTIONAL_READ', 'kind, image, format, size, fallback',
          'A READ of an image that need not exist. has_NAME is false in the shader when no pass makes it, and its fallback value is bound.',
          row='.name = #$image, .glsl = #$kind, .optional = true, .format = GLINT_FORMAT_##$format, .size = GLINT_SIZE_##$size, '

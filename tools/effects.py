@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Measures effects beside reflections against their truth, and writes the tables of passes/NOTES.md.
 
-effects.py GLINT [NOTES.md] [CAPTURES]   GLINT is the program; without NOTES.md the tables are printed; captures are kept in the folder CAPTURES.
+effects.py GLINT [NOTES.md] [CAPTURES] [TABLE…]   GLINT is the program; without NOTES.md, or with -, the tables are printed; captures are kept
+                                                  in the folder CAPTURES; TABLE: titles of those to write
 """
 import json
 import pathlib
@@ -10,7 +11,8 @@ import subprocess
 import sys
 import tempfile
 
-SAMPLE = ['--size', '320x180', '--cube-size', '16', '--truth', '64']
+WIDTH, HEIGHT = 320, 180
+SAMPLE = ['--size', f'{WIDTH}x{HEIGHT}', '--cube-size', '16', '--truth', '64']
 # Assignments behind a variant's name are its parameters; an assignment to a slot chooses its variant.
 TRACE = [
     'length_m=0', 'linear', 'linear steps=8', 'linear steps=64', 'linear thickness=0.005', 'linear thickness=0 thickness_m=0.2',
@@ -22,7 +24,22 @@ MASK = [
     'shadow_mask=captured length_m=0', 'shadow_mask=captured linear', 'length_m=0', 'linear', 'dda', 'length_m=0 offset=0', 'linear offset=0',
     'length_m=0 taps=3', 'linear taps=3', 'linear thickness=0.005', 'linear back_faces=true', 'linear length_m=0.1', 'linear end_fade=0.5',
     'linear border_fade=0.05', 'linear facing=false', 'linear skip=false', 'dda length_m=0.1']
+INDIRECT = [
+    'linear', 'linear level=1', 'linear indirect_blur=none', 'linear level=0 indirect_blur=none', 'linear indirect_blur.edges=false',
+    'linear directions=1', 'linear directions=16', 'hiz', 'linear length_m=0', 'linear fallback=cubemaps', 'linear fallback=cubemaps corrections=0',
+    'linear fallback=black', 'linear lookup=surface', 'linear contrast=1', 'linear leaks=false', 'linear screen=current', 'linear normals=shading',
+    'hiz level=1 directions=16', 'dda level=0 directions=16 pattern=sobol downsample=none indirect_blur=none indirect_apply=bilinear']
+MADE = ['linear', 'linear leaks=false', 'linear volume_make.moved=false', 'linear volume_make.cell_m=2', 'linear fallback=cubemaps']
+INDIRECT_SLOTS = {'downsample': 'mips', 'hiz': 'nearest', 'cubemap_active': 'nearest', 'volume_make': 'gather', 'indirect_trace': 'linear',
+                  'indirect_blur': 'edges', 'indirect_apply': 'planes'}
+INDIRECT_SAMPLE = ['--cube-size', '128', '--truth', '128', '--truth-of', 'indirect']
 EFFECTS = {
+    'indirect': {
+        'scenes': ['street', 'room', 'hotel', 'courtyard'], 'sample': [*INDIRECT_SAMPLE, '--also', 'volume'], 'slots': INDIRECT_SLOTS,
+        'trace': 'indirect_trace', 'fetches': 'indirect_fetches', 'levels': 3, 'tables': {'indirect_trace': (INDIRECT, [])}},
+    'indirect, no volume': {
+        'effect': 'indirect', 'scenes': ['street', 'room', 'hotel', 'courtyard'], 'sample': INDIRECT_SAMPLE, 'slots': INDIRECT_SLOTS,
+        'trace': 'indirect_trace', 'fetches': 'indirect_fetches', 'levels': 3, 'tables': {'volume_make': (MADE, [])}},
     'shadow': {
         'scenes': ['courtyard', 'room', 'still_life', 'kitchen'],
         'sample': ['--truth-of', 'sun', '--also', 'shadow'],
@@ -49,39 +66,52 @@ def arguments(effect, row, settings):
         elif name in effect['slots']:
             uses.append(word)
         else:
-            sets.append(f'{ELSEWHERE.get(name, effect["trace"])}.{word}')
+            sets.append(word if '.' in name else f'{ELSEWHERE.get(name, effect["trace"])}.{word}')
     return [part for use in uses for part in ('--use', use)] + [part for a in sets for part in ('--set', a)]
 
 
+def fetches(glint, effect, out):
+    """A texel; of images with levels, a pixel of the picture."""
+    names = [effect['fetches'], *(f'{effect["fetches"]}.level{level}' for level in range(1, effect.get('levels', 1)))]
+    found = [run([glint, 'view', out, '--image', name, '--stats', '--json'])['channels'][0] for name in names]
+    texels = WIDTH * HEIGHT if 'levels' in effect else found[0]['finite']
+    return sum(f['mean'] * f['finite'] for f in found) / texels
+
+
 def measure(glint, name, effect, capture, folder, row, settings):
+    name = effect.get('effect', name)
     out = folder / 'run'
     preset = folder / 'preset.json'
     preset.write_text(json.dumps({'name': name, 'title': name, 'source': 'glint', 'slots': effect['slots'], 'set': {}}))
     found = run([glint, 'replay', capture, '-o', out, '--preset', preset, '--diagnostics', '--json', '--against', 'truth', '--effect', name,
                  *arguments(effect, row, settings)])
     image = found['runs'][0]['against_truth']['image']['surfaces'][0]
-    fetches = run([glint, 'view', out, '--image', effect['fetches'], '--stats', '--json'])['channels'][0]['mean']
-    return f'{image["rmse"]:.3f}, {image["mean_error"]:+.3f}; {fetches:.1f}'
+    return f'{image["rmse"]:.3f}, {image["mean_error"]:+.3f}; {fetches(glint, effect, out):.1f}'
 
 
 def table(glint, name, effect, captures, folder, rows, settings):
     lines = ['| | ' + ' | '.join(captures) + ' |', '| --- |' + ' --- |' * len(captures)]
     for row in rows:
         lines.append(f'| `{row}` | ' + ' | '.join(measure(glint, name, effect, c, folder, row, settings) for c in captures.values()) + ' |')
+        print(lines[-1], file=sys.stderr)
     return '\n'.join(lines)
 
 
 def main():
-    glint, notes = sys.argv[1], sys.argv[2] if len(sys.argv) > 2 else None
+    glint, notes, only = sys.argv[1], sys.argv[2] if len(sys.argv) > 2 and sys.argv[2] != '-' else None, sys.argv[4:]
     tables = {}
     with tempfile.TemporaryDirectory() as temporary:
         kept = pathlib.Path(sys.argv[3] if len(sys.argv) > 3 else temporary)
         for name, effect in EFFECTS.items():
-            captures = {s: kept / f'{s}.exr' for s in effect['scenes']}
+            if only and not set(only) & set(effect['tables']):
+                continue
+            captures = {s: kept / f'{name}_{s}.exr' for s in effect['scenes']}
             for scene, path in captures.items():
                 if not path.exists():
                     run([glint, 'sample', scene, '-o', path, *SAMPLE, *effect['sample']])
             for title, (rows, settings) in effect['tables'].items():
+                if only and title not in only:
+                    continue
                 tables[title] = table(glint, name, effect, captures, pathlib.Path(temporary), rows, settings)
     if not notes:
         print('\n\n'.join(tables.values()))

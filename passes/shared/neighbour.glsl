@@ -1,25 +1,7 @@
 // The weight of a neighbour from the images of its texel. Next include of a pass that reads depth_half, normal_half and pick, with the
 // rows of reuse_rows.h and a constant `brdf`.
-#include "shared/camera.glsl"
+#include "shared/surface_at.glsl"
 #include "shared/reuse.glsl"
-
-struct Surface {
-    float depth_m;
-    vec3 position; // in view space
-    vec4 normal;   // world space; w: roughness
-    bool shown;    // visible; invisible reflections are not shared
-};
-
-Surface surface_at(ivec2 texel) {
-    Surface s;
-    s.depth_m = texelFetch(depth_half, texel, 0).x;
-    s.normal = texelFetch(normal_half, texel, 0);
-    uint picked = texelFetch(pick, texel, 0).x;
-    s.shown = is_pick_shown(picked);
-    vec2 uv = picked_uv(texel, picked, frame.size);
-    s.position = view_position(uv, s.depth_m, frame.view_from_uv, frame.depth_range.z);
-    return s;
-}
 
 float neighbour_weight(Surface center, ivec2 texel) {
     if (any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(frame.size.zw)))) return 0.0;

@@ -53,7 +53,7 @@ void bin(inout Row row, int figure, int number, int most) {
 struct Sums {
     Row by_surface_roughness, by_reflecting_roughness, by_metalness, by_weight;
     uvec2 stencil; // an id, and its number of consecutive pixels
-    uint sky, surfaces, reflecting, above, open, sunlit, water, transparent, moved, moving;
+    uint sky, surfaces, reflecting, above, open, sunlit, luminous, water, transparent, moved, moving;
     vec2 surface_roughness, reflecting_roughness, depth, light; // lowest, highest
     float transparent_roughest;
 };
@@ -141,6 +141,7 @@ void count_pixel(ivec2 pixel, inout Sums sums) {
         sums.above++;
         if (!(depth_m < INFINITE)) sums.open++;
     }
+    if (!all(equal(texelFetch(lit, pixel, 0).rgb, vec3(0.0)))) sums.luminous++;
     if (whole) count_picture(pixel, sums);
 }
 
@@ -186,6 +187,7 @@ void count_block(int place) {
     atomicAdd(figures[at_above], sums.above);
     atomicAdd(figures[at_open], sums.open);
     atomicAdd(figures[at_sunlit], sums.sunlit);
+    atomicAdd(figures[at_luminous], sums.luminous);
     add_range(at_surface_smoothest, at_surface_roughest, sums.surface_roughness);
     add_range(at_reflecting_smoothest, at_reflecting_roughest, sums.reflecting_roughness);
     barrier();

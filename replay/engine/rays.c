@@ -1,4 +1,5 @@
-/* Several rays a pixel: images that passes accumulate are summed after each ray, and after the last ray they become the mean. */
+/* Several rays a pixel: images that passes accumulate are summed after each ray, and after the last ray they become the mean, each level by
+   itself. */
 #include "run.h"
 
 #include <stdlib.h>
@@ -7,6 +8,7 @@
 
 struct sum {
     struct image *of;
+    uint32_t level;
     struct image sum;
     VkDescriptorSet set;
 };
@@ -35,7 +37,7 @@ static const struct glint_pass accumulate = {.slot = "accumulate",
 enum { PUSH_WORDS = 4 };
 
 static bool describe_sum(const struct run *run, struct sum *sum, struct glint_error *err) {
-    const VkImageView views[BINDINGS] = {sum->of->view, sum->sum.levels[0], sum->of->levels[0]};
+    const VkImageView level = sum->of->levels[sum->level], views[BINDINGS] = {level, sum->sum.levels[0], level};
     if (!descriptors_allocate(run->gpu, run->descriptors, &run->rays->program->images, sum->of->name, &sum->set, err))
         return false;
     for (uint32_t b = 0; b < BINDINGS; b++)
@@ -43,31 +45,42 @@ static bool describe_sum(const struct run *run, struct sum *sum, struct glint_er
     return true;
 }
 
-static bool add_sum(struct run *run, struct image *of, struct glint_error *err) {
+static uint32_t length_of(uint32_t length, uint32_t level) {
+    return length >> level ? length >> level : 1;
+}
+
+static bool add_sum(struct run *run, struct image *of, uint32_t level, struct glint_error *err) {
     struct gpu *gpu = run->gpu;
     struct sum *sum = &run->rays->sums[run->rays->count];
-    const struct image_desc desc = {
-        .format = GLINT_FORMAT_RGBA32F, .width = of->desc.width, .height = of->desc.height, .levels = 1};
+    const struct image_desc desc = {.format = GLINT_FORMAT_RGBA32F,
+                                    .width = length_of(of->desc.width, level),
+                                    .height = length_of(of->desc.height, level),
+                                    .levels = 1};
     sum->of = of;
+    sum->level = level;
     if (!image_init(&sum->sum, gpu, "sum", &desc, err)) return false;
     run->rays->count++; /* from here on rays_release frees it */
     return image_own_memory(&sum->sum, gpu, err) && describe_sum(run, sum, err);
 }
 
-/* The name of the k-th image that executing passes of the loop accumulate; NULL past the last. */
-static const char *accumulated_image(const struct run *run, uint32_t k) {
+/* The k-th level of the images that executing passes of the loop accumulate; NULL past the last. */
+static struct image *accumulated_level(const struct run *run, uint32_t k, uint32_t *level) {
     const struct graph *graph = run->graph;
     for (size_t p = graph->loop_first; p < graph->loop_end; p++)
         for (size_t r = 0; run->steps[p].execute && r < graph->passes[p].pass->row_count; r++) {
             const struct glint_row *row = &graph->passes[p].pass->rows[r];
-            if (row->kind == GLINT_ROW_ACCUMULATE && k-- == 0) return row->name;
+            if (row->kind != GLINT_ROW_ACCUMULATE) continue;
+            struct image *image = &run_image(run, row->name)->image;
+            *level = k;
+            if (k < image->desc.levels) return image;
+            k -= image->desc.levels;
         }
     return NULL;
 }
 
 uint32_t rays_sums(const struct run *run) {
-    uint32_t count = 0;
-    while (accumulated_image(run, count)) count++;
+    uint32_t count = 0, level;
+    while (accumulated_level(run, count, &level)) count++;
     return count;
 }
 
@@ -82,7 +95,10 @@ bool rays_prepare(struct run *run, uint32_t sums, struct glint_error *err) {
     if (!spirv_find(&spirv, &run->engine->device->shaders, &entry, err)) return false;
     run->rays->program = programs_get(&run->engine->device->programs, run->gpu, &accumulate, &spirv, &constants, err);
     bool ok = run->rays->program != NULL;
-    for (uint32_t k = 0; ok && k < sums; k++) ok = add_sum(run, &run_image(run, accumulated_image(run, k))->image, err);
+    for (uint32_t k = 0, level; ok && k < sums; k++) {
+        struct image *of = accumulated_level(run, k, &level);
+        ok = add_sum(run, of, level, err);
+    }
     return ok;
 }
 
@@ -102,7 +118,7 @@ void rays_record(const struct run *run, uint32_t ray) {
         image_access(&sum->sum, IMAGE_SHADER_STORAGE, &barriers);
         barriers_record(&barriers, gpu);
         vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 2, sets, 0, NULL);
-        vkCmdDispatch(commands, (sum->of->desc.width + 7) / 8, (sum->of->desc.height + 7) / 8, 1);
+        vkCmdDispatch(commands, (sum->sum.desc.width + 7) / 8, (sum->sum.desc.height + 7) / 8, 1);
     }
     device_end_label(gpu);
 }

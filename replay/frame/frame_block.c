@@ -157,6 +157,25 @@ void frame_block_far(struct frame_block *block, const struct glint_capture *capt
     block->probe_high = metres_of(probe->box.max, origin, metres);
 }
 
+void frame_block_grid(struct frame_block *block, const struct glint_frame *frame,
+                      const struct glint_part_info *volume) {
+    const double metres = frame->metres_per_unit > 0 ? frame->metres_per_unit : 1;
+    block->grid = (uvec4){GRID_CELLS, GRID_CELLS, GRID_CELLS, 0};
+    if (!volume) return;
+    const double *to_grid = volume->volume.world_to_grid;
+    double eye[3];
+    glint_camera_position(&frame->camera, eye);
+    for (int r = 0; r < 4; r++) {
+        double at_eye = to_grid[4 * r + 3];
+        for (int c = 0; c < 3; c++) {
+            block->grid_from_world.column[c][r] = (float)(to_grid[4 * r + c] / metres);
+            at_eye += to_grid[4 * r + c] * eye[c];
+        }
+        block->grid_from_world.column[3][r] = (float)at_eye;
+    }
+    block->grid = (uvec4){volume->width, volume->height / volume->volume.slices, volume->volume.slices, 1};
+}
+
 static void fill_sun(struct frame_block *block, const struct glint_frame *frame) {
     const struct glint_sun *sun = &frame->sun;
     if (!frame->has_sun) return;

@@ -23,7 +23,7 @@ struct frame_block {
 };
 
 struct frame_sizes {
-    uint32_t full[2], half[2], planar[2], shadow[2];
+    uint32_t full[2], half[2], planar[2], shadow[2], grid[2];
     uint32_t active, chain, cube_face, sky_face, probe_face, probe_mips;
     bool is_cpu;  /* that of struct glint_device_info */
     bool history; /* images of the previous frame are available */
@@ -40,5 +40,9 @@ void frame_block_shadow(struct frame_block *block, const struct glint_frame *fra
 void frame_block_captured_light(struct frame_block *block, const struct glint_capture *capture);
 /* Sets the fields of what rays find that nothing nearer continues: sky, probe, painted ground. */
 void frame_block_far(struct frame_block *block, const struct glint_capture *capture);
+/* Sets the grid of the volume of light: the capture's, or where there is none one of GRID_CELLS³ cells that a pass may fill. */
+#define PART_GRID "volume.000" /* the only volume of light that passes use */
+enum { GRID_CELLS = 24 };
+void frame_block_grid(struct frame_block *block, const struct glint_frame *frame, const struct glint_part_info *volume);
 
 #endif

@@ -60,7 +60,8 @@ bool plan_find_sizes(struct frame_plan *plan, struct glint_error *err) {
     const struct glint_part_info *gbuffer = glint_capture_find(capture, GLINT_PART_GBUFFER),
                                  *sky = glint_capture_find(capture, GLINT_PART_SKY),
                                  *planar = glint_capture_find(capture, GLINT_PART_MIRROR),
-                                 *shadow = glint_capture_find(capture, GLINT_PART_SHADOW);
+                                 *shadow = glint_capture_find(capture, GLINT_PART_SHADOW),
+                                 *grid = glint_capture_find(capture, PART_GRID);
     if (!gbuffer) return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part gbuffer: missing", glint_capture_path(capture));
     *sizes = (struct frame_sizes){.full = {gbuffer->width, gbuffer->height},
                                   .half = {(gbuffer->width + 1) / 2, (gbuffer->height + 1) / 2},
@@ -72,6 +73,8 @@ bool plan_find_sizes(struct frame_plan *plan, struct glint_error *err) {
     if (sizes->probe_mips) sizes->probe_face = levels[0]->width;
     if (shadow) sizes->shadow[0] = shadow->width, sizes->shadow[1] = shadow->height;
     if (planar) sizes->planar[0] = planar->width, sizes->planar[1] = planar->height;
+    sizes->grid[0] = grid ? grid->width : GRID_CELLS;
+    sizes->grid[1] = grid ? grid->height : GRID_CELLS * GRID_CELLS;
     if (pipeline_traces_all_pixels(plan->pipeline)) sizes->half[0] = sizes->full[0], sizes->half[1] = sizes->full[1];
     const size_t count = plan->source->cubemap_count;
     for (size_t i = 0; i < count; i++)
@@ -166,6 +169,9 @@ bool plan_describe(const struct frame_plan *plan, const struct graph_image *imag
         break;
     case GLINT_SIZE_SHADOW:
         expected[0] = sizes->shadow[0], expected[1] = sizes->shadow[1];
+        break;
+    case GLINT_SIZE_GRID:
+        expected[0] = sizes->grid[0], expected[1] = sizes->grid[1];
         break;
     case GLINT_SIZE_LIST:
         expected[0] = LIST_WIDTH;

@@ -56,9 +56,9 @@ static void check_row(const struct glint_pass *pass, const struct glint_row *row
         expect(own, pass, "READ_OWN", row->image, "an image that the pass writes", faults);
         if (own) graph_check_kind(pass, row, own, faults);
     } else if (row->kind == GLINT_ROW_ACCUMULATE)
-        expect(own && (own->size == GLINT_SIZE_FULL || own->size == GLINT_SIZE_HALF) &&
-                   !glint_format_is_uint(own->format) && glint_pass_row(pass, GLINT_ROW_PER_RAY, NULL),
-               pass, "ACCUMULATE", row->name, "a plain float image that the pass writes, and PER_RAY", faults);
+        expect(own && glint_size_is_picture(own->size) && !glint_format_is_uint(own->format) &&
+                   glint_pass_row(pass, GLINT_ROW_PER_RAY, NULL),
+               pass, "ACCUMULATE", row->name, "a float image of the picture that the pass writes, and PER_RAY", faults);
     else if (row->kind == GLINT_ROW_TRACER)
         expect(own && own->kind == GLINT_ROW_DIAGNOSTIC && own->format == GLINT_FORMAT_R8UI, pass, "TRACER", row->image,
                "a diagnostic image of the pass in R8UI", faults);

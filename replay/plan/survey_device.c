@@ -39,6 +39,7 @@ static void read_figures(struct glint_survey *survey, const uint32_t *f, bool wh
     survey->above = f[at_above];
     survey->open = f[at_open];
     survey->sunlit = f[at_sunlit];
+    survey->luminous = f[at_luminous];
     survey->water = f[at_water];
     survey->transparent = f[at_transparent];
     survey->moved = f[at_moved];

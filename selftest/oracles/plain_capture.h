@@ -65,6 +65,7 @@ struct plain {
        the pane's roughness; a depth of +inf: nothing there. */
     void (*water)(uint32_t x, uint32_t y, float out[9]);
     void (*pane)(uint32_t x, uint32_t y, float out[9]);
+    const struct glint_part *part; /* one part more; NULL: none */
 };
 bool plain_write(const char *path, const struct plain *plain, struct glint_error *err);
 

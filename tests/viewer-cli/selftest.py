@@ -131,6 +131,11 @@ MUTANTS = [
     ("hemisphere", "radius = sqrt(u.x)", "radius = u.x", ["cosine-weighted direction"]),
     ("light_terms", "min(sun.mask, sun.shadow)", "sun.shadow", ["changed light"]),
     ("light_terms", "1.0 / 64.0", "1.0 / 63.0", ["kept light"]),
+    ("light_volume", "direction[i] < 0.0", "direction[i] > 0.0", ["ambient cube"]),
+    ("light_volume", "/ 6.0", "/ 5.0", ["ambient cube"]),
+    ("light_volume", "1.0 + 2.0 * dot", "1.0 + 3.0 * dot", ["directed light"]),
+    ("light_volume", "contrast * (irradiance - mean), 0.0)", "contrast * (irradiance - mean), -1.0)", ["contrasted light"]),
+    ("light_volume", "cell.y + cell.z * int(grid.y)", "cell.y + cell.z * int(grid.x)", ["cell of a volume"]),
 ]
 
 

@@ -52,6 +52,7 @@ const char *size_name(enum glint_size_class size) {
         [GLINT_SIZE_FIGURES - FIRST] = "512 × 1",
         [GLINT_SIZE_PLANAR - FIRST] = "planar",
         [GLINT_SIZE_SHADOW - FIRST] = "shadow map",
+        [GLINT_SIZE_GRID - FIRST] = "grid of light",
         [GLINT_SIZE_CUBEMAPS_MIPS - FIRST] = "cube maps, levels",
         [GLINT_SIZE_SKY_MIPS - FIRST] = "sky, levels",
         [GLINT_SIZE_PROBE_MIPS - FIRST] = "probe, levels",

@@ -1,16 +1,20 @@
 // What effects other than reflections make of the diffuse picture (shared/light_terms.glsl). Next include of a pass with the rows of slot.h.
 #include "shared/light_terms.glsl"
 
+// Light that the capture does not name cannot be replaced.
+bool has_captured() { return has_indirect_lit && textureSize(indirect_lit, 0) == ivec2(frame.size.xy); }
+bool is_replaced() { return has_indirect && bounce && !ambient && has_captured(); }
+
 float kept_part(ivec2 pixel) {
-    if (has_indirect && !ambient) return 0.0;
+    if (is_replaced()) return 0.0;
     if (!has_occlusion || !occlude) return 1.0;
     bool darkened = has_engine_ao && replace_ao && frame.captured_light.x > 0.0;
     return kept_light(texelFetch(occlusion, pixel, 0).x, darkened ? texelFetch(engine_ao, pixel, 0).x : 1.0);
 }
 
 vec3 with_terms(ivec2 pixel, vec3 color, float depth_m, vec3 normal) {
-    bool traced = has_indirect && bounce, shaded = has_sun_shadow && shade,
-         captured = has_indirect_lit && ((has_occlusion && occlude) || (has_indirect && !ambient));
+    bool traced = has_indirect && bounce && (ambient || is_replaced()), shaded = has_sun_shadow && shade,
+         captured = has_captured() && ((has_occlusion && occlude) || is_replaced());
     if (!(traced || shaded || captured) || !reflects(depth_m, normal)) return color;
     vec4 base = texelFetch(albedo_full, pixel, 0);
     SunTerm sun = SunTerm(vec3(0.0), 0.0, 1.0, 1.0);

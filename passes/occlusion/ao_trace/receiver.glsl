@@ -1,5 +1,6 @@
 // The surface that occlusion is estimated for. Next include of a pass with the rows of slot.h.
 #include "shared/camera.glsl"
+#include "receiver_normal.glsl"
 
 struct Receiver {
     vec3 position, normal; // in view space
@@ -15,14 +16,6 @@ struct Estimate {
 
 precise float occlusion_radius(float depth_m) {
     return radius_in == radius_in_world ? radius_m : radius_part * abs(frame.view_from_uv.y) * depth_m;
-}
-
-// The normal in world space.
-vec3 receiver_normal(vec2 start, vec3 shading) {
-    ivec2 size = textureSize(vertex_normal_full, 0);
-    if (normals == normals_shading || size != ivec2(frame.size.xy)) return shading;
-    vec3 vertex = texelFetch(vertex_normal_full, min(ivec2(start), size - 1), 0).xyz;
-    return reflects(1.0, vertex) ? vertex : shading;
 }
 
 Receiver receiver_at(ivec2 texel, float depth_m, vec3 shading) {

@@ -26,7 +26,7 @@ void pick_pixel(ivec2 texel) {
     store_surface(texel, depths_m[chosen], surface, chosen, shown);
     bool has_vertex = vertex_planes && textureSize(vertex_normal_full, 0) == size;
     vec3 vertex = has_vertex ? texelFetch(vertex_normal_full, source, 0).xyz : surface.xyz;
-    bool used = shown && reflects(depths_m[chosen], surface.xyz);
+    bool used = (shown || all_surfaces) && reflects(depths_m[chosen], surface.xyz);
     imageStore(depth_levels, texel, vec4(depths_m[chosen] > 0.0 ? depths_m[chosen] : INFINITE));
     imageStore(normal_levels, texel,
                used ? vec4(normalize(surface.xyz), surface.w > 0.0 ? min(surface.w, 1.0) : 0.0) : vec4(0.0));

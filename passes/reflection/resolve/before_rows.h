@@ -1,14 +1,4 @@
-/* How a colour is found in the previous frame. */
-#line 302
-READ(texture2D, previous_scene)
-READ(texture2D, previous_lit)
-READ(texture2D, previous_depth)
-READ(texture2D, motion_full)
-READ(texture2D, motion_depth_full)
-WITHOUT(previous_lit, "screen hits show this frame's picture, unless there is the previous scene")
-WITHOUT(motion_full, "reprojected with the cameras alone")
-CHOICE2(color_source, scene, lit, scene, "Mafia DE article, Global Illumination", "which picture of the previous frame: the finished one, where the capture has it, or the diffuse one")
-SPEC(bool,  motion,       true, 0, 1, "1", "Mafia DE article, Global Illumination", "reproject with motion vectors where the capture has them; off: with the cameras only")
-SPEC(bool,  reject,       true, 0, 1, "1", "Mafia DE article, Global Illumination", "reject points that were occluded in the previous frame; off: use the colour that is there")
+/* How a colour is found in the previous frame, and what replaces it. */
+#include "previous_rows.h"
+#line 332
 CHOICE2(hidden, cubemap, black, cubemap, "left open by the Mafia DE article", "colour of a hit that the previous frame does not show: the nearest cube map, sampled at the hit, or black")
-PUSH(float, hidden_depth, 0.02, 0.0, 10.0, "1", "glint", "relative depth difference to the previous frame above which a point counts as occluded there")

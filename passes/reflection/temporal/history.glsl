@@ -1,5 +1,5 @@
-// Reprojects the history of a pixel and averages with it. Next include of a pass with the rows of history_rows.h, after
-// shared/neighbour.glsl.
+// Reprojects the history of a texel and averages with it. Next include of a pass with the rows of history_rows.h and the histories previous_color
+// and previous_age, after shared/surface_at.glsl.
 #include "shared/reproject.glsl"
 #include "shared/probe/record.glsl"
 
@@ -27,11 +27,11 @@ Past past_at(vec2 place, Surface center, Reprojection where) {
         if (weight < 1e-3 || any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(frame.size.zw)))) continue;
         float depth_m = depths_m[i];
         vec4 surface = texelFetch(previous_normal_half, texel, 0);
-        if (!is_pick_shown(picks[i]) || !reflects(depth_m, surface.xyz) || dot(surface.xyz, center.normal.xyz) < history_normal) continue;
+        if ((center.shown && !is_pick_shown(picks[i])) || !reflects(depth_m, surface.xyz) || dot(surface.xyz, center.normal.xyz) < history_normal) continue;
         vec2 uv = picked_uv(texel, picks[i], frame.size);
         vec3 seen = vec3((uv - frame.previous_uv_from_view.zw) / frame.previous_uv_from_view.xy, front) * depth_m;
         if (!in_plane(seen - where.expected, normal, depth_m, history_depth)) continue;
-        vec4 color = texelFetch(previous_reflection, texel, 0);
+        vec4 color = texelFetch(previous_color, texel, 0);
         if (!finite(color) || color.a < 0.0) continue;
         past.color += weight * color;
         past.age += weight * ages[i];
@@ -40,14 +40,14 @@ Past past_at(vec2 place, Surface center, Reprojection where) {
     return total > 1e-3 ? Past(past.color / total, past.age / total) : Past(vec4(0.0), 0.0);
 }
 
-// The surface's history with its limited age; age 0 if there is none.
-Past past_of(ivec2 pixel, Surface center) {
+// The surface's history with its limited age; age 0 if there is none. Of a surface whose reflection is shown, only of what was shown.
+Past past_of(ivec2 pixel, Surface center, float travelled_m) {
     Past past = Past(vec4(0.0), 0.0);
     if (frame.flags.x == 0u || frame.flags.y != 0u || !(history > 0.0)) return past;
     vec2 uv = picked_uv(pixel, texelFetch(pick, pixel, 0).x, frame.size);
     ivec2 full_pixel = min(ivec2(uv * vec2(frame.size.xy)), ivec2(frame.size.xy) - 1);
     vec3 position = mat3(frame.world_from_view) * center.position;
-    Reprojection where = reproject(uv, position, full_pixel, texelFetch(travelled, pixel, 0).x);
+    Reprojection where = reproject(uv, position, full_pixel, travelled_m);
     // The whole block moves like its picked pixel, so that in a static picture the history is in the same texel.
     vec2 place = vec2(pixel) + 0.5 + (where.uv - uv) * vec2(frame.size.xy) / reduction(frame.size);
     if (all(greaterThanEqual(where.uv, vec2(0.0))) && all(lessThanEqual(where.uv, vec2(1.0))))

@@ -50,7 +50,7 @@ void main() {
         // Small bright features in mirrors are not outliers.
         most = mix(bright, most, fade(center.normal.w, fade_from, fade_to));
         if (most > 0.0 && bright > most) color.rgb *= most / bright;
-        color = joined(past_of(pixel, center), color, age);
+        color = joined(past_of(pixel, center, texelFetch(travelled, pixel, 0).x), color, age);
     }
     imageStore(reflection_temporal, pixel, halves ? nearest_half(color) : color);
     imageStore(temporal_age, pixel, vec4(age));

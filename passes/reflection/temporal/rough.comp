@@ -43,7 +43,7 @@ void main() {
         age = finite(color) ? 1.0 : 0.0;
         if (age == 0.0) color = vec4(0.0);
         if (tile_works && center.shown && reflects(center.depth_m, center.normal.xyz)) {
-            Past past = past_of(pixel, center);
+            Past past = past_of(pixel, center, texelFetch(travelled, pixel, 0).x);
             if (past.age == 0.0 && extra) color = with_extra(pixel, center, color, age);
             color = joined(past, color, age);
         }

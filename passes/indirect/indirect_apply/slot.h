@@ -1,0 +1,15 @@
+/* What every variant of this slot reads and writes. */
+#line 102
+SLOT("Indirect light at full resolution")
+READ(texture2D, indirect_traced)
+OPTIONAL_READ(texture2D, indirect_levels, RGBA16F, HALF_MIPS(3), -1)
+OPTIONAL_READ(texture2D, indirect_temporal, RGBA16F, HALF, -1)
+READ(texture2D, depth_half)
+READ(texture2D, normal_half)
+READ(utexture2D, pick)
+READ(texture2D, depth_full)
+READ(texture2D, normal_full)
+WRITE(image2D, indirect, RGBA16F, "radiance", FULL, "R G B A", 0, "the final indirect light at full resolution: the radiance that a white surface sends back, irradiance / π; a: 1")
+PUSH(float, intensity, 1.0, 0.0, 16.0, "1", "glint", "factor on the light; 0: none")
+DISPATCH(indirect)
+NEEDS(bounce)

@@ -1,0 +1,15 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "shared/bindings.glsl"
+#include "dda.pass.h"
+#include "shared/push_begin.glsl"
+#include "dda.pass.h"
+};
+#include "reflection/screen_trace/dda.glsl"
+#include "reflection/screen_trace/along.glsl"
+
+Result trace_from(vec2 start, vec3 position, vec3 direction, ivec2 texel, uint number) {
+    return trace_along(start, position, direction, texel);
+}
+#include "main.glsl"

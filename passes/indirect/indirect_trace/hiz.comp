@@ -1,0 +1,17 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_samplerless_texture_functions : require
+#include "shared/bindings.glsl"
+#include "hiz.pass.h"
+#include "shared/push_begin.glsl"
+#include "hiz.pass.h"
+};
+#include "reflection/screen_trace/hiz.glsl"
+
+Result march(ScreenRay ray, ivec2 texel) { return march(ray, texel, cells); }
+#include "reflection/screen_trace/along.glsl"
+
+Result trace_from(vec2 start, vec3 position, vec3 direction, ivec2 texel, uint number) {
+    return trace_along(start, position, direction, texel);
+}
+#include "main.glsl"

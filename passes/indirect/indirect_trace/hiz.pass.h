@@ -1,0 +1,9 @@
+/* Rays through the pyramid of the nearest depth, as in the slot screen_trace. */
+PASS("Pyramid of the nearest depth", "glint; KF2 article, HZB Optimization")
+#include "slot.h"
+#include "reflection/screen_trace/cell_rows.h"
+#include "reflection/resolve/previous_rows.h"
+#line 402
+READ(texture2D, hiz)
+READ(texture2D, depth_slopes)
+SPEC(int,   cells,       256,   1,   65536, "cells", "KF2 article, HZB Optimization", "max cells visited")
