@@ -21,7 +21,7 @@
 #undef MAXIMUM
 #line 24
 const int ALL_FIGURES = 512;
-const int FIGURES = whole ? ALL_FIGURES : 176; // words of a workgroup: plans only need the first lines of figures.h
+const int FIGURES = whole ? ALL_FIGURES : 192; // words of a workgroup: plans only need the first lines of figures.h
 shared uint figures[ALL_FIGURES];
 // The bits of non-negative floats have the order of their values.
 const uint COUNTED = 0u, LOWEST = 1u, HIGHEST = 2u;
@@ -175,7 +175,7 @@ void count_block(int place) {
     barrier();
     const vec2 NONE = vec2(INFINITE, -INFINITE);
     const Row EMPTY = Row(0, 0u);
-    Sums sums = Sums(EMPTY, EMPTY, EMPTY, EMPTY, uvec2(0u), 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, NONE, NONE, NONE, NONE, 0.0);
+    Sums sums = Sums(EMPTY, EMPTY, EMPTY, EMPTY, uvec2(0u), 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, NONE, NONE, NONE, NONE, 0.0);
     for (int row = lane / 64; row < 64; row += LANES / 64) {
         ivec2 pixel = 64 * ivec2(gl_WorkGroupID.xy) + ivec2(lane % 64, row);
         if (all(lessThan(pixel, ivec2(frame.size.xy)))) count_pixel(pixel, sums);
