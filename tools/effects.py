@@ -30,8 +30,8 @@ INDIRECT = [
     'linear fallback=black', 'linear lookup=surface', 'linear contrast=1', 'linear leaks=false', 'linear screen=current', 'linear normals=shading',
     'hiz level=1 directions=16', 'dda level=0 directions=16 pattern=sobol downsample=none indirect_blur=none indirect_apply=bilinear']
 MADE = ['linear', 'linear leaks=false', 'linear volume_make.moved=false', 'linear volume_make.cell_m=2', 'linear fallback=cubemaps']
-INDIRECT_SLOTS = {'downsample': 'mips', 'hiz': 'nearest', 'cubemap_active': 'nearest', 'volume_make': 'gather', 'indirect_trace': 'linear',
-                  'indirect_blur': 'edges', 'indirect_apply': 'planes'}
+INDIRECT_SLOTS = {'downsample': 'mips', 'hiz': 'nearest', 'cubemap_active': 'nearest', 'surface_levels': 'picked', 'volume_make': 'gather',
+                  'indirect_trace': 'linear', 'indirect_blur': 'edges', 'indirect_apply': 'planes'}
 INDIRECT_SAMPLE = ['--cube-size', '128', '--truth', '128', '--truth-of', 'indirect']
 EFFECTS = {
     'indirect': {

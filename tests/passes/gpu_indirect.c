@@ -169,7 +169,7 @@ static void radiance_stays_in_a_furnace(void **state) {
                                    "indirect_blur=edges",
                                    "indirect_apply=planes",
                                    "indirect_temporal=reprojected",
-                                   "downsample.all_surfaces=true",
+                                   "surface_levels=picked",
                                    ways[way][0],
                                    ways[way][1],
                                    NULL};
@@ -201,7 +201,7 @@ static void levels_share_what_they_find(void **state) {
     indirect_load(gpu, &plain);
     for (int l = 0; l < 4; l++) {
         const char *words[] = {"downsample=mips",
-                               "downsample.all_surfaces=true",
+                               "surface_levels=picked",
                                "indirect_trace=dda",
                                "indirect_trace.fallback=black",
                                "indirect_trace.directions=4",

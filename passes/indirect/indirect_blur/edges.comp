@@ -13,6 +13,7 @@ vec4 level_texel(ivec2 texel, int level, float weight) {
     return dispatch_phase == ALONG_ROWS ? texelFetch(indirect_traced, texel, level) : texelFetch(levels, texel, level);
 }
 vec4 across_texel(ivec2 texel, int level, float weight) { return texelFetch(across, texel, level); }
+vec4 surface_of(ivec2 texel, int level) { return texelFetch(vertex_normal_levels, texel, level); }
 float agreement(vec4 own, vec4 other) {
     vec3 apart = own.xyz - other.xyz;
     return 0.5 * dot(apart, apart) <= normal_part ? 1.0 : 0.0;

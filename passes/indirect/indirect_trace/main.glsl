@@ -11,14 +11,15 @@ struct Gathered {
     uint found, steps, fetches;
 };
 
-int traced_level() { return has_vertex_normal_levels ? level : 0; }
+int traced_level() { return has_surface_levels ? level : 0; }
 
 // The texel at the pipeline's resolution that a texel of the level was picked from.
 ivec2 finest_of(ivec2 texel) {
     if (traced_level() == 0) return texel;
-    uint place = uint(texelFetch(vertex_normal_levels, texel, level).w);
-    ivec2 pixel = (texel << level + 1) + ivec2(place & 7u, place >> 3u);
-    return min(pixel >> 1, ivec2(frame.size.zw) - 1);
+    uint place = uint(texelFetch(surface_levels, texel, level).w);
+    int scale = int(reduction(frame.size));
+    ivec2 pixel = (texel << level) * scale + ivec2(place & 7u, place >> 3u);
+    return min(pixel / scale, ivec2(frame.size.zw) - 1);
 }
 
 vec2 numbers_of(ivec2 texel, uint ray) {

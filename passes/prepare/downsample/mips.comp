@@ -8,7 +8,7 @@
 };
 #include "choose.glsl"
 #include "surface.glsl"
-#include "shared/edges.glsl"
+#include "level_edges.glsl"
 
 const uint SHARE_FINEST = 0u, SHARE_COARSER = 1u, SHARE_EDGES = 2u; // dispatch phases
 
@@ -26,7 +26,7 @@ void pick_pixel(ivec2 texel) {
     store_surface(texel, depths_m[chosen], surface, chosen, shown);
     bool has_vertex = vertex_planes && textureSize(vertex_normal_full, 0) == size;
     vec3 vertex = has_vertex ? texelFetch(vertex_normal_full, source, 0).xyz : surface.xyz;
-    bool used = (shown || all_surfaces) && reflects(depths_m[chosen], surface.xyz);
+    bool used = shown && reflects(depths_m[chosen], surface.xyz);
     imageStore(depth_levels, texel, vec4(depths_m[chosen] > 0.0 ? depths_m[chosen] : INFINITE));
     imageStore(normal_levels, texel,
                used ? vec4(normalize(surface.xyz), surface.w > 0.0 ? min(surface.w, 1.0) : 0.0) : vec4(0.0));
@@ -50,12 +50,6 @@ void pick_texel(ivec2 texel) {
     imageStore(vertex_normal_levels, texel, vertex);
 }
 
-struct Texel {
-    vec3 position, plane; // in view space; plane: the geometric normal
-    float depth_m;
-    vec4 surface;
-};
-
 Texel texel_at(ivec2 at, int level) {
     Texel t;
     vec4 vertex = texelFetch(vertex_normals, at, level);
@@ -68,29 +62,9 @@ Texel texel_at(ivec2 at, int level) {
     return t;
 }
 
-// 1 up to half of the limit, 0 from the limit on; 0 for NaN.
-float within(float apart, float limit, float off) {
-    if (limit >= off) return 1.0;
-    return apart <= limit ? clamp(2.0 - 2.0 * apart / max(limit, 1e-20), 0.0, 1.0) : 0.0;
-}
-
-float open_to(Texel a, ivec2 at, int level) {
-    if (any(lessThan(at, ivec2(0))) || any(greaterThanEqual(at, textureSize(depths, level)))) return 0.0;
-    Texel b = texel_at(at, level);
-    if (!reflects(b.depth_m, b.surface.xyz)) return 0.0;
-    vec3 way = b.position - a.position;
-    float apart = max(abs(dot(way, a.plane)), abs(dot(way, b.plane))) / min(a.depth_m, b.depth_m);
-    return within(apart, edge_plane, 10.0) * within(1.0 - dot(a.surface.xyz, b.surface.xyz), edge_normal, 4.0) *
-           within(abs(a.surface.w - b.surface.w), edge_roughness, 1.0);
-}
-
-uint edges_of(ivec2 texel, int level) {
-    Texel own = texel_at(texel, level);
-    if (!reflects(own.depth_m, own.surface.xyz)) return 0u;
-    return packed_side(open_to(own, texel - ivec2(1, 0), level), SIDE_LEFT) |
-           packed_side(open_to(own, texel + ivec2(1, 0), level), SIDE_RIGHT) |
-           packed_side(open_to(own, texel - ivec2(0, 1), level), SIDE_UP) |
-           packed_side(open_to(own, texel + ivec2(0, 1), level), SIDE_DOWN);
+ivec2 level_size(int level) { return textureSize(depths, level); }
+float alike(vec4 a, vec4 b) {
+    return within(1.0 - dot(a.xyz, b.xyz), edge_normal, 4.0) * within(abs(a.w - b.w), edge_roughness, 1.0);
 }
 
 void main() {

@@ -1,12 +1,13 @@
-// Blurs and upscales levels up to the edges between surfaces. Next include of a pass that reads edge_levels, normal_levels and
-// vertex_normal_levels (downsample/mips) and `levels`, an image with as many levels, with the parameters radius and edges. It defines before
+// Blurs and upscales levels up to the edges between surfaces. Next include of a pass that reads edge_levels and vertex_normal_levels of
+// downsample/mips, or the same of all surfaces, and `levels`, an image with as many levels, with the parameters radius and edges. It defines before
+// vec4 surface_of(ivec2 texel, int level)                    xyz: normal, 0 where no ray starts; w: roughness
 // vec4 level_texel(ivec2 texel, int level, float weight)     a texel of a level; weight: what it counts, for records
 // vec4 across_texel(ivec2 texel, int level, float weight)    the same after the blur along rows
 // float agreement(vec4 own, vec4 other)                      of two surfaces, 0 to 1; xyz: unit normal, w: roughness
 #include "shared/camera.glsl"
 #include "shared/edges.glsl"
 
-bool has_ray(ivec2 texel, int level) { return reflects(1.0, texelFetch(normal_levels, texel, level).xyz); }
+bool has_ray(ivec2 texel, int level) { return reflects(1.0, surface_of(texel, level).xyz); }
 
 uvec4 edges_in_block(ivec2 block, int level) {
     vec2 between = vec2(block + 1) / vec2(textureSize(edge_levels, level));
@@ -75,11 +76,11 @@ vec4 upscaled_from_beside(ivec2 texel, int level, out float found) {
 // If there is none, as on thin bars: the surrounding texels, weighted by their agreement.
 vec4 upscaled_by_agreement(ivec2 texel, int level, out float found) {
     ivec2 home = texel >> 1, last = textureSize(levels, level + 1) - 1, side = 2 * (texel & 1) - 1;
-    vec4 own = texelFetch(normal_levels, texel, level), sum = vec4(0.0);
+    vec4 own = surface_of(texel, level), sum = vec4(0.0);
     float total = 0.0;
     for (int i = 0; i < 4; ++i) {
         ivec2 at = clamp(home + ivec2(i & 1, i >> 1) * side, ivec2(0), last);
-        vec4 other = texelFetch(normal_levels, at, level + 1);
+        vec4 other = surface_of(at, level + 1);
         if (!reflects(1.0, other.xyz)) continue;
         float weight = ((i & 1) == 0 ? 3.0 : 1.0) * (i < 2 ? 3.0 : 1.0) * agreement(own, other);
         sum += weight * level_texel(at, level + 1, weight);

@@ -29,6 +29,7 @@ vec4 across_texel(ivec2 texel, int level, float weight) {
     return color;
 }
 
+vec4 surface_of(ivec2 texel, int level) { return texelFetch(normal_levels, texel, level); }
 float agreement(vec4 own, vec4 other) { return lobe_agreement(own, other, roughness_part); }
 #include "level_filter.glsl"
 
