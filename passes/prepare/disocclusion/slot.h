@@ -11,6 +11,7 @@ WRITE(image2D, depth_kept, R32F, "m", FULL, "Z", INFINITY, "depth_full for the n
 HISTORY(texture2D, previous_depth_kept, depth_kept)
 DISPATCH(disocclusion)
 REFERENCE_NONE("the reference is a single frame, which has no history")
+REFERENCE_WITH(temporal_sharp, "of reflections only temporal_sharp reads it")
 SPEC(bool,  motion,    true,  0, 1, "1", "Mafia DE article, Temporal AA", "use motion vectors where the capture has them; off: the camera's motion only")
 CHOICE2(hidden_by, nearer, nearer, any, "Mafia DE article, Temporal AA", "what the previous frame has to show for a surface to be hidden. nearer: a nearer surface; any: a surface at another depth, so that surfaces that moved without a motion vector are found, too")
 PUSH(float, slope,     1.5,   0.0, 100.0, "1", "glint", "tolerance as a multiple of how much the depth changes from this pixel to its neighbours; on a plane 1 is enough")

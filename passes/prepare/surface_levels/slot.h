@@ -10,4 +10,5 @@ WRITE(image2D, surface_levels, RGBA16F, "1", HALF_MIPS(3), "X Y Z pick", 0, "geo
 WRITE(uimage2D, surface_edges, R8UI, "edges", HALF_MIPS(3), "sides", 0, "how continuous the surface is with the left, right, upper and lower neighbour: two bits each, 0: an edge, 3: one surface")
 NEEDS(surfaces)
 NEEDED_IF_READ
+REFERENCE_NONE("the reference traces each pixel, so that it has no levels")
 PER_RAY
