@@ -271,7 +271,7 @@ static void measure_and_consider(const struct lint_data *data, unsigned which, s
     for (size_t i = 0; i < LINT_MEASURES; i++) {
         if (!(which & 1u << order[i])) continue;
         lint_measure(data, &c->reading, order[i], &c->agreement);
-        if (gets_worse(from, &c->agreement, order[i])) return;
+        if (gets_worse(from, &c->agreement, (int)order[i])) return;
     }
     consider(contest, from, c);
 }
