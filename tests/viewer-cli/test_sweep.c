@@ -225,11 +225,33 @@ static void what_is_wrong_is_named(UNUSED void **state) {
     free(out);
 }
 
+/* Columns of the CSV file, and titles of tune's table. */
+static void classes_are_those_of_the_effect(UNUSED void **state) {
+    free(glint_ok("sample", "room", "--light=1", "-o", in_folder("shaded.exr"), "--size=32x18", "--cube-size=8",
+                  "--truth=4", "--truth-of=occlusion"));
+    free(glint_ok("sweep", in_folder("shaded.exr"), "-o", in_folder("occlusion"), PLAIN, "--use=ao_trace=horizon",
+                  "--use=ao_apply=bilinear", "--effect=occlusion", "--reference=truth", "--repeat=0", "--no-pictures",
+                  "--vary=ao_trace.steps=2,4"));
+    char *text = checked(run_program("cat", in_folder("occlusion/points.csv"), NULL), 0, __FILE__, __LINE__);
+    assert_contains(text, "truth all rmse");
+    assert_contains(text, "truth enclosed rmse");
+    assert_contains(text, "truth open rmse");
+    assert_null(strstr(text, "glossy"));
+    free(text);
+    text = glint_ok("tune", in_folder("shaded.exr"), "-o", in_folder("occlusion.json"), PLAIN, "--use=ao_trace=horizon",
+                    "--use=ao_apply=bilinear", "--effect=occlusion", "--reference=truth", "--repeat=0",
+                    "--budget-fetches=80%", "--tries=4", "--vary=ao_trace.steps=2..8");
+    assert_contains(text, "enclosed   shaded");
+    assert_null(strstr(text, "mirror-like"));
+    free(text);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(points_are_the_pipelines_they_name),
         cmocka_unit_test(a_killed_sweep_goes_on),
         cmocka_unit_test(several_captures_have_a_mean_and_a_worst_case),
+        cmocka_unit_test(classes_are_those_of_the_effect),
         cmocka_unit_test(what_is_wrong_is_named),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

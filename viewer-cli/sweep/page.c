@@ -33,7 +33,6 @@ static void add_value(json_t *values, const char *name, json_t *cell, const char
 
 /* Values of a point on the page: settings, errors by class, costs. */
 static json_t *values_of(const struct sweep *sweep, size_t p) {
-    static const char *const classes[] = {"all", "mirror-like", "glossy", "rough"};
     const struct sweep_point *s = &sweep->sums[p];
     json_t *values = json_array();
     for (size_t a = 0; a < glint_space_axis_count(sweep->space); a++) {
@@ -41,12 +40,12 @@ static json_t *values_of(const struct sweep *sweep, size_t p) {
         add_value(values, glint_space_axis(sweep->space, a), value[0] ? json_string(value) : json_null(), "");
     }
     for (size_t c = 0; c < sweep->captures.count; c++)
-        for (size_t k = 0; k < sizeof classes / sizeof *classes; k++) {
+        for (size_t k = 0; sweep_class(sweep, k); k++) {
             char name[200];
             const double error = sweep_error(sweep_row(sweep, c, p), sweep->against.truth ? "truth" : "reference",
-                                             classes[k], sweep->metric);
+                                             sweep_class(sweep, k), sweep->metric);
             if (!isfinite(error)) continue;
-            snprintf(name, sizeof name, "%.60s, %s: %.60s", base_name(sweep->captures.items[c]), classes[k],
+            snprintf(name, sizeof name, "%.60s, %s: %.60s", base_name(sweep->captures.items[c]), sweep_class(sweep, k),
                      glint_metric(sweep->metric)->title);
             add_value(values, name, json_number(error), "");
         }

@@ -82,10 +82,15 @@ bool sweep_draw_fronts(struct sweep *sweep, struct glint_error *err);
 void sweep_picture_name(const char *what, size_t capture, size_t point, char name[96]);
 void sweep_change_name(size_t capture, size_t from, size_t to, char name[96]);
 
-/* sweep_sum.c */
+/* sum.c */
 bool sweep_sum_up(struct sweep *sweep, struct glint_error *err);
 /* Figures of one row; NAN when it has none. */
 double sweep_figure(const struct sweep_row *row, const char *key);
+/* "all", then the classes of the effect's pixels; NULL past the last. */
+static inline const char *sweep_class(const struct sweep *sweep, size_t i) {
+    const struct glint_effect *effect = sweep->against.effect;
+    return i <= glint_effect_class_count(effect) ? glint_effect_class_name(effect, i) : NULL;
+}
 double sweep_error(const struct sweep_row *row, const char *answer, const char *class, enum glint_metric metric);
 /* Median of the rounds, with the lowest and the highest; NAN without any. `key`: "frame_ms", "cubemaps_ms". */
 double sweep_time(const struct sweep *sweep, const struct sweep_row *row, const char *key, double *low, double *high);

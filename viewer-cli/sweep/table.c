@@ -5,9 +5,6 @@
 #include "sweep/sweep.h"
 #include "io/table.h"
 
-static const char *const classes[] = {"all", "mirror-like", "glossy", "rough"};
-enum { CLASSES = sizeof classes / sizeof *classes };
-
 static void value_or_dash_cell(struct table *table, double value) {
     if (isfinite(value)) table_cell(table, "%s", number_text(value));
     else table_cell(table, "–");
@@ -188,10 +185,10 @@ static void put_titles(FILE *out, const struct sweep *sweep) {
         csv_text(out, glint_space_axis(sweep->space, a));
     }
     for (int k = 0; k < GLINT_TARGET_COUNT; k++)
-        for (int i = 0; i < CLASSES; i++)
+        for (size_t i = 0; sweep_class(sweep, i); i++)
             for (size_t m = 0; m < GLINT_METRIC_COUNT; m++)
                 if (sweep->metrics >> m & 1)
-                    fprintf(out, ",%s %s %s", glint_target_name((enum glint_target)k), classes[i],
+                    fprintf(out, ",%s %s %s", glint_target_name((enum glint_target)k), sweep_class(sweep, i),
                             glint_metric(m)->name);
     fputs(",invalid,steps per ray,fetches per ray,steps per pixel,fetches per pixel,frame ms,frame ms lowest,"
           "frame ms highest,cube maps ms",
@@ -209,10 +206,10 @@ static void put_row(FILE *out, const struct sweep *sweep, size_t c, size_t p) {
     for (size_t a = 0; a < glint_space_axis_count(sweep->space); a++)
         fprintf(out, ",%s", glint_space_value(sweep->space, p, a));
     for (int k = 0; k < GLINT_TARGET_COUNT; k++)
-        for (int i = 0; i < CLASSES; i++)
+        for (size_t i = 0; sweep_class(sweep, i); i++)
             for (size_t m = 0; m < GLINT_METRIC_COUNT; m++)
                 if (sweep->metrics >> m & 1)
-                    put_number(out, sweep_error(row, glint_target_name((enum glint_target)k), classes[i],
+                    put_number(out, sweep_error(row, glint_target_name((enum glint_target)k), sweep_class(sweep, i),
                                                 (enum glint_metric)m));
     for (size_t i = 0; i < sizeof figures / sizeof *figures; i++) put_number(out, sweep_figure(row, figures[i]));
     put_number(out, sweep_time(sweep, row, "frame_ms", &low, &high));

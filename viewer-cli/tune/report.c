@@ -45,12 +45,18 @@ static void print_contenders(const struct tune *tune, size_t s) {
     const struct tune_measured *measured = tune->measured + s * TUNE_CONTENDERS;
     const struct glint_metric_table *rows = &measured[TUNE_START].errors;
     char title[100];
-    const char *titles[16] = {"<preset", NULL};
+    /* the classes of the effect's own partition, which is the first */
+    const size_t last = glint_effect_class_count(tune->against.effect), most = rows->count ? rows->count - 1 : 0,
+                 classes = last < most ? last : most;
+    const char *titles[8 + GLINT_EFFECT_CLASSES] = {"<preset", NULL};
+    char names[GLINT_EFFECT_CLASSES][64];
     size_t n = 1;
     snprintf(title, sizeof title, ">%s [95 %%]", glint_metric(tune->metric)->title);
     titles[n++] = title;
-    for (size_t r = 1; r < 4 && r < rows->count; r++)
-        if (rows->rows[r].pixels) titles[n++] = r == 1 ? ">mirror-like" : r == 2 ? ">glossy" : ">rough";
+    for (size_t r = 1; r <= classes; r++) {
+        snprintf(names[r - 1], sizeof names[r - 1], ">%s", rows->rows[r].name);
+        if (rows->rows[r].pixels) titles[n++] = names[r - 1];
+    }
     titles[n++] = ">fetches/px";
     if (tune->repeat) titles[n++] = ">ms [95 %]", titles[n++] = ">tuned / this [95 %]", titles[n++] = "<tuned is";
     titles[n] = NULL;
@@ -61,7 +67,7 @@ static void print_contenders(const struct tune *tune, size_t s) {
         if (k == TUNE_SCALED) table_cell(table, "start, scaled × %.3g", tune->subjects[s].factor);
         else table_cell(table, "%s", tune_contenders[k]);
         interval_cell(table, 5, all.value, all.low, all.high);
-        for (size_t r = 1; r < 4 && r < rows->count; r++)
+        for (size_t r = 1; r <= classes; r++)
             if (rows->rows[r].pixels) number_cell(table, "%.5f", measured[k].errors.rows[r].of[tune->metric].value);
         number_cell(table, "%.2f", measured[k].fetches_px);
         if (!tune->repeat) continue;
