@@ -28,7 +28,7 @@ INDIRECT = [
     'linear', 'linear level=1', 'linear indirect_blur=none', 'linear level=0 indirect_blur=none', 'linear indirect_blur.edges=false',
     'linear directions=1', 'linear directions=16', 'hiz', 'linear length_m=0', 'linear fallback=cubemaps', 'linear fallback=cubemaps corrections=0',
     'linear fallback=black', 'linear lookup=surface', 'linear contrast=1', 'linear leaks=false', 'linear screen=current', 'linear normals=shading',
-    'hiz level=1 directions=16', 'dda level=0 directions=16 pattern=sobol downsample=none indirect_blur=none indirect_apply=bilinear']
+    'hiz level=1 directions=16', 'dda level=0 directions=64 pattern=sobol downsample=none indirect_blur=none indirect_apply=bilinear']
 MADE = ['linear', 'linear leaks=false', 'linear volume_make.moved=false', 'linear volume_make.cell_m=2', 'linear fallback=cubemaps']
 INDIRECT_SLOTS = {'downsample': 'mips', 'hiz': 'nearest', 'cubemap_active': 'nearest', 'surface_levels': 'picked', 'volume_make': 'gather',
                   'indirect_trace': 'linear', 'indirect_blur': 'edges', 'indirect_apply': 'planes'}
