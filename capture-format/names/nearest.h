@@ -14,7 +14,7 @@ void text_list(char *text, size_t size, const char *item);
 struct glint_nearest {
     const char *wanted, *best, *last;
     size_t distance;
-    char known[512], text[544];
+    char known[880], text[912];
 };
 
 struct glint_nearest glint_nearest_to(const char *wanted);
