@@ -252,6 +252,7 @@ static void invalid_pixels_spoil_no_others(void **state) {
     indirect_load(gpu, &plain);
     for (int t = 0; t < 3; t++) {
         const char *words[] = {"downsample=mips",
+                               "surface_levels=picked",
                                tracers[t],
                                "hiz=nearest",
                                "indirect_blur=edges",
