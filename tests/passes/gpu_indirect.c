@@ -251,14 +251,9 @@ static void invalid_pixels_spoil_no_others(void **state) {
     plain.spoil = spoiled;
     indirect_load(gpu, &plain);
     for (int t = 0; t < 3; t++) {
-        const char *words[] = {"downsample=mips",
-                               "surface_levels=picked",
-                               tracers[t],
-                               "hiz=nearest",
-                               "indirect_blur=edges",
-                               "indirect_apply=planes",
-                               "indirect_temporal=reprojected",
-                               NULL};
+        const char *words[] = {
+            "downsample=mips",       "surface_levels=picked",         tracers[t], "hiz=nearest", "indirect_blur=edges",
+            "indirect_apply=planes", "indirect_temporal=reprojected", NULL};
         int lit = 0;
         indirect_arrange(gpu, words);
         gpu_run(gpu);
