@@ -9,7 +9,7 @@ import programs
 
 def said(*command):
     programs.find(command[0])
-    return subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
+    return subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True, env=programs.ENVIRONMENT).stdout
 
 
 def raised(kinds, call, *words):

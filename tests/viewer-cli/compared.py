@@ -25,8 +25,8 @@ def ok(words, status=0):
 
 def texels(path, part, count):
     """The values of a part, as oiiotool prints them: a list of tuples, row by row, of its first `count` channels in the file's order."""
-    subprocess.run(["oiiotool", path, "--subimage", part, "-d", "float", "-o", "part.exr"], check=True)
-    out = subprocess.run(["oiiotool", "--dumpdata", "part.exr"], capture_output=True, text=True, check=True).stdout
+    subprocess.run(["oiiotool", path, "--subimage", part, "-d", "float", "-o", "part.exr"], check=True, env=tap.programs.ENVIRONMENT)
+    out = subprocess.run(["oiiotool", "--dumpdata", "part.exr"], capture_output=True, text=True, check=True, env=tap.programs.ENVIRONMENT).stdout
     return [tuple(map(float, row.split()[:count])) for row in re.findall(r"Pixel[^:]*: ([-+0-9. einf]+)", out)]
 
 

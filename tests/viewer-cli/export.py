@@ -14,7 +14,7 @@ SIZE = (61, 34)  # halves are 31 x 17: not every texel covers the same number of
 
 
 def oiiotool(*words):
-    return subprocess.run([programs.find("oiiotool"), *words], capture_output=True, text=True, check=True).stdout
+    return subprocess.run([programs.find("oiiotool"), *words], capture_output=True, text=True, check=True, env=programs.ENVIRONMENT).stdout
 
 
 def channels(file):
@@ -45,7 +45,7 @@ class Tests:
     def same(self, pairs):
         """No value of the images of any pair differs, whatever the names of the channels."""
         subprocess.run([programs.find("oiiotool"), "--fail", "0", "--hardfail", "0", *(
-            word for first, second in pairs for word in (*first, *second, "--diff", "--pop", "--pop"))], capture_output=True, check=True)
+            word for first, second in pairs for word in (*first, *second, "--diff", "--pop", "--pop"))], capture_output=True, check=True, env=programs.ENVIRONMENT)
 
     def stored(self, image):
         return [f"run/{image['file']}", "--subimage", image["part"], "--ch", ",".join(image["channels"].split())]
