@@ -1,4 +1,4 @@
-// The normal about which the directions of a surface's hemisphere are distributed, in world space. Next include of a pass that reads
+// The normal by which a surface receives light, in world space: about it the directions of its hemisphere are distributed. Next include of a pass that reads
 // vertex_normal_full and has the parameter `normals`. start: the surface's full-resolution pixel.
 #include "shared/camera.glsl"
 

@@ -1,15 +1,12 @@
 // Writes the sun's shadow of a pixel. Next include of a variant that defines float upscaled(ivec2 pixel, float depth_m, vec3 normal).
+#include "occlusion/ao_trace/receiver_normal.glsl"
+
 float half_visibility(ivec2 texel) { return texelFetch(contact_half, texel, 0).x; }
 
 float upscaled(ivec2 pixel, float depth_m, vec3 normal);
 
 bool is_turned_away(ivec2 pixel, vec3 shading) {
-    vec3 normal = shading;
-    if (normals == normals_vertex && textureSize(vertex_normal_full, 0) == ivec2(frame.size.xy)) {
-        vec3 vertex = texelFetch(vertex_normal_full, pixel, 0).xyz;
-        if (reflects(1.0, vertex)) normal = vertex;
-    }
-    return !(dot(normal, frame.sun_direction.xyz) > 0.0);
+    return !(dot(receiver_normal(vec2(pixel), shading), frame.sun_direction.xyz) > 0.0);
 }
 
 float sun_at(ivec2 pixel, float depth_m, vec3 normal) {

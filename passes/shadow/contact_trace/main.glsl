@@ -1,5 +1,6 @@
 // Traces the rays of every texel that may see the sun. Next include of a variant that defines Result sun_ray(ScreenRay ray, ivec2 texel) and
 // bool hides(Result traced): whether a ray that ended so does not reach the sun.
+#include "occlusion/ao_trace/receiver_normal.glsl"
 #include "shared/blue_noise.glsl"
 #include "shared/sun.glsl"
 
@@ -7,14 +8,6 @@ struct Estimate {
     float shaded, nearest_m;
     uint end, steps, fetches;
 };
-
-// The normal in world space by which the surface faces the sun.
-vec3 facing_normal(vec2 start, vec3 shading) {
-    ivec2 size = textureSize(vertex_normal_full, 0);
-    if (normals == normals_shading || size != ivec2(frame.size.xy)) return shading;
-    vec3 vertex = texelFetch(vertex_normal_full, min(ivec2(start), size - 1), 0).xyz;
-    return reflects(1.0, vertex) ? vertex : shading;
-}
 
 // Whether the sun may light a pixel that the texel is interpolated for (ao_apply/corners.glsl).
 bool may_be_lit(ivec2 texel) {
@@ -63,7 +56,7 @@ Estimate estimate(ivec2 texel, vec2 start, vec3 position, vec3 normal) {
 
 Estimate estimate_at(ivec2 texel, float depth_m, vec3 shading) {
     vec2 start = picked_position(texel, texelFetch(pick, texel, 0).x, frame.size);
-    vec3 normal = normalize(facing_normal(start, shading));
+    vec3 normal = normalize(receiver_normal(start, shading));
     vec3 position = view_position(start / vec2(frame.size.xy), depth_m, frame.view_from_uv, frame.depth_range.z);
     if (lift > 0.0) {
         position += lift * depth_m * (mat3(frame.view_from_world) * normal);
