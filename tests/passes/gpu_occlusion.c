@@ -271,22 +271,11 @@ static void noise_is_mean_free(void **state) {
 
 /* ---- what is not a surface ---- */
 
-static void spoiled(const struct plain *plain, float *values) {
-    const uint32_t pixels = plain->width * plain->height;
-    shapes_spoil(plain, values);
-    for (uint32_t i = 0; i < pixels; i++) {
-        if (i % 7 == 0) values[PLAIN_NORMAL_X * pixels + i] = NAN;
-        if (i % 11 == 0)
-            for (uint32_t k = 0; k < 3; k++) values[(PLAIN_NORMAL_X + k) * pixels + i] = 0;
-        if (i % 13 == 0) values[i] = i % 2 ? INFINITY : NAN;
-        if (i % 17 == 0) values[i] = i % 2 ? 0 : -3;
-    }
-}
 static void invalid_pixels_are_visible_and_spoil_no_others(void **state) {
     static const char *const variants[] = {"ao_trace=horizon", "ao_trace=hemisphere", "ao_trace=dda"};
     struct gpu *gpu = *state;
     struct plain plain = occlusion_frame(&corner, 60);
-    plain.spoil = spoiled;
+    plain.spoil = shapes_spoil_some;
     occlusion_load(gpu, &plain);
     for (int v = 0; v < 3; v++)
         for (int apply = 0; apply < 2; apply++) {

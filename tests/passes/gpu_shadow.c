@@ -365,22 +365,11 @@ static void planned_is_all(void **state) {
 
 /* ---- what is not a surface, and no sun ---- */
 
-static void spoiled(const struct plain *plain, float *values) {
-    const uint32_t pixels = plain->width * plain->height;
-    shapes_spoil(plain, values);
-    for (uint32_t i = 0; i < pixels; i++) {
-        if (i % 7 == 0) values[PLAIN_NORMAL_X * pixels + i] = NAN;
-        if (i % 11 == 0)
-            for (uint32_t k = 0; k < 3; k++) values[(PLAIN_NORMAL_X + k) * pixels + i] = 0;
-        if (i % 13 == 0) values[i] = i % 2 ? INFINITY : NAN;
-        if (i % 17 == 0) values[i] = i % 2 ? 0 : -3;
-    }
-}
 static void invalid_pixels_are_lit_and_spoil_no_others(void **state) {
     struct gpu *gpu = *state;
     const struct glint_sun sun = sun_at(35, 20);
     struct plain plain = frame_of(&box, &sun);
-    plain.spoil = spoiled;
+    plain.spoil = shapes_spoil_some;
     occlusion_load(gpu, &plain);
     for (int v = 0; v < VARIANTS; v++)
         for (int half = 0; half < 2; half++) {

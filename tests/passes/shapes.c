@@ -98,3 +98,15 @@ void shapes_spoil(const struct plain *plain, float *values) {
         for (uint32_t k = 0; k < 3; k++) values[(PLAIN_NORMAL_X + k) * pixels + i] = (float)normal[k];
     }
 }
+
+void shapes_spoil_some(const struct plain *plain, float *values) {
+    const uint32_t pixels = plain->width * plain->height;
+    shapes_spoil(plain, values);
+    for (uint32_t i = 0; i < pixels; i++) {
+        if (i % 7 == 0) values[PLAIN_NORMAL_X * pixels + i] = NAN;
+        if (i % 11 == 0)
+            for (uint32_t k = 0; k < 3; k++) values[(PLAIN_NORMAL_X + k) * pixels + i] = 0;
+        if (i % 13 == 0) values[i] = i % 2 ? INFINITY : NAN;
+        if (i % 17 == 0) values[i] = i % 2 ? 0 : -3;
+    }
+}

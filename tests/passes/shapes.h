@@ -19,6 +19,8 @@ double shapes_visibility(const struct shapes *shapes, const double at[3], const 
                          int steps);
 /* A `spoil` of plain captures, whose `user` is a struct shapes. */
 void shapes_spoil(const struct plain *plain, float *values);
+/* The same, and some pixels are none: normals that are NaN (i % 7 == 0) or 0 (11), depths that are NaN or infinite (13), 0 or negative (17). */
+void shapes_spoil_some(const struct plain *plain, float *values);
 /* The position of a pixel's centre in such a frame; false: sky. */
 bool shapes_pixel(const struct shapes *shapes, const struct plain *plain, uint32_t x, uint32_t y, double position[3],
                   double normal[3]);
