@@ -237,15 +237,15 @@ static double share_of(const char *folder, const char *name) {
 /* A pass with history has a larger share in a shot than in a single frame. */
 static void a_shot_has_a_history(UNUSED void **state) {
     static const char *const use = "--use=temporal=rough";
-    char frames[3][600];
-    free(glint_ok("sample", "room", "--light=4", "-o", in_folder("shot.exr"), "--frames=3", "--size=32x18",
+    char frames[2][600];
+    free(glint_ok("sample", "room", "--light=4", "-o", in_folder("shot.exr"), "--frames=2", "--size=32x18",
                   "--cube-size=8"));
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 2; i++)
         snprintf(frames[i], sizeof frames[i], "%s", in_folder("shot.0001.exr")),
             frames[i][strlen(frames[i]) - 5] = (char)('1' + i);
-    free(glint_ok("blame", frames[2], "-o", in_folder("alone"), SMALL, use, "--repeat=0", "--exact=0",
+    free(glint_ok("blame", frames[1], "-o", in_folder("alone"), SMALL, use, "--repeat=0", "--exact=0",
                   "--permutations=2"));
-    free(glint_ok("blame", "--shot", frames[0], frames[1], frames[2], "-o", in_folder("shot"), SMALL, use, "--repeat=1",
+    free(glint_ok("blame", "--shot", frames[0], frames[1], "-o", in_folder("shot"), SMALL, use, "--repeat=1",
                   "--exact=0", "--permutations=2"));
     assert_true(share_of("shot", "temporal") < share_of("alone", "temporal") - 1e-4);
     glint_fails(2, "expected frame 3 of the shot, found 2", "blame", "--shot", frames[1], frames[1], "-o",

@@ -135,17 +135,17 @@ static void assert_same_findings(const char *a, const char *b) {
 static void a_killed_sweep_goes_on(UNUSED void **state) {
     char command[1024];
     static const char arguments[] =
-        "--repeat=2 --reference=truth --no-pictures --sample=lhs:12 --seed=3 --vary=screen_trace.thickness=0.01..0.1 "
+        "--repeat=2 --reference=truth --no-pictures --sample=lhs:8 --seed=3 --vary=screen_trace.thickness=0.01..0.1 "
         "--vary=cubemap_trace.steps_hq+cubemap_trace.steps_lq=4..64:log";
     snprintf(command, sizeof command,
              "cd %s && \"$GLINT\" sweep room.exr -o killed -p %s %s & pid=$!; "
-             "until [ \"$(cat %s/killed/log.jsonl 2>/dev/null | wc -l)\" -ge 15 ]; do kill -0 $pid || exit 9; sleep "
+             "until [ \"$(cat %s/killed/log.jsonl 2>/dev/null | wc -l)\" -ge 10 ]; do kill -0 $pid || exit 9; sleep "
              "0.1; done; kill -9 $pid; wait $pid",
              in_folder(""), GLINT_TEST_PRESET, arguments, in_folder(""));
     struct outcome killed = run_program("sh", "-c", command, NULL);
     assert_int_equal(killed.status, 128 + 9);
     outcome_free(&killed);
-    assert_true(count_lines("killed/log.jsonl") >= 15);
+    assert_true(count_lines("killed/log.jsonl") >= 10);
     assert_false(file_exists(in_folder("killed/points.json")));
     FILE *log = fopen(in_folder("killed/log.jsonl"), "ab");
     assert_non_null(log);
@@ -156,8 +156,8 @@ static void a_killed_sweep_goes_on(UNUSED void **state) {
                  i ? "whole" : "killed", GLINT_TEST_PRESET, arguments);
         free(checked(run_program("sh", "-c", command, NULL), 0, __FILE__, __LINE__));
     }
-    assert_int_equal(count_lines("killed/log.jsonl"), 12 * (1 + 2));
-    assert_int_equal(count_lines("whole/log.jsonl"), 12 * (1 + 2));
+    assert_int_equal(count_lines("killed/log.jsonl"), 8 * (1 + 2));
+    assert_int_equal(count_lines("whole/log.jsonl"), 8 * (1 + 2));
     assert_same_findings("killed/points.json", "whole/points.json");
 }
 

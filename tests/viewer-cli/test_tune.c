@@ -116,7 +116,7 @@ static void a_seed_gives_the_same_preset_again(UNUSED void **state) {
     for (int i = 0; i < 3; i++) {
         const char *out = in_folder(i == 1 ? "b.json" : "a.json");
         char *text = glint_ok("tune", in_folder("room.exr"), "-o", out, PLAIN, "--budget-fetches=60%",
-                              "--reference=truth", "--tries=18", "--repeat=0", "--seed=5", AXES, "--json");
+                              "--reference=truth", "--tries=12", "--repeat=0", "--seed=5", AXES, "--json");
         json_t *tuned = parse_json(text), *preset = load_json(i == 1 ? "b.json" : "a.json");
         free(text);
         sets[i] = json_incref(json_object_get(preset, "set"));
@@ -135,7 +135,7 @@ static void a_seed_gives_the_same_preset_again(UNUSED void **state) {
 /* Interrupted with half a line at the end: the best point so far is stored, and the same command ends like an uninterrupted one. */
 static void an_interrupted_search_goes_on(UNUSED void **state) {
     char command[1200];
-    static const char arguments[] = "--budget-fetches=60% --reference=truth --tries=18 --repeat=0 --seed=5 "
+    static const char arguments[] = "--budget-fetches=60% --reference=truth --tries=12 --repeat=0 --seed=5 "
                                     "--vary=screen_trace.steps=2..64 --vary=cubemap_trace.steps_hq=4..64 "
                                     "--vary=cubemap_trace.secant --json";
     snprintf(command, sizeof command,
@@ -159,7 +159,7 @@ static void an_interrupted_search_goes_on(UNUSED void **state) {
     char *text = checked(run_program("sh", "-c", command, NULL), 0, __FILE__, __LINE__);
     json_t *went_on = parse_json(text), *whole = load_json("a.json"), *same = load_json("c.json");
     free(text);
-    assert_true(number(went_on, "fresh") < 18 && number(went_on, "fresh") > 0);
+    assert_true(number(went_on, "fresh") < 12 && number(went_on, "fresh") > 0);
     assert_true(json_equal(json_object_get(whole, "set"), json_object_get(same, "set")));
     json_decref(went_on);
     json_decref(whole);
