@@ -9,6 +9,7 @@ import threading
 import tap
 
 GLINT = sys.argv[1]
+PLAIN = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "plain.json")
 
 
 def glint(*words, status=0):
@@ -36,7 +37,7 @@ class Tests:
         return os.path.join(self.folder, name)
 
     def replay(self, name, *words):
-        glint("replay", self.capture, "-o", self.path(name), *words)
+        glint("replay", self.capture, "-p", PLAIN, "-o", self.path(name), *words)
         return self.path(name)
 
     def approved(self, name):

@@ -18,7 +18,7 @@ WRITERS = [
     ("html", "diff run other --html"), ("svg", "probe s.exr 20,20 -o"), ("html", "report run -o"),
     ("exr", "set s.exr frame=7 -o"), ("exr", "crop s.exr 0,0,32,16 -o"), ("exr", "strip s.exr --drop truth -o"),
     ("exr", "export run -o"), ("exr", "pack extracted/manifest.json -o"), ("exr", "sample room --light 4 --size 32x18 --cube-size 8 -o"),
-    ("json", "tune s.exr --vary screen_trace.cells --tries 2 --repeat 0 --rays 1 --budget-fetches 200% --folder tuned -o"),
+    ("json", "tune s.exr -p kf2 --vary screen_trace.cells --tries 2 --repeat 0 --rays 1 --budget-fetches 200% --folder tuned -o"),
 ]
 
 
@@ -27,8 +27,8 @@ class Tests:
         self.folder = folder
         os.chdir(folder)
         self.call("sample room --light 4 --size 48x27 --cube-size 8 --truth 1 -o s.exr")
-        self.call("replay s.exr -o run")
-        self.call("replay s.exr -o other --set screen_trace.cells=8")
+        self.call("replay s.exr -p kf2 -o run")
+        self.call("replay s.exr -p kf2 -o other --set screen_trace.cells=8")
         self.call("extract s.exr -o extracted")
         self.capture = self.bytes("s.exr")
 

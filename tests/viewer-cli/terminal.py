@@ -68,7 +68,8 @@ def words_of(text):
 class Tests:
     def __init__(self, folder):
         os.chdir(folder)
-        for words in ("sample room --size 48x27 --cube-size 8 --truth 1 -o s.exr", "replay s.exr -o run", "replay s.exr -o other --set screen_trace.cells=8"):
+        for words in ("sample room --size 48x27 --cube-size 8 --truth 1 -o s.exr", "replay s.exr -p kf2 -o run",
+                      "replay s.exr -p kf2 -o other --set screen_trace.cells=8"):
             assert piped(words).returncode == 0, words
 
     def test_lines_fit_the_terminal_and_show_every_word(self):

@@ -152,7 +152,7 @@ class Tests:
         whose view is a single conversion between two spaces."""
         capture, run, config = self.path("colour.exr"), self.path("colour"), self.path("own.ocio")
         call(GLINT, "sample", "room", "--light=4", "-o", capture, "--size", "96x54", "--cube-size", "16")
-        call(GLINT, "replay", capture, "-o", run, "--outputs", "composed")
+        call(GLINT, "replay", capture, "-p", "kf2", "-o", run, "--outputs", "composed")
         (exr,) = [os.path.join(run, name) for name in os.listdir(run) if name.endswith("-compose.exr")]
         with open(config, "w", encoding="utf-8") as file:
             file.write("""ocio_profile_version: 2
