@@ -64,7 +64,7 @@ MUTANTS = [
     ("facet", "abs(slopes.x) + abs(slopes.y)", "slopes.x + slopes.y", ["rise of a facet"]),
     ("facet_at", "2.0 / depth_m - 1.0 / after", "1.0 / depth_m", ["neighbours of a facet"]),
     ("facet_at", "(vec2(at) + 0.5) / size", "vec2(at) / size", ["facet of a texel"]),
-    ("neighbour", "texelFetch(pick, texel, 0).x", "0u", ["surface of a texel"]),
+    ("surface_at", "texelFetch(pick, texel, 0).x", "0u", ["surface of a texel"]),
     ("neighbour", "center.depth_m, depth_part", "center.depth_m, 2.0 * depth_part", ["weight of a neighbour"]),
     ("neighbour", "float(agreement > 0.0)", "1.0", ["equal weight of a neighbour"]),
     ("list_maker", "ROUGH_ALONE = 0u, ROUGH_AND_SMOOTH = 1u", "ROUGH_ALONE = 1u, ROUGH_AND_SMOOTH = 0u", ["list of tiles", "list of rays"]),
