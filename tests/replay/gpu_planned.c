@@ -1,5 +1,5 @@
 /* Plans change nothing: the images equal those of a replay that skips nothing, bit for bit. With an argument, of every scene with every preset;
-   without, of every scene with two presets and every preset with some scenes. */
+   without, of every scene with two presets and every preset with some scenes, and of one that sends light on but reflects nothing. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -150,7 +150,8 @@ static void the_picture_of_a_plan_is_the_whole_picture(void **state) {
     for (size_t s = 0; s < scenes; s++) sampled(fixture, samples[s].name, 1, path);
     for (size_t p = 0; p < presets; p++)
         for (size_t s = 0; s < scenes; s++) {
-            if (!all_pairs && s % presets != p && (s + scenes / 2) % presets != p) continue;
+            const bool bounced = !strcmp(samples[s].name, "matte") && !strcmp(glint_preset(p), "mafia_de_frame");
+            if (!all_pairs && !bounced && s % presets != p && (s + scenes / 2) % presets != p) continue;
             pair_use(pair, glint_preset(p));
             for (int frame = 1; frame <= FRAMES; frame++) {
                 snprintf(path, sizeof path, "%s/%s.%04d.exr", fixture->folder, samples[s].name, frame);

@@ -169,7 +169,7 @@ def killed_by(mutant):
         text = source.read()
     assert old in text, (file, old)
     with tempfile.TemporaryDirectory() as folder:
-        os.mkdir(os.path.join(folder, os.path.dirname(file)))
+        os.makedirs(os.path.join(folder, os.path.dirname(file)))
         with open(os.path.join(folder, file), "w", encoding="utf-8") as changed:
             changed.write(text.replace(old, new))
         only = [word for name in names for word in ("--only", name)]

@@ -7,4 +7,5 @@ WRITE(texture2D, active_chain, R32UI, "1", CHAIN, "index", 0, "row i: the active
 WRITE(texture2D, active_volume, RGBA32F, "m", VOLUME, "X Y Z W", 0, "row i: inner volume of cube map i: (number of planes, 1 if there is a sphere, 0, 0), then planes (n, d) with n·p + d <= 0 inside, then the sphere (centre, radius); in camera-relative world space")
 NEEDS(reflections)
 NEEDS(cubemaps)
+NEEDED_IF_READ
 ROLE(CUBEMAP_ORDER, active_index)
