@@ -99,9 +99,19 @@ static bool decide_by_callers(const struct graph *graph, struct graph_pass *pass
     return true;
 }
 
-/* With a row NEEDED_IF_READ a pass runs all the same when another one that runs reads its images. */
-static void run_for_reader(const struct graph *graph, struct graph_pass *pass) {
-    if (pass->runs || !glint_pass_row(pass->pass, GLINT_ROW_NEEDED_IF_READ, NULL)) return;
+/* Whether the pass works on cube maps and the capture has none. */
+static bool has_no_cubemaps(const struct glint_pass *pass, const struct facts *facts) {
+    char reason[192];
+    for (size_t r = 0; r < pass->row_count; r++)
+        if (pass->rows[r].kind == GLINT_ROW_NEEDS && facts->about(pass->rows[r].name) == FACT_CUBEMAPS)
+            return !facts->holds(facts->user, pass->rows[r].name, reason, sizeof reason, NULL);
+    return false;
+}
+
+/* With a row NEEDED_IF_READ a pass runs all the same when another one that runs reads its images, unless it has nothing to work on. */
+static void run_for_reader(const struct graph *graph, struct graph_pass *pass, const struct facts *facts) {
+    if (pass->runs || !glint_pass_row(pass->pass, GLINT_ROW_NEEDED_IF_READ, NULL) || has_no_cubemaps(pass->pass, facts))
+        return;
     for (size_t i = 0; i < graph->pass_count; i++) {
         const struct graph_pass *reader = &graph->passes[i];
         if (!reader->runs || !glint_pass_depends(reader->pass, pass->pass)) continue;
@@ -150,19 +160,10 @@ static bool decide_by_facts(const struct graph *graph, struct graph_pass *pass, 
             text_list(pass->reason, sizeof pass->reason, reason);
     }
     if (!decide_by_callers(graph, pass, facts, faults, err)) return false;
-    run_for_reader(graph, pass);
+    run_for_reader(graph, pass, facts);
     if (!pass->runs) use_alias(pass);
     if (!pass->reason[0]) snprintf(pass->reason, sizeof pass->reason, "always runs");
     return true;
-}
-
-/* Whether the pass works on cube maps and the capture has none. */
-static bool has_no_cubemaps(const struct glint_pass *pass, const struct facts *facts) {
-    char reason[192];
-    for (size_t r = 0; r < pass->row_count; r++)
-        if (pass->rows[r].kind == GLINT_ROW_NEEDS && facts->about(pass->rows[r].name) == FACT_CUBEMAPS)
-            return !facts->holds(facts->user, pass->rows[r].name, reason, sizeof reason, NULL);
-    return false;
 }
 
 static bool makes_list(const struct glint_pass *pass) {
