@@ -46,13 +46,26 @@ static void whole_lobe(bool ggx, double roughness, double cosine, double above[S
     for (int e = 0; e < STEPS; ++e) above[e] = sums[e] / total;
 }
 
-/* The fraction of a cone's filter above a plane through its apex at height `sine`: cosᵐ, the threshold at the rim. */
-static double cone_above(double up, double cone, double sine) {
-    if (!(cone > 1e-4)) return up > sine;
-    const double power = log(threshold) / log(cos(cone)), flat = sqrt(fmax(1 - up * up, 0));
+/* A cone's filter, cosᵐ with the threshold at the rim, as rings of equal parts: the cosine and sine to the axis. */
+struct filter {
+    double cone, cosine[NODES], sine[NODES];
+};
+static void filter_of(struct filter *filter, double cone) {
+    const double power = cone > 1e-4 ? log(threshold) / log(cos(cone)) : INFINITY;
+    for (int i = 0; i < NODES; ++i) {
+        filter->cosine[i] = pow((i + 0.5) / NODES, 1 / (power + 1));
+        filter->sine[i] = sqrt(1 - filter->cosine[i] * filter->cosine[i]);
+    }
+    filter->cone = cone;
+}
+
+/* The fraction of it above a plane through its apex at height `sine`. */
+static double cone_above(const struct filter *filter, double up, double sine) {
+    if (!(filter->cone > 1e-4)) return up > sine;
+    const double flat = sqrt(fmax(1 - up * up, 0));
     double sum = 0;
     for (int i = 0; i < NODES; ++i) {
-        const double c = pow((i + 0.5) / NODES, 1 / (power + 1)), s = sqrt(1 - c * c) * flat, rest = sine - c * up;
+        const double s = filter->sine[i] * flat, rest = sine - filter->cosine[i] * up;
         sum += rest <= -s ? 1 : rest >= s ? 0 : acos(rest / s) / pi;
     }
     return sum / NODES;
@@ -76,12 +89,14 @@ static double max_difference(struct gpu *gpu, bool ggx, const char *split, doubl
     for (int kind = 0; kind < KINDS * KINDS; ++kind) {
         const double cosine = cosines[kind / KINDS], slope = sqrt(1 - cosine * cosine);
         double found[STEPS] = {0}, expected[STEPS];
+        struct filter filter = {.cone = NAN};
         for (int i = 0; i < BLOCK * BLOCK; ++i) {
             const int at = (kind / KINDS * BLOCK + i / BLOCK) * SIZE + kind % KINDS * BLOCK + i % BLOCK;
             const float *h = &normals[4 * at]; /* the viewer is along +z */
             const double up = 2 * (double)h[2] * ((double)h[0] * slope + (double)h[2] * cosine) - cosine;
+            if (filter.cone != (double)cones[at]) filter_of(&filter, (double)cones[at]);
             for (int e = 0; e < STEPS; ++e)
-                found[e] += cone_above(up, (double)cones[at], sin(elevations[e] * pi / 180)) / (BLOCK * BLOCK);
+                found[e] += cone_above(&filter, up, sin(elevations[e] * pi / 180)) / (BLOCK * BLOCK);
         }
         whole_lobe(ggx, (double)roughnesses[kind % KINDS], cosine, expected);
         for (int e = 0; e < STEPS; ++e)

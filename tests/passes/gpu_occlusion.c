@@ -87,7 +87,7 @@ static struct errors errors_of(struct gpu *gpu, const struct plain *plain, const
 /* Enough samples that what is left is the variant's own error. */
 #define FINE_HORIZON "ao_trace=horizon", "ao_trace.slices=16", "ao_trace.steps=32", "ao_trace.thickness=1e6"
 #define FINE_HEMISPHERE "ao_trace=hemisphere", "ao_trace.samples=256"
-#define FINE_DDA "ao_trace=dda", "ao_trace.directions=32"
+#define FINE_DDA "ao_trace=dda", "ao_trace.directions=16"
 
 struct trial {
     const char *words[WORDS + 4];
@@ -122,7 +122,7 @@ static void a_corner_hides_half_of_the_directions(void **state) {
         {{FINE, FINE_DDA},
          0.02,
          0.2,
-         "32 directions: a deviation of 0.09 for a visibility of a half, less because they are spread"},
+         "16 directions: a deviation of 0.13 for a visibility of a half, less because they are spread"},
         {{FINE, FINE_HEMISPHERE, "ao_trace.spread=0"},
          0.04,
          0.3,
@@ -143,7 +143,7 @@ static void a_wall_hides_by_its_height(void **state) {
          0.03,
          0.08,
          "32 steps to the radius of 4 m, and what lies beyond the picture"},
-        {{FINE, FINE_DDA, "ao_trace.radius_m=4"}, 0.04, 0.2, "32 directions, and what lies beyond the picture"}};
+        {{FINE, FINE_DDA, "ao_trace.radius_m=4"}, 0.04, 0.2, "16 directions, and what lies beyond the picture"}};
     const struct plain plain = occlusion_frame(&low_wall, 60);
     TRY(*state, &plain, trials, at_low_wall);
 }
@@ -154,7 +154,7 @@ static double at_plates(const double position[3], UNUSED const double normal[3])
 }
 /* Everything between the lowest and the highest point of a slice is not hidden: horizons alone say so. */
 static void a_plate_opposite_leaves_the_horizon_open(void **state) {
-    static const struct trial trials[] = {{{FINE, FINE_DDA, "ao_trace.radius_m=3"}, 0.03, 0.15, "32 directions"},
+    static const struct trial trials[] = {{{FINE, FINE_DDA, "ao_trace.radius_m=3"}, 0.03, 0.15, "16 directions"},
                                           {{FINE, "ao_trace=horizon", "ao_trace.slices=16", "ao_trace.steps=64",
                                             "ao_trace.growth=1", "ao_trace.thickness=0.3", "ao_trace.radius_m=3"},
                                            0.04,
@@ -188,7 +188,7 @@ static void a_ball_hides_the_floor_that_it_lies_on(void **state) {
          0.05,
          0.15,
          "objects are 0.3 m thick, which the ball is not everywhere"},
-        {{FINE, FINE_DDA, "ao_trace.radius_m=3", "ao_trace.inside=false"},
+        {{FINE, FINE_DDA, "ao_trace.directions=32", "ao_trace.radius_m=3", "ao_trace.inside=false"},
          0.05,
          0.3,
          "32 directions, and hits on the side of the ball that cannot be seen"}};
