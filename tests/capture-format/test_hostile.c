@@ -45,7 +45,7 @@ enum { EACH_HEADER_BYTE = 11 };
 static uint32_t damaged_files = 200;
 #else
 enum { EACH_HEADER_BYTE = 1 };
-static uint32_t damaged_files = 1000; /* or as many as the argument says */
+static uint32_t damaged_files = 500; /* or as many as the argument says */
 #endif
 
 /* ---- truncated ---- */

@@ -15,7 +15,7 @@
 #include "fixture.h"
 #include "glint/pack.h"
 
-static size_t mutants = 300; /* or as many as the argument says */
+static size_t mutants = 150; /* or as many as the argument says */
 
 static uint64_t state = 20;
 

@@ -16,7 +16,7 @@
 #include "pair.h"
 
 enum { WIDTH = 36, HEIGHT = 20, FACE = 8 };
-static int combinations = 2;
+static int combinations = 1;
 
 /* ---- What may be absent ---- */
 
@@ -160,13 +160,13 @@ static bool has(const char *path, size_t k) {
     return found;
 }
 
-/* Each alone, or every second one, so that two presets have each between them; all together, and at random. */
+/* Each alone, or every third one, so that three presets have each between them; all together, and at random. */
 static void check_preset(struct pair *pair, const char *preset, const char *scene, size_t turn, uint32_t *random) {
     char path[256];
     pair_use(pair, preset);
     sampled(pair->fixture, scene, path);
     for (size_t k = 0; k < OPTIONAL; k++)
-        if (has(path, k) && (combinations > 10 || k % 2 == turn % 2)) replay_without(pair, path, preset, 1u << k);
+        if (has(path, k) && (combinations > 10 || k % 3 == turn % 3)) replay_without(pair, path, preset, 1u << k);
     replay_without(pair, path, preset, (1u << OPTIONAL) - 1);
     for (int i = 0; i < combinations; i++) {
         *random = *random * 1664525 + 1013904223;
