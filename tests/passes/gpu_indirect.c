@@ -234,7 +234,10 @@ static double diffuse_at(uint32_t i, uint32_t k) {
    indirect light is black. Halves: 2^-11 of the pictures, the indirect light, and the albedo each. */
 static void light_that_no_ray_finds_is_the_captured_one(void **state) {
     static const char *const ways[] = {"indirect_trace.fallback=volume", "indirect_trace.fallback=captured",
-                                       "indirect_trace.fallback=black", "indirect_apply.least_albedo=1.01"};
+                                       "compose.bounce=false",           "compose.ambient=true",
+                                       "indirect_trace.fallback=black",  "indirect_apply.least_albedo=1.01",
+                                       "indirect_apply.intensity=0"};
+    enum { OFF = 2, ADDED, BLACK, WAYS = 7 };
     struct gpu *gpu = *state;
     struct plain plain = frame_of(&room, 60);
     float *light = malloc(3 * WIDE * HIGH * sizeof *light);
@@ -249,7 +252,7 @@ static void light_that_no_ray_finds_is_the_captured_one(void **state) {
     plain.part = &(struct glint_part){
         .name = "indirect", .width = WIDE, .height = HIGH, .channels = channels, .channel_count = 3};
     indirect_load(gpu, &plain);
-    for (int way = 0; way < 4; way++) {
+    for (int way = 0; way < WAYS; way++) {
         const char *words[] = {"downsample=mips",
                                "surface_levels=picked",
                                "indirect_trace=linear",
@@ -275,8 +278,12 @@ static void light_that_no_ray_finds_is_the_captured_one(void **state) {
         assert_memory_equal(composed[0], composed[1], WIDE * HIGH * 4 * sizeof(float));
         for (uint32_t i = 0; i < 3 * WIDE * HIGH; i++) {
             const uint32_t p = i / 3, k = i % 3;
-            const double ambient = way < 2 && diffuse_at(p, k) > 0 ? ambient_at(p, k) : 0, picture = (double)lit[i];
-            const double right = fmax(picture - (way < 2 ? 0 : ambient_at(p, k) * diffuse_at(p, k)), 0);
+            const double ambient = way < BLACK && diffuse_at(p, k) > 0 ? ambient_at(p, k) : 0, picture = (double)lit[i];
+            const double captured = ambient_at(p, k) * diffuse_at(p, k);
+            const double right = fmax(way < ADDED    ? picture
+                                      : way == ADDED ? picture + captured
+                                                     : picture - captured,
+                                      0);
             assert_true(fabs((double)found[4 * p + k] - ambient) < 0.002 * ambient + 1e-7);
             assert_true(fabs((double)composed[0][4 * p + k] - right) < 0.002 * (picture + ambient));
         }
