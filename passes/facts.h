@@ -36,12 +36,15 @@ FACT(planar, PARTS, s->has_planar, SAY("%s planar reflection map", s->has_planar
 FACT(fresnel, PARTS, s->has_fresnel, SAY("materials with%s a Fresnel factor", s->has_fresnel ? "" : "out"))
 FACT(history, PARTS, s->has_history, SAY("%s", s->has_history ? "the previous frame is available" : "no previous frame, or a camera cut"))
 FACT(indirect_light, PARTS, s->has_indirect, SAY("%s part of the light that is indirect", s->has_indirect ? "a" : "no"))
-/* Whether surfaces can receive light from others or the sky: where nothing is lit, only what the previous frame, cube maps, sky or volume hold. */
+/* Whether surfaces can receive light from others or the sky: where nothing is lit, only what other parts than the picture hold. */
+#define OTHER_LIGHT                                                                                                             \
+    (s->cubemaps > 0 || s->has_sky || s->has_probe || s->has_volume || s->has_indirect || s->has_earlier_lit || s->has_earlier_scene || s->has_history)
 FACT(bounce, PIXELS,
-     s->surfaces.count > 0 && (s->luminous > 0 || s->cubemaps > 0 || s->has_sky || s->has_probe || s->has_volume || s->has_previous),
+     s->surfaces.count > 0 && (s->luminous > 0 || OTHER_LIGHT),
      s->surfaces.count == 0 ? SAY("%llu of %llu pixels have a surface", N(s->surfaces.count), N(s->pixels))
      : s->luminous > 0      ? SAY("%llu of %llu pixels are not black", N(s->luminous), N(s->pixels))
-                            : SAY("the picture is black, and there %s other light", s->cubemaps > 0 || s->has_sky || s->has_probe || s->has_volume || s->has_previous ? "may be" : "is no"))
+                            : SAY("the picture is black, and there %s other light", OTHER_LIGHT ? "may be" : "is no"))
+#undef OTHER_LIGHT
 FACT(light_volume, PARTS, s->has_volume, SAY("%s volume of light", s->has_volume ? "a" : "no"))
 FACT(no_light_volume, PARTS, !s->has_volume, SAY("%s volume of light", s->has_volume ? "a" : "no"))
 FACT(sun, PARTS, s->has_sun, SAY("%s sun", s->has_sun ? "a" : "no"))

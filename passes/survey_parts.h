@@ -2,6 +2,8 @@
 SURVEY_PART(has_sky, GLINT_PART_SKY)
 SURVEY_PART(has_probe, GLINT_PART_PROBE)
 SURVEY_PART(has_indirect, "indirect")
+SURVEY_PART(has_earlier_lit, "previous.lit")
+SURVEY_PART(has_earlier_scene, "previous.scene")
 SURVEY_PART(has_planar, GLINT_PART_MIRROR)
 SURVEY_PART(has_volume, "volume.000")
 SURVEY_PART(has_water, GLINT_PART_WATER)

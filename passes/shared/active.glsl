@@ -11,6 +11,9 @@ void load_active_centers() {
     barrier();
 }
 
+// Rays cannot be traced in a cube map without distances; its texels of cubemap_distance are those of the sky.
+bool has_distances(uint place) { return place < ACTIVE_MOST && (frame.distances.x >> place & 1u) != 0u; }
+
 // The active cube map whose centre is nearest to a point, of those whose bit is set; 255 if there is none.
 uint nearest_among(uint bits, vec3 point) {
     uint best = 255u;

@@ -8,6 +8,7 @@
 };
 #include "shared/brdf.glsl"
 #include "shared/camera.glsl"
+#include "shared/luminance.glsl"
 #define LIST_WORD(place) texelFetch(partial, place).x
 #include "shared/work_list.glsl"
 
@@ -106,7 +107,7 @@ void count_more(ivec2 pixel, float depth_m, vec4 surface, vec4 base, float specu
 bool has_part(texture2D image) { return textureSize(image, 0) == ivec2(frame.size.xy); }
 
 void count_picture(ivec2 pixel, inout Sums sums) {
-    float light = dot(texelFetch(lit, pixel, 0).rgb, vec3(0.2126, 0.7152, 0.0722));
+    float light = luminance(texelFetch(lit, pixel, 0).rgb);
     if (light >= 0.0 && light < LARGEST) extend(sums.light, light);
     if (has_part(water_color) && texelFetch(water_color, pixel, 0).a > 0.0) sums.water++;
     if (has_part(transparent_color) && texelFetch(transparent_color, pixel, 0).a > 0.0) {

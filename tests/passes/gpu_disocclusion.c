@@ -16,6 +16,7 @@ struct shot {
     bool floor, sky; /* a floor that is seen at a grazing angle; a wall that is sky */
     bool mirror;     /* everything reflects, and the light differs from frame to frame */
     bool square;     /* before the wall, STEP_PX a frame to the right */
+    bool still;      /* it stands still, and jitter moves its edges */
 };
 
 static int left_of(const struct shot *shot) {
@@ -23,6 +24,8 @@ static int left_of(const struct shot *shot) {
 }
 static bool on_square(const struct shot *shot, int x, int y) {
     const int top = shot->mirror ? 16 : 6; /* of a mirror: on the floor */
+    const double place = x + 0.5 - shot->jitter_px[0];
+    if (shot->still) return y >= top && y < top + 5 && place > 8.8 && place < 16.2;
     return shot->square && y >= top && y < top + 5 && x >= left_of(shot) && x < left_of(shot) + WIDE_PX;
 }
 
@@ -34,7 +37,7 @@ static void paint(const struct plain *plain, float *values) {
         if (shot->sky) values[PLAIN_DEPTH * W * H + i] = INFINITY;
         if (!on_square(shot, (int)(i % W), (int)(i / W))) continue;
         values[PLAIN_DEPTH * W * H + i] = OBJECT_M;
-        values[PLAIN_MOTION_X * W * H + i] -= (float)STEP_PX / W;
+        if (!shot->still) values[PLAIN_MOTION_X * W * H + i] -= (float)STEP_PX / W;
     }
 }
 
@@ -112,6 +115,25 @@ static void a_still_picture_hides_nothing(void **state) {
     }
 }
 
+/* Jitter shows the wall or the square beside its edges, and hides neither. Without the test of what moved together the wall counts as hidden. */
+static void edges_of_a_still_picture_hide_nothing(void **state) {
+    struct gpu *gpu = *state;
+    for (int off = 0; off < 2; off++) {
+        struct shot shot = {.number = 600u + 100u * (uint32_t)off, .still = true};
+        int hidden = 0;
+        reset(gpu, "depth");
+        if (off) gpu_set(gpu, "disocclusion.together=0");
+        for (int n = 0; n < 9; n++, shot.number++) {
+            memcpy(shot.previous_jitter_px, shot.jitter_px, sizeof shot.jitter_px);
+            shot.jitter_px[0] = n % 3 * 0.45 - 0.45, shot.jitter_px[1] = n / 3 * 0.45 - 0.45;
+            float *mask = mask_of(gpu, &shot);
+            for (int i = 0; n > 0 && i < W * H; i++) hidden += mask[i] > 0;
+            free(mask);
+        }
+        assert_true(off ? hidden > 10 : hidden == 0);
+    }
+}
+
 /* Of a mirror's filter: where the square was, the reflection of this frame alone. Without the test of hidden history the square's reflection remains.
    Catches: a mask that the filter does not read, or reads elsewhere. */
 static void a_mirror_has_no_history_of_what_stood_before_it(void **state) {
@@ -143,6 +165,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_the_square_left_was_hidden),
         cmocka_unit_test(a_still_picture_hides_nothing),
+        cmocka_unit_test(edges_of_a_still_picture_hide_nothing),
         cmocka_unit_test(a_mirror_has_no_history_of_what_stood_before_it),
     };
     return cmocka_run_group_tests(tests, gpu_set_up, gpu_tear_down);

@@ -211,6 +211,130 @@ static void radiance_stays_in_a_furnace(void **state) {
         }
 }
 
+/* ---- light that no ray finds ---- */
+
+/* The ambient light that falls on a pixel, and what its material sends back of it; some materials are metals, or nearly black. */
+static double ambient_at(uint32_t i, uint32_t k) {
+    return 0.25 + 0.01 * (i % 53) + 0.2 * k;
+}
+static void add_materials(const struct plain *plain, float *values) {
+    const uint32_t pixels = plain->width * plain->height;
+    shapes_spoil(plain, values);
+    for (uint32_t i = 0; i < pixels; i++) {
+        values[PLAIN_METALNESS * pixels + i] = i % 3 ? 0 : 0.5F * (float)(i % 9 / 3);
+        for (uint32_t k = 0; k < 3; k++)
+            values[(PLAIN_ALBEDO_R + k) * pixels + i] = i % 7 ? 0.0625F * (float)(1 + (i + k) % 15) : 0.0F;
+    }
+}
+static double diffuse_at(uint32_t i, uint32_t k) {
+    return i % 7 ? 0.0625 * (1 + (i + k) % 15) * (i % 3 ? 1 : 1 - 0.5 * (i % 9 / 3)) : 0;
+}
+
+/* In a frame without cube maps, sky and volume the captured light stays where rays of no length find nothing; and where it is not to be used, the
+   indirect light is black. Halves: 2^-11 of the pictures, the indirect light, and the albedo each. */
+static void light_that_no_ray_finds_is_the_captured_one(void **state) {
+    static const char *const ways[] = {"indirect_trace.fallback=volume", "indirect_trace.fallback=captured",
+                                       "compose.bounce=false",           "compose.ambient=true",
+                                       "indirect_trace.fallback=black",  "indirect_apply.least_albedo=1.01",
+                                       "indirect_apply.intensity=0"};
+    enum { OFF = 2, ADDED, BLACK, WAYS = 7 };
+    struct gpu *gpu = *state;
+    struct plain plain = frame_of(&room, 60);
+    float *light = malloc(3 * WIDE * HIGH * sizeof *light);
+    assert_non_null(light);
+    for (uint32_t k = 0; k < 3; k++)
+        for (uint32_t i = 0; i < WIDE * HIGH; i++)
+            light[k * WIDE * HIGH + i] = (float)(ambient_at(i, k) * diffuse_at(i, k));
+    const struct glint_channel channels[] = {{.name = "R", .type = GLINT_F32, .data = light},
+                                             {.name = "G", .type = GLINT_F32, .data = light + WIDE * HIGH},
+                                             {.name = "B", .type = GLINT_F32, .data = light + 2 * WIDE * HIGH}};
+    plain.spoil = add_materials;
+    plain.part = &(struct glint_part){
+        .name = "indirect", .width = WIDE, .height = HIGH, .channels = channels, .channel_count = 3};
+    indirect_load(gpu, &plain);
+    for (int way = 0; way < WAYS; way++) {
+        const char *words[] = {"downsample=mips",
+                               "surface_levels=picked",
+                               "indirect_trace=linear",
+                               "indirect_blur=edges",
+                               "indirect_apply=planes",
+                               "indirect_temporal=reprojected",
+                               "volume_make=gather",
+                               "compose=brdf",
+                               ways[way],
+                               "indirect_trace.length_m=0",
+                               NULL};
+        float *composed[2];
+        for (int all = 0; all < 2; all++) {
+            indirect_arrange(gpu, words);
+            gpu->float_precision = false;
+            gpu->all = all;
+            gpu_run(gpu);
+            composed[all] = gpu_floats(gpu, "composed", NULL, NULL);
+        }
+        gpu->all = false;
+        float *found = gpu_floats(gpu, "indirect", NULL, NULL),
+              *lit = gpu_part(gpu, "lit", (const char *const[]){"R", "G", "B"}, 3);
+        assert_memory_equal(composed[0], composed[1], WIDE * HIGH * 4 * sizeof(float));
+        for (uint32_t i = 0; i < 3 * WIDE * HIGH; i++) {
+            const uint32_t p = i / 3, k = i % 3;
+            const double ambient = way < BLACK && diffuse_at(p, k) > 0 ? ambient_at(p, k) : 0, picture = (double)lit[i];
+            const double captured = ambient_at(p, k) * diffuse_at(p, k);
+            const double right = fmax(way < ADDED    ? picture
+                                      : way == ADDED ? picture + captured
+                                                     : picture - captured,
+                                      0);
+            assert_true(fabs((double)found[4 * p + k] - ambient) < 0.002 * ambient + 1e-7);
+            assert_true(fabs((double)composed[0][4 * p + k] - right) < 0.002 * (picture + ambient));
+        }
+        free(composed[0]), free(composed[1]), free(found), free(lit);
+    }
+    free(light);
+}
+
+/* A black picture has no light to send back unless something else holds some: the plan leaves the effect out, and no bit changes. */
+static void blacken(const struct plain *plain, float *values) {
+    const uint32_t pixels = plain->width * plain->height;
+    shapes_spoil(plain, values);
+    memset(values + PLAIN_LIT_R * pixels, 0, 3 * pixels * sizeof *values);
+}
+static bool ran(const struct gpu *gpu, const char *slot) {
+    size_t count;
+    const struct glint_pass_result *results = glint_replay_results(gpu->replay, &count);
+    for (size_t i = 0; i < count; i++)
+        if (!strcmp(results[i].pass->slot, slot)) return results[i].ran;
+    return false;
+}
+static void where_nothing_shines_nothing_is_traced(void **state) {
+    static const char *const words[] = {"downsample=mips",
+                                        "surface_levels=picked",
+                                        "indirect_trace=linear",
+                                        "indirect_blur=edges",
+                                        "indirect_apply=planes",
+                                        "compose=brdf",
+                                        NULL};
+    struct gpu *gpu = *state;
+    for (int bright = 0; bright < 2; bright++) {
+        struct plain plain = frame_of(&room, 60);
+        plain.spoil = blacken;
+        if (bright) plain.cube = white_cube, plain.cube_size = 16, plain.cube_count = 1;
+        float *composed[2];
+        indirect_load(gpu, &plain);
+        for (int all = 0; all < 2; all++) {
+            indirect_arrange(gpu, words);
+            gpu->all = all;
+            gpu_run(gpu);
+            assert_true(ran(gpu, "indirect_trace") == (all || bright));
+            composed[all] = gpu_floats(gpu, "composed", NULL, NULL);
+        }
+        gpu->all = false;
+        float *found = gpu_floats(gpu, "indirect", NULL, NULL);
+        for (uint32_t i = 0; i < WIDE * HIGH; i++) assert_true((found[4 * i] > 0) == bright);
+        assert_memory_equal(composed[0], composed[1], WIDE * HIGH * 4 * sizeof(float));
+        free(found), free(composed[0]), free(composed[1]);
+    }
+}
+
 /* ---- three resolutions ---- */
 
 /* Each level's mean is nearly that of full resolution, blurred and upscaled; without the blur the noise is larger. */
@@ -293,9 +417,14 @@ static void invalid_pixels_spoil_no_others(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(form_factors_agree_with_quadrature), cmocka_unit_test(a_lit_patch_opposite),
-        cmocka_unit_test(a_lit_patch_beside_the_floor),       cmocka_unit_test(a_lit_patch_beside_a_wall),
-        cmocka_unit_test(radiance_stays_in_a_furnace),        cmocka_unit_test(levels_share_what_they_find),
+        cmocka_unit_test(form_factors_agree_with_quadrature),
+        cmocka_unit_test(a_lit_patch_opposite),
+        cmocka_unit_test(a_lit_patch_beside_the_floor),
+        cmocka_unit_test(a_lit_patch_beside_a_wall),
+        cmocka_unit_test(radiance_stays_in_a_furnace),
+        cmocka_unit_test(light_that_no_ray_finds_is_the_captured_one),
+        cmocka_unit_test(where_nothing_shines_nothing_is_traced),
+        cmocka_unit_test(levels_share_what_they_find),
         cmocka_unit_test(invalid_pixels_spoil_no_others),
     };
     return cmocka_run_group_tests_name("gpu_indirect", tests, gpu_set_up, gpu_tear_down);

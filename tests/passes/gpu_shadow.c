@@ -333,6 +333,38 @@ static void a_wide_sun_has_a_penumbra(void **state) {
     free(found);
 }
 
+/* ---- the picture ---- */
+
+/* What the sun adds to a white surface goes where it passes the mask and not the traced shadow: the captured shadow counts once. */
+static void the_picture_loses_the_suns_light(void **state) {
+    static float (*const masks[])(const struct plain *, uint32_t, uint32_t) = {NULL, dark_left, dark_everywhere};
+    struct gpu *gpu = *state;
+    const struct glint_sun sun = sun_at(35, 30);
+    for (int m = 0; m < 3; m++)
+        for (int shade = 0; shade < 2; shade++) {
+            const char *const words[] = {"contact_trace=dda", "compose=brdf",
+                                         shade ? "compose.shade=true" : "compose.shade=false", NULL};
+            struct plain plain = frame_of(&box, &sun);
+            int darker = 0;
+            plain.sun_mask = masks[m];
+            occlusion_load(gpu, &plain);
+            float *shadow = sun_of(gpu, words), *composed = gpu_floats(gpu, "composed", NULL, NULL),
+                  *lit = gpu_part(gpu, "lit", (const char *const[]){"R", "G", "B"}, 3);
+            for (uint32_t i = 0; i < WIDE * HIGH; i++) {
+                double position[3], normal[3], cosine = 0;
+                const bool surface = shapes_pixel(&box, &plain, i % WIDE, i / WIDE, position, normal);
+                for (int k = 0; k < 3; k++) cosine += surface ? normal[k] * sun.direction[k] : 0;
+                const double mask = masks[m] ? (double)masks[m](&plain, i % WIDE, i / WIDE) : 1;
+                const double gone = shade ? fmax(mask - (double)shadow[i], 0) * fmax(cosine, 0) / M_PI * 0.5 : 0;
+                darker += gone > 0.01;
+                for (uint32_t k = 0; k < 3; k++)
+                    assert_true(fabs((double)composed[4 * i + k] - fmax((double)lit[3 * i + k] - gone, 0)) < 1e-5);
+            }
+            assert_true(shade && m < 2 ? darker > 100 : darker == 0);
+            free(shadow), free(composed), free(lit);
+        }
+}
+
 /* ---- plans ---- */
 
 /* The plan changes no bit, also where the mask says that no ray is needed. */
@@ -437,6 +469,29 @@ static struct glint_shadow map_of(const struct glint_sun *sun, bool reversed) {
     return shadow;
 }
 
+/* What the texel that holds a point has to say of it; NAN: within rounding of a decision. */
+static double by_texel(const struct plain *plain, const double at[3], const double normal[3]) {
+    enum { MAP = 256 };
+    const double *sun = plain->sun->direction;
+    double axes[2][3], place[2], deep = 0.5;
+    map_axes(sun, axes[0], axes[1]);
+    for (int a = 0; a < 2; a++) {
+        place[a] = 0.5;
+        for (int k = 0; k < 3; k++) {
+            const double from_middle = at[k] + 2 * map_reach / MAP * normal[k] - map_middle[k];
+            place[a] += (a ? -1 : 1) * axes[a][k] * from_middle / (2 * map_reach);
+            if (a == 0) deep -= sun[k] * from_middle / map_depth;
+        }
+        place[a] *= MAP;
+        if (fabs(place[a] - round(place[a])) < 1e-2) return NAN;
+        if (place[a] < 0 || place[a] > MAP) return 1;
+    }
+    const double stored = (double)map_at(plain, (floor(place[0]) + 0.5) / MAP, (floor(place[1]) + 0.5) / MAP);
+    const double behind =
+        deep - (plain->shadow.range[0] > plain->shadow.range[1] ? 1 - stored : stored) - plain->shadow.bias;
+    return fabs(behind) < 1e-4 ? (double)NAN : behind > 0 ? 0 : 1;
+}
+
 static void a_shadow_map_makes_the_mask(void **state) {
     static const char *const words[] = {"shadow_mask=map", "shadow_mask.taps=1", "contact_trace=dda",
                                         "contact_trace.length_m=0", NULL};
@@ -456,6 +511,17 @@ static void a_shadow_map_makes_the_mask(void **state) {
             dark += c.dark;
             assert_true(c.missed + c.false_dark <= 0.004 * c.pixels); /* texels of 23 mm, and the bias of 40 mm */
             free(found);
+            /* Pixel by pixel: a map that is read half a texel beside shows another edge. */
+            float *mask = gpu_floats(gpu, "shadow_mask", NULL, NULL);
+            for (uint32_t i = 0; i < WIDE * HIGH; i++) {
+                double position[3], normal[3];
+                if (!shapes_pixel(&box, &plain, i % WIDE, i / WIDE, position, normal)) continue;
+                const double right = by_texel(&plain, position, normal);
+                if (!isnan(right) && (double)mask[i] != right)
+                    fail_msg("%d degrees, pixel %u,%u: %g by the map, expected %g", azimuth, i % WIDE, i / WIDE,
+                             (double)mask[i], right);
+            }
+            free(mask);
         }
     assert_true(dark > 1500);
 }
@@ -470,6 +536,7 @@ int main(void) {
         cmocka_unit_test(skipped_rays_would_have_changed_nothing),
         cmocka_unit_test(hits_fade_at_the_end_and_at_the_border),
         cmocka_unit_test(a_wide_sun_has_a_penumbra),
+        cmocka_unit_test(the_picture_loses_the_suns_light),
         cmocka_unit_test(planned_is_all),
         cmocka_unit_test(invalid_pixels_are_lit_and_spoil_no_others),
         cmocka_unit_test(without_a_sun_there_is_no_shadow),

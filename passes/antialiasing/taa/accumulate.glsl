@@ -15,7 +15,7 @@ struct Sample {
 // A sample much brighter than its surroundings is scaled down to what they allow.
 vec3 limited(vec3 color, ivec2 pixel) {
     if (outlier >= 1e6) return color;
-    float bright = luminance(color), most = outlier * max(surrounding_luminance(pixel, bright), picture_luminance(bright));
+    float bright = brightness(color), most = outlier * max(surrounding_luminance(pixel, bright), picture_luminance(bright));
     return most > 0.0 && bright > most ? color * (most / bright) : color;
 }
 
@@ -76,7 +76,7 @@ Sample past_of(ivec2 pixel) {
 float share_of(Sample s) {
     if (!by_luminance) return s.weight;
     float mean = picture_mean();
-    return mean > 0.0 ? s.weight / (1.0 + luminance(s.color) / mean) : s.weight;
+    return mean > 0.0 ? s.weight / (1.0 + brightness(s.color) / mean) : s.weight;
 }
 
 vec4 antialiased_color(ivec2 pixel) {

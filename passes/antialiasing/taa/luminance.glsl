@@ -1,5 +1,7 @@
 // The downscaled picture: luminance as sums over blocks of pixels, from which a pixel can be taken out again.
-float luminance(vec3 color) { return max(dot(color, vec3(0.2126, 0.7152, 0.0722)), 0.0); }
+#include "shared/luminance.glsl"
+
+float brightness(vec3 color) { return max(luminance(color), 0.0); }
 
 // The texels of the finer level that a texel covers: two each way, and in the last one those that remain.
 ivec2 last_of(ivec2 texel, ivec2 size, ivec2 finer) {
@@ -16,7 +18,7 @@ vec2 luminance_texel(ivec2 texel) {
         for (int y = wide * texel.y; y < end.y; ++y)
             for (int x = wide * texel.x; x < end.x; ++x) {
                 vec3 color = picture(ivec2(x, y));
-                sum += finite(vec4(color, 0.0)) ? vec2(luminance(color), 1.0) : vec2(0.0);
+                sum += finite(vec4(color, 0.0)) ? vec2(brightness(color), 1.0) : vec2(0.0);
             }
         return sum;
     }

@@ -2,7 +2,7 @@
 PASS("Three resolutions", "Mafia DE article, Global Illumination: Diffuse GI Mip 3 Blur H to Mip 1 Upscale Blur")
 #include "slot.h"
 #line 202
-WRITE(image2D, indirect_across, RGBA16F, "radiance", HALF_MIPS(3), "R G B found", -1, "the traced level after the blur along rows")
+WRITE(image2D, indirect_across, RGBA16F, "radiance", HALF_MIPS(3), "R G B missed", -1, "the traced level after the blur along rows")
 READ_OWN(texture2D, across, indirect_across)
 READ_OWN(texture2D, levels, indirect_levels)
 DISPATCH_LEVELS(indirect_across, 0, 2, down)

@@ -9,14 +9,14 @@ const bool filter_color = true;
 
 struct Arriving {
     vec3 light;
-    bool on_screen;
+    float missed; // the part of the ray that found nothing, 0 to 1
     uint fetches;
 };
 
 // Where a ray through a point, relative to a cube map's centre, meets the surfaces that the map shows: the ray meets a sphere about the centre,
 // whose radius is the distance in the direction of the point found before.
 vec3 corrected(vec3 from, vec3 direction, uint place) {
-    if (corrections == 0 || (frame.distances.x >> place & 1u) == 0u) return direction;
+    if (corrections == 0 || !has_distances(place)) return direction;
     vec3 at = direction;
     float along = dot(from, direction), away2 = dot(from, from);
     for (int i = 0; i < corrections; ++i) {
@@ -29,19 +29,22 @@ vec3 corrected(vec3 from, vec3 direction, uint place) {
     return at;
 }
 
-vec3 sky_light(vec3 direction) { return frame.counts.w > 0u ? cube_finest(sky_cube, direction).rgb : vec3(0.0); }
+// a: 1 where there is no sky.
+vec4 sky_light(vec3 direction) { return frame.counts.w > 0u ? vec4(cube_finest(sky_cube, direction).rgb, 0.0) : vec4(0.0, 0.0, 0.0, 1.0); }
 
-vec3 cubemap_light(vec3 position, vec3 direction, inout uint fetches) {
+vec4 cubemap_light(vec3 position, vec3 direction, inout uint fetches) {
     uint place = frame.counts.x > 0u && has_active_center ? nearest_active(position) : 255u;
     fetches++;
     if (place >= frame.counts.x) return sky_light(direction);
     fetches += uint(corrections) + 1u;
     vec4 color = cube_finest(cubemap_color, vec4(corrected(position - active_centers[place].xyz, direction, place), place));
-    return color.rgb + (1.0 - clamp(color.a, 0.0, 1.0)) * sky_light(direction);
+    return vec4(color.rgb, 0.0) + (1.0 - clamp(color.a, 0.0, 1.0)) * sky_light(direction);
 }
 
-vec3 light_off_screen(vec3 position, vec3 direction, inout uint fetches) {
-    if (fallback == fallback_black) return vec3(0.0);
+// a: the part that found nothing.
+vec4 light_off_screen(vec3 position, vec3 direction, inout uint fetches) {
+    if (fallback == fallback_black) return vec4(0.0);
+    if (fallback == fallback_captured) return vec4(0.0, 0.0, 0.0, 1.0);
     if (fallback == fallback_volume && has_volume()) return volume_light(position, direction, fetches);
     return cubemap_light(position, direction, fetches);
 }
@@ -69,12 +72,17 @@ bool light_on_screen(vec3 end, bool endless, out vec3 light, inout uint fetches)
 
 // position, direction: of the ray, camera-relative world.
 Arriving arriving_light(vec3 position, vec3 direction, Result traced) {
-    Arriving result = Arriving(vec3(0.0), false, 0u);
+    Arriving result = Arriving(vec3(0.0), 0.0, 0u);
     bool endless = !(traced.travelled_m < LARGEST);
     vec3 stopped = endless ? position : position + traced.travelled_m * direction;
-    if (traced.finished) result.on_screen = light_on_screen(endless ? direction : stopped, endless, result.light, result.fetches);
-    if (!result.on_screen) result.light = light_off_screen(lookup == lookup_stopped ? stopped : position, direction, result.fetches);
+    if (!(traced.finished && light_on_screen(endless ? direction : stopped, endless, result.light, result.fetches))) {
+        vec4 found = light_off_screen(lookup == lookup_stopped ? stopped : position, direction, result.fetches);
+        result.light = found.rgb;
+        result.missed = found.a;
+    }
     // Pictures and volumes are others' values.
-    result.light = finite(vec4(result.light, 0.0)) ? max(result.light, 0.0) : vec3(0.0);
+    bool valid = finite(vec4(result.light, result.missed));
+    result.light = valid ? max(result.light, 0.0) : vec3(0.0);
+    result.missed = valid ? result.missed : 1.0;
     return result;
 }

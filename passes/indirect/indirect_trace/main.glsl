@@ -3,12 +3,14 @@
 #include "shared/blue_noise.glsl"
 #include "shared/hemisphere.glsl"
 #include "occlusion/ao_trace/receiver_normal.glsl"
+#include "shared/luminance.glsl"
 #include "shared/sampling.glsl"
 #include "light.glsl"
 
 struct Gathered {
     vec3 light;
-    uint found, steps, fetches;
+    float missed;
+    uint steps, fetches;
 };
 
 int traced_level() { return has_surface_levels ? level : 0; }
@@ -29,13 +31,13 @@ vec2 numbers_of(ivec2 texel, uint ray) {
     return random4(uvec2(texel), number + ray * 0x9E3779B9u, RANDOM_INDIRECT).xy;
 }
 
-vec3 limited(vec3 light) {
-    float bright = dot(light, vec3(0.2126, 0.7152, 0.0722));
+vec3 no_brighter(vec3 light) {
+    float bright = luminance(light);
     return brightest < 1e6 && bright > brightest ? light * (brightest / bright) : light;
 }
 
 Gathered gather(ivec2 texel, ivec2 finest, float depth_m, vec3 shading) {
-    Gathered sum = Gathered(vec3(0.0), 0u, 0u, 0u);
+    Gathered sum = Gathered(vec3(0.0), 0.0, 0u, 0u);
     vec2 start = picked_position(finest, texelFetch(pick, finest, 0).x, frame.size);
     vec3 position = view_position(start / vec2(frame.size.xy), depth_m, frame.view_from_uv, frame.depth_range.z), tangent, bitangent;
     vec3 normal = mat3(frame.view_from_world) * normalize(receiver_normal(start, shading));
@@ -46,8 +48,8 @@ Gathered gather(ivec2 texel, ivec2 finest, float depth_m, vec3 shading) {
         precise vec3 direction = normalize(local.x * tangent + local.y * bitangent + local.z * normal);
         Result traced = trace_from(start, position, direction, finest, frame.counts.y + ray * 0x9E3779B9u);
         Arriving arriving = arriving_light(mat3(frame.world_from_view) * position, mat3(frame.world_from_view) * direction, traced);
-        sum.light += limited(arriving.light);
-        sum.found += arriving.on_screen ? 1u : 0u;
+        sum.light += no_brighter(arriving.light);
+        sum.missed += arriving.missed;
         sum.steps += traced.steps;
         sum.fetches += traced.fetches + arriving.fetches;
     }
@@ -58,7 +60,7 @@ void main() {
     load_active_centers();
     ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(texel, imageSize(indirect_traced)))) return;
-    Gathered sum = Gathered(vec3(0.0), 0u, 0u, 0u);
+    Gathered sum = Gathered(vec3(0.0), 0.0, 0u, 0u);
     bool works = int(dispatch_level) == traced_level();
     if (works) {
         ivec2 finest = finest_of(texel);
@@ -67,7 +69,7 @@ void main() {
         if (reflects(depth_m, shading)) sum = gather(texel, finest, depth_m, shading);
     }
     float part = 1.0 / float(directions);
-    imageStore(indirect_traced, texel, works ? vec4(storable(sum.light * part, frame.up.w), float(sum.found) * part) : vec4(-1.0));
+    imageStore(indirect_traced, texel, works ? vec4(storable(sum.light * part, frame.up.w), sum.missed * part) : vec4(-1.0));
     if (!diagnostics) return;
     imageStore(indirect_steps, texel, uvec4(sum.steps));
     imageStore(indirect_fetches, texel, uvec4(sum.fetches));

@@ -29,8 +29,8 @@ vec3 made_cell(ivec2 at, vec3 direction, out bool open) {
 // The small weight of a cell inside of an object, which counts where all eight are.
 const float CLOSED = 1e-6;
 
-// Interpolates the eight cells around a point, those outside of the volume being the nearest ones inside.
-vec3 volume_light(vec3 position, vec3 direction, inout uint fetches) {
+// Interpolates the eight cells around a point, those outside of the volume being the nearest ones inside. a: 1 where none of them is valid.
+vec4 volume_light(vec3 position, vec3 direction, inout uint fetches) {
     ivec3 cells = ivec3(frame.grid.xyz);
     vec3 place = clamp(place_in_volume(position), vec3(0.0), vec3(cells - 1)), corner = floor(place), part = place - corner;
     vec3 sum = vec3(0.0);
@@ -49,5 +49,5 @@ vec3 volume_light(vec3 position, vec3 direction, inout uint fetches) {
         sum += weight * light;
         total += weight;
     }
-    return total > 0.0 ? sum / total : vec3(0.0);
+    return total > 0.0 ? vec4(sum / total, 0.0) : vec4(0.0, 0.0, 0.0, 1.0);
 }

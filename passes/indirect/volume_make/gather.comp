@@ -8,8 +8,7 @@
 };
 #include "shared/active.glsl"
 #include "shared/cubemap.glsl"
-
-bool has_distances(uint place) { return (frame.distances.x >> place & 1u) != 0u; }
+#include "shared/luminance.glsl"
 
 float distance_of(uint place, vec3 direction) {
     return textureLod(samplerCubeArray(cubemap_distance, nearest_clamp), vec4(direction, place), 0.0).x;
@@ -60,12 +59,12 @@ void main() {
         vec3 on_face = direction_from_face(vec3((vec2(tap) + 0.5) * side, i / (taps * taps)));
         vec4 seen = patch_from(point, place, on_face, 4.0 * side * side);
         vec3 color = color_of(place, on_face);
-        float luminance = dot(color, vec3(0.2126, 0.7152, 0.0722));
+        float weight = seen.w * luminance(color);
         light += seen.w * color;
-        main_direction += seen.w * luminance * seen.xyz;
+        main_direction += weight * seen.xyz;
         middle += seen.w * seen.xyz;
         total += seen.w;
-        bright += seen.w * luminance;
+        bright += weight;
     }
     imageStore(volume_radiance, at, vec4(total > 0.0 ? light / total : vec3(0.0), open ? 1.0 : 0.0));
     // The solid angles of all directions have no direction; what they have here is the error of those that are estimated.

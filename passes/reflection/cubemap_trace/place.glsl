@@ -5,7 +5,4 @@ const uint NO_PLACE = 255u;
 
 // For a ray that ended in the sky while it was traced in a cube map: none if the capture has a sky, otherwise that cube map, which shows it.
 uint place_of_sky(uint place) { return frame.counts.w > 0u ? NO_PLACE : place; }
-
-// Rays cannot be traced in a cube map without distances; its texels of cubemap_distance are those of the sky.
-bool has_distances(uint place) { return (frame.distances.x >> (place & 31u) & 1u) != 0u; }
 #endif

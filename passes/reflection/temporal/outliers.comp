@@ -6,6 +6,7 @@
 #include "shared/push_begin.glsl"
 #include "outliers.pass.h"
 };
+#include "shared/luminance.glsl"
 #include "shared/neighbour.glsl"
 #include "history.glsl"
 #include "shared/work_list.glsl"
@@ -15,8 +16,6 @@ const ivec2 BESIDE[4] = ivec2[](ivec2(-1, 0), ivec2(1, 0), ivec2(0, -1), ivec2(0
 vec4 current_color(ivec2 texel) {
     return has_reflection_blurred ? texelFetch(reflection_blurred, texel, 0) : texelFetch(reflection_half, texel, 0);
 }
-
-float luminance(vec3 color) { return dot(color, vec3(0.2126, 0.7152, 0.0722)); }
 
 // Luminance around a texel; negative if no neighbour is comparable.
 float around(ivec2 texel, Surface center) {

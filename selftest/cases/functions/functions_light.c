@@ -38,6 +38,9 @@ static void expect_contrasted(const double *x, double *y) {
     const double light = (1 - x[2]) * x[0] + x[2] * x[1];
     y[0] = light > 0 ? light : 0;
 }
+static void expect_luminance(const double *x, double *y) {
+    y[0] = 0.2126 * x[0] + 0.7152 * x[1] + 0.0722 * x[2];
+}
 /* Slices of 7 rows each. */
 static void expect_cell(const double *x, double *y) {
     y[0] = x[0];
@@ -55,6 +58,7 @@ static const struct function list[] = {
     {"directed light", "what a white surface sends back of light that varies linearly with the direction", "directed_irradiance(vec3(b.z), a.xyz, vec3(a.w, b.xy)), 0.0", "x y z dx dy dz mean",
      {{LINEAR, -1, 1, 0}, {LINEAR, -1, 1, 0}, {LINEAR, -1, 1, 0}, {LINEAR, -1, 1, 0}, {LINEAR, -1, 1, 0}, {LINEAR, -1, 1, 0}, {LINEAR, 0, 4, 0}}, NULL, expect_directed, 1, ABSOLUTE, 1e-5, "roundings of numbers up to 28; 2000 rings leave 1e-6"},
     {"contrasted light", "what differs from the mean is scaled, and never negative", "contrasted(vec3(a.x), vec3(a.y), a.z), 0.0", "mean irradiance contrast", {{LINEAR, 0, 4, 0}, {LINEAR, 0, 4, 0}, {LINEAR, 0, 4, 0}}, NULL, expect_contrasted, 1, ABSOLUTE, 4e-6, "three roundings of numbers up to 16"},
+    {"luminance", "of Rec. 709's primaries", "luminance(a.xyz), 0.0, 0.0, 0.0", "r g b", {{LINEAR, -4, 4, ZERO}, {LINEAR, -4, 4, ZERO}, {LINEAR, -4, 4, ZERO}}, NULL, expect_luminance, 1, ABSOLUTE, 2e-6, "five roundings of numbers up to 4, and three of the weights"},
     {"cell of a volume", "slices lie one below the other", "vec4(vec2(cell_texel(ivec3(a.xyz), uvec4(5, 7, 9, 1))), 0.0, 0.0)", "i j k", {{WHOLE, 0, 4, 0}, {WHOLE, 0, 6, 0}, {WHOLE, 0, 8, 0}}, NULL, expect_cell, 2, ULP, 0, "whole numbers"},
 };
 /* clang-format on */

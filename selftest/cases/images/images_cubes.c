@@ -372,6 +372,8 @@ static bool check_nearest(struct frames *frames, const struct image_case *which,
     if (ok) {
         cube_frame_fill(c, 1, CUBE_FRAME_MOST, nothing_special);
         for (int k = 0; k < CUBE_FRAME_MOST; k++)
+            if (!(*(const uint32_t *)which->with >> k & 1)) c->parts[k].channels[4] = NULL; /* without distances */
+        for (int k = 0; k < CUBE_FRAME_MOST; k++)
             for (int i = 0; i < 3; i++) c->cube[k].center[i] = centers[k][i] + cube_frame_eye[i];
         c->parts[CUBE_FRAME_MOST] = (struct planes){
             "engine.screen_trace.screen_travelled", FRAME_WIDTH, FRAME_HEIGHT, {"Z"}, {zero}, GLINT_F32, NULL};
@@ -394,6 +396,10 @@ static const struct cocoon_case rooms = {room_sample, expect_gauge}, boxes = {bo
 #define GAUGE "cocoon_gauge(cocoon, v, place) / max(scale, 0.05)"
 #define LEAVES "part_of(leaves_cocoon(cocoon, v, direction, place, 16, 64), max(length(v), 0.1))"
 #define NEAREST "load_active_centers():nearest_active(point)"
+/* Those without distances, and a place that holds no cube map, do not count. */
+#define WITH_DISTANCES                                                                                                 \
+    "load_active_centers():nearest_among(uint(has_distances(0u)) | uint(has_distances(1u) || has_distances(255u)) << " \
+    "1 | uint(has_distances(2u)) << 2 | uint(has_distances(3u)) << 3, point)"
 #define AMONG "load_active_centers():nearest_among(5u, point)"
 static const uint32_t all_of_them = ~0u, two_of_them = 5;
 
@@ -407,6 +413,7 @@ static const struct image_case list[] = {
     {{"cocoon of a sphere, by samples", "the same with single samples", NULL, "absolute", 4e-6, "a product of a difference that is 0"}, check_sphere, NULL, "cocoon.maximum=samples"},
     {{"nearest active cube map", "the nearest of four, relative to another camera position", NEAREST, "places", 0, "a decision; squared distances within 1e-5 m² are a tie"}, check_nearest, NEAREST, &all_of_them},
     {{"nearest of some active cube maps", "the nearest of the first and the third of four", AMONG, "places", 0, "a decision; squared distances within 1e-5 m² are a tie"}, check_nearest, AMONG, &two_of_them},
+    {{"cube maps with distances", "the first and the third of four have some", WITH_DISTANCES, "places", 0, "a decision; squared distances within 1e-5 m² are a tie"}, check_nearest, WITH_DISTANCES, &two_of_them},
 };
 /* clang-format on */
 
