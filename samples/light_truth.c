@@ -199,7 +199,8 @@ static bool write_picture(const struct dump *dump, const struct world *world, co
 }
 
 bool light_truth_write(const struct dump *dump, const struct world *world, const struct view *unjittered,
-                       const struct pixel *pixels, const struct glint_sample_options *o, struct job *job, struct glint_error *err) {
+                       const struct pixel *pixels, const struct glint_sample_options *o, struct job *job,
+                       struct glint_error *err) {
     const bool sunny = luminance(world_scene(world)->sun_irradiance) > 0;
     const uint32_t traced = GLINT_TRUTH_OCCLUSION | GLINT_TRUTH_INDIRECT | (sunny ? GLINT_TRUTH_SUN : 0);
     const uint32_t wanted = o->truths | (o->truths & GLINT_TRUTH_PICTURE ? GLINT_TRUTH_INDIRECT : 0);

@@ -26,6 +26,7 @@ bool render_antialiased(const struct world *world, const struct view *view, uint
 
 /* Renders and writes those of the options; `unjittered` is the camera of dump->view without its jitter, `pixels` the frame of dump->view. */
 bool light_truth_write(const struct dump *dump, const struct world *world, const struct view *unjittered,
-                       const struct pixel *pixels, const struct glint_sample_options *options, struct job *job, struct glint_error *err);
+                       const struct pixel *pixels, const struct glint_sample_options *options, struct job *job,
+                       struct glint_error *err);
 
 #endif
