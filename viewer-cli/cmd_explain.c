@@ -243,7 +243,8 @@ const struct command cmd_explain = {
     .numbers = true,
     .summary = "say in a few sentences why a pixel looks as it does",
     .description =
-        "Explains reflections. Replays a run with one pixel recorded and says which tracer ended its ray, where and why, where its colour "
+        "Explains reflections. Replays a run with one pixel recorded and says which tracer ended its ray, where and "
+        "why, where its colour "
         "came "
         "from, what filters made of it, and how far it is from what is right: the same ray of the reference tracers, "
         "which skip nothing, and the true result, where the capture holds it or --against names a run of glint "
