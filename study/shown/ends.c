@@ -163,7 +163,8 @@ static bool sum_without_rays(struct glint_replay *replay, const struct glint_eff
     const struct glint_pass_result *results = glint_replay_results(replay, &count);
     for (size_t p = 0; p < count; p++) {
         const struct tracer counts = {.pass = results[p].pass};
-        if (!results[p].ran || !glint_effect_has(effect, counts.pass) || glint_pass_row(counts.pass, GLINT_ROW_TRACER, NULL))
+        if (!results[p].ran || !glint_effect_has(effect, counts.pass) ||
+            glint_pass_row(counts.pass, GLINT_ROW_TRACER, NULL))
             continue;
         const struct glint_image *image = diagnostic_image(replay, &counts, unit);
         uint32_t *values = image ? study_values(replay, image, GLINT_U32, err) : NULL;
