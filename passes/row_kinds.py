@@ -224,4 +224,6 @@ EFFECT_KINDS = [
          'channel no pixel has a class.', row='.class_title = $title, .class_part = $part, .class_channel = $channel, .classes = {$classes},'),
     Kind('CLASS', 'name, most', 'A class, and its highest value; INFINITY for the last one.', row='{$name, $most},'),
     Kind('TERM', 'text', 'How the composed picture changes by it.', row='.term = $text,'),
+    Kind('OF_ALL_EFFECTS', '', 'The result is made of all effects: their passes, rays and parameters count as its own. It is judged where it is asked for by name.',
+         row='.of_all = true,'),
 ]

@@ -182,14 +182,32 @@ static bool write_antialiased(const struct dump *dump, const struct world *world
     return ok;
 }
 
+/* Traced indirect light takes the place of the baked one, unless the scene has none. */
+static bool write_picture(const struct dump *dump, const struct world *world, const struct pixel *pixels,
+                          const struct light_truth *truth, uint32_t samples, struct job *job, struct glint_error *err) {
+    const size_t count = (size_t)dump->view->width * dump->view->height;
+    vec3 *picture = calloc(count, sizeof *picture);
+    bool ok = picture || glint_fail(err, GLINT_ERROR_MEMORY, "no memory for the true picture");
+    ok = ok && render_finished(world, dump->view, pixels, samples, picture, job, 0, err);
+    for (size_t i = 0; ok && !world_scene(world)->unlit && i < count; i++)
+        if (pixels[i].depth < INFINITY)
+            picture[i] = along(sub(picture[i], pixels[i].indirect), times(pixels[i].albedo, truth[i].indirect),
+                               1 - pixels[i].metalness);
+    ok = ok && write_colors(dump, "truth.picture", picture, sizeof *picture, NULL, samples, err);
+    free(picture);
+    return ok;
+}
+
 bool light_truth_write(const struct dump *dump, const struct world *world, const struct view *unjittered,
-                       const struct glint_sample_options *o, struct job *job, struct glint_error *err) {
+                       const struct pixel *pixels, const struct glint_sample_options *o, struct job *job,
+                       struct glint_error *err) {
     const bool sunny = luminance(world_scene(world)->sun_irradiance) > 0;
     const uint32_t traced = GLINT_TRUTH_OCCLUSION | GLINT_TRUTH_INDIRECT | (sunny ? GLINT_TRUTH_SUN : 0);
+    const uint32_t wanted = o->truths | (o->truths & GLINT_TRUTH_PICTURE ? GLINT_TRUTH_INDIRECT : 0);
     const struct light_rays rays = {.samples = o->truth_samples,
                                     .radius = (float)o->occlusion_radius,
                                     .length = (float)o->contact_length,
-                                    .kinds = o->truths & traced};
+                                    .kinds = wanted & traced};
     struct light_truth *truth = NULL;
     bool ok = true;
     if (rays.kinds) {
@@ -197,9 +215,11 @@ bool light_truth_write(const struct dump *dump, const struct world *world, const
         ok = truth || glint_fail(err, GLINT_ERROR_MEMORY, "no memory for the truth of light");
         ok = ok && render_light_truth(world, dump->view, &rays, truth, job, 0, err) &&
              write_visibilities(dump, truth, &rays, err);
-        if (ok && rays.kinds & GLINT_TRUTH_INDIRECT)
+        if (ok && o->truths & GLINT_TRUTH_INDIRECT)
             ok =
                 write_colors(dump, "truth.indirect", &truth->indirect, sizeof *truth, &truth->error, rays.samples, err);
+        if (ok && o->truths & GLINT_TRUTH_PICTURE)
+            ok = write_picture(dump, world, pixels, truth, rays.samples, job, err);
         free(truth);
     }
     return ok && (!(o->truths & GLINT_TRUTH_ANTIALIASED) || write_antialiased(dump, world, unjittered, o, job, err));

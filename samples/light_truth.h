@@ -24,8 +24,9 @@ bool render_light_truth(const struct world *world, const struct view *view, cons
 bool render_antialiased(const struct world *world, const struct view *view, uint32_t samples, bool finished,
                         vec3 *picture, struct job *job, double weight, struct glint_error *err);
 
-/* Renders and writes those of the options; `unjittered` is the camera of dump->view without its jitter. */
+/* Renders and writes those of the options; `unjittered` is the camera of dump->view without its jitter, `pixels` the frame of dump->view. */
 bool light_truth_write(const struct dump *dump, const struct world *world, const struct view *unjittered,
-                       const struct glint_sample_options *options, struct job *job, struct glint_error *err);
+                       const struct pixel *pixels, const struct glint_sample_options *options, struct job *job,
+                       struct glint_error *err);
 
 #endif

@@ -285,7 +285,7 @@ static bool write_parts(struct session *s, const struct dump *dump, const struct
     if (o->finished_samples && !write_finished(s, dump, view, err)) return false;
     if (!o->truth_samples) return true;
     struct view unjittered = view_through(&s->scene, o, o->width, o->height, number, VIEW_PLACES);
-    if (!light_truth_write(dump, s->now, &unjittered, o, &s->job, err)) return false;
+    if (!light_truth_write(dump, s->now, &unjittered, s->pixels, o, &s->job, err)) return false;
     if (!(o->truths & GLINT_TRUTH_REFLECTION)) return true;
     return render_truth(s->now, view, s->pixels, o->truth_samples, 0, o->finished_samples > 0, s->truth, &s->job,
                         o->truth_samples, err) &&
@@ -459,8 +459,9 @@ bool glint_sample_write(const char *scene, const char *out, const struct glint_s
     const bool beyond = s.scene.water.there || has_panes(&s.scene);
     if (ok && s.options.finished_samples && beyond)
         ok = glint_fail(err, GLINT_ERROR_USAGE, "%.200s: has water or panes, and a finished picture with them", scene);
-    if (ok && s.options.truths & GLINT_TRUTH_ANTIALIASED && beyond)
-        ok = glint_fail(err, GLINT_ERROR_USAGE, "%.200s: has water or panes, which the antialiased truth lacks", scene);
+    if (ok && s.options.truths & (GLINT_TRUTH_ANTIALIASED | GLINT_TRUTH_PICTURE) && beyond)
+        ok = glint_fail(err, GLINT_ERROR_USAGE,
+                        "%.200s: has water or panes, which the truths antialiased and picture lack", scene);
     if (ok) {
         if (s.options.foreground) foreground_add(&s.scene, &s.options);
         set_defaults(&s);

@@ -15,7 +15,7 @@ struct arguments {
     struct list captures, presets, settings;
     const char *out, *device, *effect;
     uint32_t rounds;
-    bool json;
+    bool json, every; /* every: no presets are named */
 };
 
 enum { KEY_PRESETS = 256, KEY_REPEAT };
@@ -62,10 +62,10 @@ static char *cmd_compare_values(int key) {
 
 static error_t cmd_compare_parse(int key, char *arg, struct argp_state *state) {
     struct arguments *a = state->input;
-    const bool named = a->presets.count > 0;
     (void)arg;
     if (key != ARGP_KEY_END) return ARGP_ERR_UNKNOWN;
-    for (size_t i = 0; !named && glint_preset(i); i++)
+    a->every = a->presets.count == 0;
+    for (size_t i = 0; a->every && glint_preset(i); i++)
         if (strcmp(glint_preset(i), "reference") != 0) list_add(&a->presets, glint_preset(i), state);
     return 0;
 }
@@ -197,9 +197,9 @@ static enum status compare(struct contest *contest, const struct arguments *a, b
 /* One effect after the other. JSON is an object if there is one, else a list of them. */
 static enum status compare_all(struct contest *contest, const struct arguments *a, struct glint_error *err) {
     const struct glint_effect *effects[EFFECTS_MAX];
-    const struct glint_pipeline **pipelines = calloc(contest->count + 1, sizeof *pipelines);
-    for (size_t i = 0; pipelines && i < contest->count; i++) pipelines[i] = contest->contestants[i].pipeline;
-    const struct effect_search search = {a->effect, pipelines, contest->count, false, &a->captures};
+    const struct glint_pipeline **pipelines = calloc(contest->all_count + 1, sizeof *pipelines);
+    for (size_t i = 0; pipelines && i < contest->all_count; i++) pipelines[i] = contest->all[i].pipeline;
+    const struct effect_search search = {a->effect, pipelines, contest->all_count, false, &a->captures};
     const size_t count = pipelines ? effects_find(&search, effects, err) : 0;
     free(pipelines);
     if (!count) return command_fail(&cmd_compare, err);
@@ -223,10 +223,10 @@ static enum status cmd_compare_run(int argc, char **argv) {
     struct arguments a = {.rounds = 3};
     command_parse(&cmd_compare, argc, argv, &a);
     struct glint_error err = {0};
-    struct contest contest = {.rounds = a.rounds};
+    struct contest contest = {.rounds = a.rounds, .join = a.every};
     const struct glint_device_options device = {.select = a.device};
     bool ok = contest_begin(&contest, a.presets.items, &a.settings, &err);
-    if (ok) pipeline_note_fog(&cmd_compare, contest.contestants[0].pipeline, captures_fogged(&a.captures));
+    if (ok) pipeline_note_fog(&cmd_compare, contest.all[0].pipeline, captures_fogged(&a.captures));
     ok = ok && (contest.device = glint_device_create(&device, &err)) != NULL;
     enum status status = ok ? compare_all(&contest, &a, &err) : command_fail(&cmd_compare, &err);
     contest_finish(&contest);
@@ -248,7 +248,9 @@ const struct command cmd_compare = {
         "classes of pixels, such as mirror-like, glossy and rough surfaces, the end reasons, steps and texture fetches "
         "of rays, and the time of "
         "all passes, measured in alternating rounds. Passes that a scene does not need are not run, and listed. Fog "
-        "is off, because the truth has none. Several effects are compared one after the other, each with its own "
+        "is off, because the truth has none. Without --presets, presets that make the result by the same passes are "
+        "measured once, and have the time of the first. Several effects are compared one after the other, each with "
+        "its own "
         "table, or in a folder FOLDER/EFFECT of its own.",
     .options = options,
     .targets = targets,

@@ -181,12 +181,22 @@ static bool explain_pixel(struct explain *e, const struct arguments *a, const st
     return ok;
 }
 
+/* The probe records the rays of one effect alone: whose passes make the radiance that arrives along them. */
+static bool is_explained(const struct glint_effect *effect, const char *run, struct glint_error *err) {
+    const char *image;
+    const struct glint_pass *resolve = glint_pass_with_role(GLINT_ROLE_RAY_RADIANCE, &image);
+    if (!resolve || !strcmp(resolve->effect, effect->name)) return true;
+    return glint_fail(err, GLINT_ERROR_USAGE,
+                      "%s: the %s cannot be explained: glint explain follows the rays of the effect %s alone", run,
+                      effect->noun, resolve->effect);
+}
+
 static enum status explain_run(const struct arguments *a, struct opened *opened, const struct run_source *source,
                                struct glint_error *err) {
     struct glint_run *run = glint_run_open(a->run, err);
     const struct glint_effect *effect = run ? effect_of_run(a->effect, run, err) : NULL;
     glint_run_close(&run);
-    if (!effect) return command_fail(&cmd_explain, err);
+    if (!effect || !is_explained(effect, a->run, err)) return command_fail(&cmd_explain, err);
     struct explain e = {.effect = effect,
                         .run = a->run,
                         .opened = opened,
@@ -233,7 +243,8 @@ const struct command cmd_explain = {
     .numbers = true,
     .summary = "say in a few sentences why a pixel looks as it does",
     .description =
-        "Replays a run with one pixel recorded and says which tracer ended its ray, where and why, where its colour "
+        "Explains reflections. Replays a run with one pixel recorded and says which tracer ended its ray, where and "
+        "why, where its colour "
         "came "
         "from, what filters made of it, and how far it is from what is right: the same ray of the reference tracers, "
         "which skip nothing, and the true result, where the capture holds it or --against names a run of glint "

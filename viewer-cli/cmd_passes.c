@@ -323,6 +323,7 @@ static void print_slots(const struct glint_effect *effect, const char *code) {
         printf("%s%s%s%s", slot ? ", " : "", code, passes[i].slot, code);
         slot = passes[i].slot;
     }
+    if (effect->of_all) printf(", and those of all other effects");
 }
 
 /* What the effect's own declaration says. */

@@ -67,7 +67,7 @@ static const struct argp_option options[] = {
     {"probes",      KEY_PROBES,      "imperfect|perfect|auto",  0, "Contents of the cube maps. imperfect: as in games, only static objects, simplified, with metals as diffuse; perfect: "
         "the exact scene; auto: placed automatically, for glTF files", 0},
     {"truth",       KEY_TRUTH,       "N",     0, "Path trace the true reflection with N rays per pixel into truth.* (default 0: no truth)", 0},
-    {"truth-of",    KEY_TRUTH_OF,    "WHAT,...", 0, "Which truths --truth traces: reflection (default), occlusion, sun, indirect, antialiased", 0},
+    {"truth-of",    KEY_TRUTH_OF,    "WHAT,...", 0, "Which truths --truth traces: reflection (default), occlusion, sun, indirect, antialiased, picture", 0},
     {"occlusion-radius", KEY_RADIUS, "M",     0, "How far away surfaces occlude, in metres, in the truth of occlusion (default 1)", 0},
     {"contact-length", KEY_LENGTH,   "M",     0, "How far away surfaces cast contact shadows, in metres, in the truth of the sun (default 0.5)", 0},
     {"also",        KEY_ALSO,        "WHAT,...", 0, "Also write the engine's own: ao (ambient occlusion), sun (shadow mask), shadow (shadow map), volume (of light)", 0},
@@ -108,7 +108,7 @@ static const struct example examples[] = {
     {0},
 };
 static const char *const probes[] = {"imperfect", "perfect", "auto", NULL};
-static const char *const truths[] = {"reflection", "occlusion", "sun", "indirect", "antialiased", NULL};
+static const char *const truths[] = {"reflection", "occlusion", "sun", "indirect", "antialiased", "picture", NULL};
 static const char *const extras[] = {"ao", "sun", "shadow", "volume", NULL};
 static const char *const compressions[] = {"zip", "none", "zips", "piz", "pxr24", "rle", NULL};
 

@@ -41,6 +41,8 @@ const char *players_owner(const struct glint_players *players, const char *slot,
 
 /* players_group.c: the slot of that name, or NULL. */
 const struct exchange *players_slot(const struct glint_players *players, const char *slot);
+/* Of a result that is made of all effects: the effect with whose slots this one is exchanged. NULL: it is exchanged by itself. */
+const struct glint_effect *players_effect(const struct glint_players *players, const struct exchange *slot);
 /* Sets `matters`, `depth` and `group` of all slots, for which `differs` must be set. */
 void players_find_groups(struct glint_players *players);
 /* Sets player->why: the reason why the slots of a group can only be exchanged together. */

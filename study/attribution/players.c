@@ -95,7 +95,9 @@ static void describe_player(const struct glint_players *players, struct player *
         else
             snprintf(text, sizeof text, "%s %s → %s", slot->slot, own ? own->variant : GLINT_NO_VARIANT,
                      theirs->variant);
-        append_item(player->name, sizeof player->name, slot->slot, "+");
+        const struct glint_effect *effect = players_effect(players, slot);
+        const char *name = effect ? effect->name : slot->slot;
+        if (!strstr(player->name, name)) append_item(player->name, sizeof player->name, name, "+");
         append_item(player->change, sizeof player->change, text, ", ");
         if (slot->depth > player->depth) player->depth = slot->depth;
     }

@@ -76,6 +76,17 @@ static bool go_together(const struct exchange *a, const struct exchange *b, char
     return is_declared_together(a, b, text, size) || needs_image(a, b, text, size) || makes_the_same(a, b, text, size);
 }
 
+const struct glint_effect *players_effect(const struct glint_players *players, const struct exchange *slot) {
+    const struct glint_pass *pass = slot->pass[slot->pass[MODE_OWN] ? MODE_OWN : MODE_REFERENCE];
+    const struct glint_effect *effect = players->effect->of_all ? glint_effect_find(pass->effect) : NULL;
+    return effect && !effect->of_all ? effect : NULL;
+}
+
+static bool of_one_effect(const struct glint_players *players, const struct exchange *a, const struct exchange *b) {
+    const struct glint_effect *effect = players_effect(players, a);
+    return effect && effect == players_effect(players, b);
+}
+
 static void join_groups(struct glint_players *players, size_t a, size_t b) {
     const size_t from = players->slots[a].group, to = players->slots[b].group;
     for (size_t i = 0; i < players->slot_count; i++)
@@ -129,7 +140,8 @@ void players_find_groups(struct glint_players *players) {
     for (size_t i = 0; i < players->slot_count; i++)
         for (size_t j = 0; j < players->slot_count; j++) {
             const struct exchange *a = &players->slots[i], *b = &players->slots[j];
-            if (i != j && a->differs && b->differs && a->matters && b->matters && go_together(a, b, NULL, 0))
+            if (i != j && a->differs && b->differs && a->matters && b->matters &&
+                (of_one_effect(players, a, b) || go_together(a, b, NULL, 0)))
                 join_groups(players, i, j);
         }
 }

@@ -20,10 +20,6 @@ static size_t texel_of(const struct glint_image *image, size_t pixel, uint32_t w
     return y * image->width + x;
 }
 
-static bool belongs_to(const struct glint_pass *pass, const struct glint_effect *effect) {
-    return strcmp(pass->effect, effect->name) == 0;
-}
-
 uint8_t *glint_study_coverage(struct glint_replay *replay, const struct glint_effect *effect,
                               const struct glint_pixels *result, struct glint_error *err) {
     const struct glint_image *image = study_image(replay, GLINT_ROLE_CONTRIBUTION);
@@ -31,7 +27,7 @@ uint8_t *glint_study_coverage(struct glint_replay *replay, const struct glint_ef
     uint8_t *coverage = malloc(pixels);
     float *contribution = NULL;
     if (!coverage) glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", effect->noun);
-    if (image && !belongs_to(image->pass, effect)) image = NULL;
+    if (image && !glint_effect_has(effect, image->pass)) image = NULL;
     if (coverage && image && !(contribution = study_values(replay, image, GLINT_F32, err))) {
         free(coverage);
         return NULL;
@@ -72,7 +68,7 @@ static bool find_tracers(struct glint_replay *replay, const struct glint_effect 
     *count = 0;
     for (size_t p = 0; p < passes; p++) {
         const struct glint_row *row = glint_pass_row(results[p].pass, GLINT_ROW_TRACER, NULL);
-        if (!results[p].ran || !row || !belongs_to(results[p].pass, effect) || *count == TRACERS) continue;
+        if (!results[p].ran || !row || !glint_effect_has(effect, results[p].pass) || *count == TRACERS) continue;
         struct tracer *t = &tracers[*count];
         const struct glint_image *first = *count ? tracers[0].end : NULL;
         t->end = glint_replay_find_image(replay, row->image);
@@ -167,7 +163,8 @@ static bool sum_without_rays(struct glint_replay *replay, const struct glint_eff
     const struct glint_pass_result *results = glint_replay_results(replay, &count);
     for (size_t p = 0; p < count; p++) {
         const struct tracer counts = {.pass = results[p].pass};
-        if (!results[p].ran || !belongs_to(counts.pass, effect) || glint_pass_row(counts.pass, GLINT_ROW_TRACER, NULL))
+        if (!results[p].ran || !glint_effect_has(effect, counts.pass) ||
+            glint_pass_row(counts.pass, GLINT_ROW_TRACER, NULL))
             continue;
         const struct glint_image *image = diagnostic_image(replay, &counts, unit);
         uint32_t *values = image ? study_values(replay, image, GLINT_U32, err) : NULL;

@@ -19,7 +19,7 @@ bool study_parameter_text(const struct glint_pipeline *pipeline, const char *slo
 
 bool study_concerns(const struct glint_effect *effect, const struct glint_pass *pass) {
     const struct glint_effect *own = glint_effect_find(pass->effect);
-    return !own || own == effect;
+    return !own || glint_effect_has(effect, pass);
 }
 
 /* The i-th row with role DEFINES_RESULT among the pipeline's passes, without those of effects other than `effect` (NULL: with all); NULL past

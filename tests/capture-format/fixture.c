@@ -189,7 +189,8 @@ struct glint_part fixture_part(const struct fixture *f, enum fixture_part which,
                                         "truth.occlusion",
                                         "truth.sun",
                                         "truth.indirect",
-                                        "truth.antialiased"};
+                                        "truth.antialiased",
+                                        "truth.picture"};
     const bool cube = which == FIXTURE_CUBEMAP_0 || which == FIXTURE_CUBEMAP_1 || which == FIXTURE_SKY ||
                       which == FIXTURE_PROBE || which == FIXTURE_PROBE_1;
     const uint32_t face = which == FIXTURE_PROBE_1 ? FIX_CUBE / 2 : FIX_CUBE;

@@ -64,6 +64,7 @@ enum fixture_part {
     FIXTURE_TRUTH_SUN,
     FIXTURE_TRUTH_INDIRECT,
     FIXTURE_TRUTH_ANTIALIASED,
+    FIXTURE_TRUTH_PICTURE,
     FIXTURE_PARTS
 };
 struct fixture_channels {

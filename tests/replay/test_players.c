@@ -270,8 +270,36 @@ static void players_belong_to_the_effect(void **state) {
     glint_pipeline_destroy(&pipeline);
 }
 
+/* Catches: slots of two effects in one player of the picture, an effect without one, and presets whose results differ taken for one. */
+static void the_picture_is_played_by_effects(UNUSED void **state) {
+    struct glint_error err = {0};
+    struct glint_pipeline *frame = preset("mafia_de_frame"), *alone = preset("mafia_de");
+    const struct glint_effect *picture = glint_effect_find("picture"), *reflection = glint_effect_find("reflection");
+    struct glint_players *players = glint_players_create(frame, picture, 1, &err);
+    assert_non_null(players);
+    const size_t occlusion = player(players, "occlusion");
+    assert_true(occlusion != player(players, "shadow") && occlusion != player(players, "indirect"));
+    const char *change = glint_player_change(players, occlusion);
+    assert_true(strstr(change, "ao_trace hemisphere → dda") && strstr(change, "ao_blur separable left out"));
+    assert_null(strstr(change, "contact_") ? change : strstr(change, "indirect_"));
+    struct glint_pipeline *changed = exchanged(players, 1u << occlusion);
+    assert_string_equal(glint_pipeline_find(changed, "ao_trace")->variant, "dda");
+    assert_string_equal(glint_pipeline_find(changed, "contact_trace")->variant, "linear");
+
+    assert_true(glint_study_same(frame, alone, reflection) && !glint_study_same(frame, alone, picture));
+    assert_false(glint_study_same(frame, alone, glint_effect_find("occlusion"))); /* one does not make it */
+    assert_true(glint_pipeline_set(frame, "ao_trace.samples=2", &err) && glint_study_same(frame, alone, reflection));
+    assert_true(glint_pipeline_set(frame, "screen_trace.steps=2", &err));
+    assert_false(glint_study_same(frame, alone, reflection));
+    glint_pipeline_destroy(&changed);
+    glint_players_destroy(&players);
+    glint_pipeline_destroy(&frame);
+    glint_pipeline_destroy(&alone);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_picture_is_played_by_effects),
         cmocka_unit_test(players_belong_to_the_effect),
         cmocka_unit_test(what_is_not_there_joins_nothing),
         cmocka_unit_test(declarations_are_the_preset),

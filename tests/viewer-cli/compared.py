@@ -74,6 +74,27 @@ class Tests:
         ok("replay s.exr -o run")
         ok("replay s.exr -o other --set screen_trace.cells=8")
 
+    def test_the_true_picture_is_made_of_the_other_truths(self):
+        """That of `scene`, which has the captured indirect light, with the traced light in its place."""
+        ok("sample courtyard --size 32x18 --cube-size 8 --truth 4 --finished 4 --truth-of indirect,picture -o p.exr")
+
+        def part(name, channels):
+            subprocess.run(["oiiotool", "p.exr", "--subimage", name, "--ch", channels, "-d", "float", "-o", "q.exr"], check=True, env=tap.programs.ENVIRONMENT)
+            return texels("q.exr", "0", len(channels.split(",")))
+
+        colors = [part(name, "R,G,B") for name in ("truth.picture", "scene", "indirect", "truth.indirect")]
+        surfaces = part("gbuffer", "albedo.R,albedo.G,albedo.B,material.metalness")
+        changed = 0
+        for picture, scene, indirect, traced, surface in zip(*colors, surfaces):
+            for k in range(3):
+                right = scene[k]
+                if any(indirect):
+                    right += (1 - surface[3]) * surface[k] * traced[k] - indirect[k]
+                # scene, indirect and albedo are halves
+                assert abs(picture[k] - right) <= 2e-3 * (abs(scene[k]) + abs(indirect[k]) + abs(surface[k] * traced[k])) + 1e-4, (picture, right)
+                changed += abs(right - scene[k]) > 0.01
+        assert changed > 100, changed
+
     def test_a_run_is_compared_with_a_part_of_the_capture(self):
         found = json.loads(ok("diff run:reflection s.exr:truth.reflection.ggx --metrics=rmse,symmetric --json", 2))
         pair = found["images"][0]

@@ -86,6 +86,10 @@ class Tests:
         text = glint("explain", self.run, "5,5", "--capture", self.path("other.exr"), status=2)
         assert "not the capture that" in text and re.search("XXH3 [0-9a-f]{32}, expected [0-9a-f]{32}", text), text
 
+    def test_other_effects_are_said_to_have_no_explanation(self):
+        said = glint("explain", self.run, self.pixel, "--effect", "occlusion", status=2)
+        assert "the occlusion cannot be explained" in said and "rays of the effect reflection alone" in said, said
+
     def test_errors_say_what_was_expected(self):
         assert "is outside of" in glint("explain", self.run, "96,0", status=2)
         assert "expected a pixel X,Y" in glint("explain", self.run, "96", status=2)

@@ -82,6 +82,12 @@ static void several_captures_make_one_table_and_one_sheet(UNUSED void **state) {
         run_program("sh", "-c", "awk -F, 'NR > 1 { print $2 }' \"$0\"", in_folder("out/table.csv"), NULL);
     assert_string_equal(csv.out, "\"kf2\"\n\"mafia3_shipped\"\n\"kf2\"\n\"mafia3_shipped\"\n");
     outcome_free(&csv);
+    text = glint_ok("compare", in_folder("matte.exr"), "--repeat=1", "--effect=reflection", "--json");
+    json = parse_json(text);
+    assert_non_null(preset_of(json, 0, "mafia_de = mafia_de_frame = mafia_de_taa")); /* one and the same reflections */
+    assert_non_null(preset_of(json, 0, "mafia3"));
+    json_decref(json);
+    free(text);
     struct pixels sheet = read_png(in_folder("out/sheet.png"));
     assert_int_equal(sheet.width, 3 * (480 + 12) + 12);
     assert_true(sheet.height > 2 * 270);

@@ -228,7 +228,7 @@ static void what_is_wrong_is_named(UNUSED void **state) {
 /* Columns of the CSV file, and titles of tune's table. */
 static void classes_are_those_of_the_effect(UNUSED void **state) {
     free(glint_ok("sample", "room", "--light=1", "-o", in_folder("shaded.exr"), "--size=32x18", "--cube-size=8",
-                  "--truth=4", "--truth-of=occlusion"));
+                  "--truth=4", "--truth-of=occlusion,picture"));
     free(glint_ok("sweep", in_folder("shaded.exr"), "-o", in_folder("occlusion"), PLAIN, "--use=ao_trace=horizon",
                   "--use=ao_apply=bilinear", "--effect=occlusion", "--reference=truth", "--repeat=0", "--no-pictures",
                   "--vary=ao_trace.steps=2,4"));
@@ -237,6 +237,20 @@ static void classes_are_those_of_the_effect(UNUSED void **state) {
     assert_contains(text, "truth enclosed rmse");
     assert_contains(text, "truth open rmse");
     assert_null(strstr(text, "glossy"));
+    free(text);
+    /* The picture is judged as a whole: what occlusion costs counts, and changes its error. */
+    text = glint_ok("sweep", in_folder("shaded.exr"), "-o", in_folder("picture"), PLAIN, "--use=ao_trace=horizon",
+                    "--use=ao_apply=bilinear", "--effect=picture", "--reference=truth", "--repeat=0", "--no-pictures",
+                    "--vary=ao_trace.steps=2,4", "--json");
+    json_t *points = parse_json(text), *few = json_array_get(json_object_get(points, "points"), 0),
+           *many = json_array_get(json_object_get(points, "points"), 1);
+    double errors[2], costs[2];
+    assert_int_equal(
+        json_unpack(few, "{s:{s:F}, s:{s:F}}", "error", "mean", &errors[0], "fetches_px", "mean", &costs[0]), 0);
+    assert_int_equal(
+        json_unpack(many, "{s:{s:F}, s:{s:F}}", "error", "mean", &errors[1], "fetches_px", "mean", &costs[1]), 0);
+    assert_true(costs[1] > costs[0] && errors[0] != errors[1] && errors[1] > 0);
+    json_decref(points);
     free(text);
     text = glint_ok("tune", in_folder("shaded.exr"), "-o", in_folder("occlusion.json"), PLAIN, "--use=ao_trace=horizon",
                     "--use=ao_apply=bilinear", "--effect=occlusion", "--reference=truth", "--repeat=0",

@@ -9,7 +9,7 @@
 #include "draw/view/sheet.h"
 
 struct contestant {
-    char label[64]; /* the preset's name, or its file's without folder and .json */
+    char label[160]; /* the preset's name, or its file's without folder and .json; "a = b" of several that are one */
     struct glint_pipeline *pipeline;
 };
 
@@ -44,8 +44,11 @@ struct showing {
 
 struct contest {
     const struct glint_effect *effect; /* whose result is compared */
-    struct contestant *contestants;
+    struct contestant *all;            /* own their pipelines */
+    size_t all_count;
+    struct contestant *contestants; /* those of them that are measured */
     size_t count;
+    bool join; /* measure presets once that make the effect's result in the same way */
     uint32_t rounds;
     struct glint_device *device;
     struct glint_judge *judge; /* created with the first capture; the index of a contestant is its lineage */
@@ -58,7 +61,8 @@ struct contest {
 bool contest_begin(struct contest *contest, const char *const *presets, const struct list *settings,
                    struct glint_error *err);
 void contest_finish(struct contest *contest);
-/* Chooses the effect that is compared from here on. */
+/* Chooses the effect that is compared from here on, and with `join` the contestants: of several that make its result by the same passes the
+   first, which has the names of all. */
 void contest_judge(struct contest *contest, const struct glint_effect *effect);
 
 /* Pictures of one capture: a column each for the truth and the presets. */

@@ -19,9 +19,9 @@ static void label_of(char label[64], const char *preset) {
 }
 
 static struct contestant *find_contestant(const struct contest *contest, const char *label, size_t length) {
-    for (size_t i = 0; i < contest->count; i++)
-        if (strlen(contest->contestants[i].label) == length && !memcmp(contest->contestants[i].label, label, length))
-            return &contest->contestants[i];
+    for (size_t i = 0; i < contest->all_count; i++)
+        if (strlen(contest->all[i].label) == length && !memcmp(contest->all[i].label, label, length))
+            return &contest->all[i];
     return NULL;
 }
 
@@ -43,14 +43,15 @@ bool contest_begin(struct contest *contest, const char *const *presets, const st
                    struct glint_error *err) {
     size_t count = 0;
     while (presets[count]) count++;
+    contest->all = calloc(count + 1, sizeof *contest->all);
     contest->contestants = calloc(count + 1, sizeof *contest->contestants);
-    if (!contest->contestants) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    if (!contest->all || !contest->contestants) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     for (size_t i = 0; i < count; i++) {
-        struct contestant *c = &contest->contestants[i];
+        struct contestant *c = &contest->all[i];
         label_of(c->label, presets[i]);
         if (find_contestant(contest, c->label, strlen(c->label)))
             return glint_fail(err, GLINT_ERROR_USAGE, "preset %s is listed twice in --presets", c->label);
-        contest->count++;
+        contest->all_count++;
         if (!(c->pipeline = glint_pipeline_create(presets[i], err)) || !pipeline_fog_off(c->pipeline, err))
             return false;
     }
@@ -60,18 +61,32 @@ bool contest_begin(struct contest *contest, const char *const *presets, const st
 }
 
 void contest_finish(struct contest *contest) {
-    for (size_t i = 0; i < contest->count; i++) {
-        glint_pipeline_destroy(&contest->contestants[i].pipeline);
-    }
+    for (size_t i = 0; i < contest->all_count; i++) glint_pipeline_destroy(&contest->all[i].pipeline);
     if (contest->judge) glint_judge_destroy(&contest->judge);
+    free(contest->all);
     free(contest->contestants);
-    contest->contestants = NULL;
-    contest->count = 0;
+    contest->all = contest->contestants = NULL;
+    contest->all_count = contest->count = 0;
+}
+
+/* Adds the name of a contestant to that of an earlier one that makes the same result; false if there is none. */
+static bool joined(struct contest *contest, const struct contestant *c) {
+    for (size_t k = 0; contest->join && k < contest->count; k++) {
+        struct contestant *earlier = &contest->contestants[k];
+        const size_t length = strlen(earlier->label);
+        if (!glint_study_same(earlier->pipeline, c->pipeline, contest->effect)) continue;
+        snprintf(earlier->label + length, sizeof earlier->label - length, " = %s", c->label);
+        return true;
+    }
+    return false;
 }
 
 void contest_judge(struct contest *contest, const struct glint_effect *effect) {
     if (contest->judge) glint_judge_destroy(&contest->judge);
     contest->effect = effect;
+    contest->count = 0;
+    for (size_t i = 0; i < contest->all_count; i++)
+        if (!joined(contest, &contest->all[i])) contest->contestants[contest->count++] = contest->all[i];
 }
 
 void showing_finish(struct showing *showing) {

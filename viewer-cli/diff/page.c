@@ -273,7 +273,7 @@ static size_t find_first_images(const struct diff *diff, size_t first[FIRST_IMAG
     if (last < diff->count) first[count++] = last;
     for (size_t e = 0; diff->sides[0].run && e < effects; e++) {
         const struct glint_run_image *result = glint_study_run_result_image(diff->sides[0].run, &effect[e]);
-        if (result) add_place(diff, result->name, first, &count);
+        if (result && !effect[e].of_all) add_place(diff, result->name, first, &count);
     }
     for (size_t k = GLINT_EFFECT_RESULTS; k-- > 0 && count < 3;)
         if (effect->results[k]) return add_place(diff, effect->results[k], first, &count), count;

@@ -57,7 +57,7 @@ size_t effects_find(const struct effect_search *search, const struct glint_effec
                           found[0]->noun);
     }
     for (size_t e = 0; e < all && made < EFFECTS_MAX; e++)
-        if (is_made(search, &effects[e])) found[made++] = &effects[e];
+        if (!effects[e].of_all && is_made(search, &effects[e])) found[made++] = &effects[e];
     if (made == 0) found[made++] = effects;
     if (made == 1) return made;
     struct glint_pipeline *reference = search->reference ? glint_pipeline_create("reference", err) : NULL;
@@ -92,6 +92,6 @@ const struct glint_effect *effect_of_run(const char *name, const struct glint_ru
     const struct glint_effect *effects = glint_effects(&count);
     if (name) return named(name, err);
     for (size_t e = 0; e < count; e++)
-        if (glint_study_run_result_image(run, &effects[e])) return &effects[e];
+        if (!effects[e].of_all && glint_study_run_result_image(run, &effects[e])) return &effects[e];
     return effects;
 }

@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 #include <stdint.h>
+#include <string.h>
 
 #include "glint/capture.h"
 #include "glint/row_kinds.h"
@@ -195,10 +196,15 @@ struct glint_effect {
         double most;                 /* the highest value of the class */
     } classes[GLINT_EFFECT_CLASSES]; /* name: NULL behind the last */
     const char *term;                /* how the composed picture changes by it */
+    bool of_all; /* the passes of all effects count as its own; it is judged only where it is asked for by name */
 };
 /* All effects, by the place that each declares. */
 const struct glint_effect *glint_effects(size_t *count);
-/* NULL if there is none of that name: passes/prepare and passes/compose, which effects share, are no effects. */
+/* Whether passes of the pass's effect count as the effect's own. */
+static inline bool glint_effect_has(const struct glint_effect *effect, const struct glint_pass *pass) {
+    return effect->of_all || strcmp(pass->effect, effect->name) == 0;
+}
+/* NULL if there is none of that name: passes/prepare, which effects share, is no effect. */
 const struct glint_effect *glint_effect_find(const char *name);
 /* Labels of pixels. Arrays of GLINT_CLASS_COUNT figures hold that of all pixels in element 0, and those of the classes from 1 on. */
 enum {

@@ -20,7 +20,8 @@ enum glint_truths {
     GLINT_TRUTH_OCCLUSION = 2,
     GLINT_TRUTH_SUN = 4, /* in scenes with a sun */
     GLINT_TRUTH_INDIRECT = 8,
-    GLINT_TRUTH_ANTIALIASED = 16 /* of the finished picture with finished_samples, else of lit */
+    GLINT_TRUTH_ANTIALIASED = 16, /* of the finished picture with finished_samples, else of lit */
+    GLINT_TRUTH_PICTURE = 32      /* lit, with traced in place of baked indirect light, and what surfaces reflect */
 };
 
 /* What the engine writes of its light only when asked. */

@@ -40,6 +40,9 @@ bool glint_study_source(struct glint_replay *replay, const struct glint_effect *
 
 /* The row of the image that a pipeline makes as the effect's result, or NULL if it has no pass for it. */
 const struct glint_row *glint_study_made(const struct glint_pipeline *pipeline, const struct glint_effect *effect);
+/* Whether both pipelines make the result, by the same passes with the same values, shaders and number of rays. */
+bool glint_study_same(const struct glint_pipeline *a, const struct glint_pipeline *b,
+                      const struct glint_effect *effect);
 /* The result of the last run at full resolution, before it is composed into the picture. Fails with GLINT_ERROR_USAGE if there is none. */
 bool glint_study_result(struct glint_replay *replay, const struct glint_effect *effect, struct glint_pixels *pixels,
                         struct glint_error *err);
