@@ -83,15 +83,13 @@ class Tests:
             return texels("q.exr", "0", len(channels.split(",")))
 
         colors = [part(name, "R,G,B") for name in ("truth.picture", "scene", "indirect", "truth.indirect")]
-        surfaces = part("gbuffer", "albedo.R,albedo.G,albedo.B,material.metalness")
+        surfaces = [part("gbuffer", name) for name in ("albedo.R", "albedo.G", "albedo.B", "material.metalness", "depth.Z")]
         changed = 0
-        for picture, scene, indirect, traced, surface in zip(*colors, surfaces):
-            for k in range(3):
-                right = scene[k]
-                if any(indirect):
-                    right += (1 - surface[3]) * surface[k] * traced[k] - indirect[k]
-                # scene, indirect and albedo are halves
-                assert abs(picture[k] - right) <= 2e-3 * (abs(scene[k]) + abs(indirect[k]) + abs(surface[k] * traced[k])) + 1e-4, (picture, right)
+        for picture, scene, indirect, traced, *albedo, (metalness,), (depth,) in zip(*colors, *surfaces):
+            for k in range(3) if math.isfinite(depth) else ():
+                right = scene[k] + (1 - metalness) * albedo[k][0] * traced[k] - indirect[k]
+                # albedo has 8 bits, the pictures are halves
+                assert abs(picture[k] - right) <= 1e-3 * (abs(scene[k]) + abs(indirect[k])) + traced[k] / 255 + 1e-4, (picture, right)
                 changed += abs(right - scene[k]) > 0.01
         assert changed > 100, changed
 
