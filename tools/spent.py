@@ -108,12 +108,14 @@ def page(args):
         parts.append(f"## {scene}\n\n![{scene}: error of the picture over its cost, by effect](spent-{scene}.svg)\n\n"
                      + pages.table(("effect", "parameter", "RMSE without it", "its lowest value removes", "its best value removes"), rows))
     if "tuned" in record:
+        def cost(contender):
+            return contender["ms"]["median"] if record["cost"] == "ms" else contender["fetches_px"]
         moved = "; ".join(f"`{m['name']}` {m['from']} → {m['to']}" for m in record["tuned"]["moved"]) or "none"
         rows = [(f"`{scene}`", name, f"{one[key]['errors']['all']['value']:.4f}",
-                 f"{one[key]['ms']['median']:.3f}" if record["cost"] == "ms" else f"{one[key]['fetches_px']:.2f}")
+                 f"{cost(one[key]) / cost(one['start']):.2f}")
                 for scene, one in record["tuned"]["scenes"].items() for key, name in (("start", f"`{PRESET}`"), ("tuned", "tuned"))]
         parts.append(f"## All effects under one budget\n\nA search of {record['tries']} points within {record['budget']} % of the cost of `{PRESET}`. "
-                     f"Parameters that it changed: {moved}.\n\n" + pages.table(("scene", "pipeline", "RMSE of the picture", UNITS[record["cost"]]), rows))
+                     f"Parameters that it changed: {moved}.\n\n" + pages.table(("scene", "pipeline", "RMSE of the picture", "cost of a frame, relative"), rows))
     text = (pages.HERE / "spent.md.in").read_text(encoding="utf-8")
     for name, value in {"SIZE": record["size"].replace("x", "×"), "DEVICE": record["device"], "COST": UNITS[record["cost"]], "PARTS": "\n".join(parts)}.items():
         text = text.replace(f"@{name}@", value)

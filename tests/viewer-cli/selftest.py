@@ -136,6 +136,19 @@ MUTANTS = [
     ("light_volume", "1.0 + 2.0 * dot", "1.0 + 3.0 * dot", ["directed light"]),
     ("light_volume", "contrast * (irradiance - mean), 0.0)", "contrast * (irradiance - mean), -1.0)", ["contrasted light"]),
     ("light_volume", "cell.y + cell.z * int(grid.y)", "cell.y + cell.z * int(grid.x)", ["cell of a volume"]),
+    ("reuse", "return part * part;", "return part;", ["agreement of GGX lobes"]),
+    ("sun", "tan(angle) * sqrt(u.x)", "tan(angle) * u.x", ["direction in the sun's disc"]),
+    ("sun", "(part * most_m)", "most_m", ["fade at the end"]),
+    ("sun", "captured > 0.0 ? min(captured, 1.0) : 0.0", "min(captured, 1.0)", ["valid mask"]),
+    ("sun", "min(inside.x, inside.y) / part", "inside.x / part", ["fade at the border"]),
+    ("active", "if ((bits >> i & 1u) == 0u) continue;", "", ["nearest of some active cube maps"]),
+    ("active", "(frame.distances.x >> place & 1u) != 0u", "(frame.distances.x >> place & 1u) == 0u", ["cube maps with distances"]),
+    ("plus", "(2u * major + minor) % 5u, major", "minor, major", ["strata of pluses"]),
+    ("levels", "- y * y) + 0.5", "- y * y) - 0.5", ["taps of a row"]),
+    ("cubemap", "6 * int(place)", "int(place)", ["texels around a direction"]),
+    ("sampling", "8.0 * max(dot(h, view), 0.0)", "4.0 * max(dot(h, view), 0.0)", ["solid angle of a Blinn-Phong ray"]),
+    ("sampling", "return a2 > 0.0 ? 2.0 * (z", "return a2 > 0.0 ? (z", ["solid angle of a GGX ray"]),
+    ("sampling", "a2 / max(1.0 - a2, 1e-6), 1.0)", "a2, 1.0)", ["angle of a GGX lobe"]),
 ]
 
 

@@ -62,7 +62,7 @@ class Tests:
         return False
 
     def test_a_page_follows_what_is_edited(self):
-        shutil.copy(os.path.join(PASSES, "compose/compose/brdf.comp"), self.path("my.comp"))
+        shutil.copy(os.path.join(PASSES, "picture/compose/brdf.comp"), self.path("my.comp"))
         with open(self.path("my.comp"), encoding="utf-8") as file:
             shader = file.read()
         store = "vec4(color, 1.0)"
