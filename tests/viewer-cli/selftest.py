@@ -145,7 +145,7 @@ MUTANTS = [
     ("active", "(frame.distances.x >> place & 1u) != 0u", "(frame.distances.x >> place & 1u) == 0u", ["cube maps with distances"]),
     ("plus", "(2u * major + minor) % 5u, major", "minor, major", ["strata of pluses"]),
     ("levels", "- y * y) + 0.5", "- y * y) - 0.5", ["taps of a row"]),
-    ("cubemap", "6 * int(place)", "int(place)", ["texels around a direction"]),
+    ("cube_filter", "across * (1.0 - along)", "along * (1.0 - across)", ["texels around a direction"]),
     ("sampling", "8.0 * max(dot(h, view), 0.0)", "4.0 * max(dot(h, view), 0.0)", ["solid angle of a Blinn-Phong ray"]),
     ("sampling", "return a2 > 0.0 ? 2.0 * (z", "return a2 > 0.0 ? (z", ["solid angle of a GGX ray"]),
     ("sampling", "a2 / max(1.0 - a2, 1e-6), 1.0)", "a2, 1.0)", ["angle of a GGX lobe"]),
