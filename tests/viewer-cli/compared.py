@@ -76,7 +76,7 @@ class Tests:
 
     def test_the_true_picture_is_made_of_the_other_truths(self):
         """That of `scene`, which has the captured indirect light, with the traced light in its place."""
-        ok("sample courtyard --size 32x18 --cube-size 8 --truth 4 --finished 4 --truth-of indirect,picture -o p.exr")
+        ok("sample room --light 4 --size 32x18 --cube-size 8 --truth 4 --finished 4 --truth-of indirect,picture -o p.exr")
 
         def part(name, channels):
             subprocess.run(["oiiotool", "p.exr", "--subimage", name, "--ch", channels, "-d", "float", "-o", "q.exr"], check=True, env=tap.programs.ENVIRONMENT)
