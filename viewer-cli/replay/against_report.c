@@ -106,7 +106,7 @@ static void print_parts(const struct comparison *c) {
 }
 
 static void print_image(const struct glint_effect *effect, const struct glint_metric_table *image, const char *name) {
-    printf("\n%s before compose, against the %s:\n", effect->noun, name);
+    printf("\n%s, against the %s:\n", effect->noun, name);
     metrics_print(image);
 }
 

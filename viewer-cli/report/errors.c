@@ -33,7 +33,7 @@ bool report_keep_errors(const char *folder, const struct comparison *compared, s
 static const struct part {
     const char *key, *title, *series;
 } parts[] = {
-    {"against_truth", "Result before compose, against the truth in the capture.", "truth"},
+    {"against_truth", "The result, against the truth in the capture.", "truth"},
     {"against_reference", "The same against the reference, which uses the same data: the error of the algorithms.",
      "reference"},
     {"missing_information", "Reference against the truth: error due to information that the capture does not contain.",

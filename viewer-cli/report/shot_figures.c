@@ -262,7 +262,7 @@ void shot_charts(const struct shot_report *shot) {
                   "The runs have fog, the truth has none. glint replay --against truth leaves fog out.");
     char text[600];
     snprintf(text, sizeof text,
-             with_truth ? "Of the %s before compose, over the pixels where it is judged. Error: off the truth of the "
+             with_truth ? "Of the %s, over the pixels where it is judged. Error: off the truth of the "
                           "frame. Flicker: the change of the picture since the frame before, less that of the truth, "
                           "so that errors that stay where they are do not count. The truth's own noise is taken off "
                           "both."

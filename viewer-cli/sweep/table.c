@@ -76,7 +76,7 @@ void sweep_print(const struct sweep *sweep) {
         printf("knee: %s=%s, beyond which larger values reduce the error less\n", glint_space_axis(sweep->space, 0),
                glint_space_value(sweep->space, knee, 0));
     }
-    printf("errors of the %s before compose, against the %s", sweep->against.effect->noun,
+    printf("errors of the %s, against the %s", sweep->against.effect->noun,
            sweep->against.truth ? "truth in the capture" : "reference");
     if (sweep->captures.count > 1) printf(", mean of %zu captures", sweep->captures.count);
     if (sweep->rounds)
