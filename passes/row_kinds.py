@@ -169,7 +169,7 @@ KINDS = [
          row='.name = #$fact, .image = #$image'),
     Kind('NEEDS_BY', 'fact, parameter', 'NEEDS of a fact about a parameter of the pass.',
          row='.name = #$fact, .image = #$parameter', as_kind='NEEDS'),
-    Kind('NEEDED_IF_READ', '', 'The pass is needed, too, when a pass that runs reads one of its images, whatever its rows NEEDS say, but for cube maps: without any it has nothing to do.'),
+    Kind('NEEDED_IF_READ', '', 'The pass is needed, too, when a pass that runs reads one of its images, whatever its rows NEEDS say, unless it needs cube maps and the capture has none.'),
     Kind('WITHOUT', 'image, what', 'What the pass does where the capture does not have this image, which it reads. The plan says so. Passes that read the image without '
          'such a row do not depend on it, if others have one.',
          row='.name = #$image, .help = $what'),

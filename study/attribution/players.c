@@ -72,6 +72,13 @@ static void append_item(char *text, size_t size, const char *item, const char *b
     snprintf(text + length, size - length, "%s%s", length ? between : "", item);
 }
 
+static bool has_item(const char *text, const char *item, char between) {
+    const size_t length = strlen(item);
+    for (const char *at = text; (at = strstr(at, item)) != NULL; at += length)
+        if ((at == text || at[-1] == between) && (!at[length] || at[length] == between)) return true;
+    return false;
+}
+
 static bool is_leader(const struct glint_players *players, const struct exchange *slot) {
     const struct glint_pass *reference = slot->pass[MODE_REFERENCE];
     if (!reference) return false;
@@ -97,7 +104,7 @@ static void describe_player(const struct glint_players *players, struct player *
                      theirs->variant);
         const struct glint_effect *effect = players_effect(players, slot);
         const char *name = effect ? effect->name : slot->slot;
-        if (!strstr(player->name, name)) append_item(player->name, sizeof player->name, name, "+");
+        if (!has_item(player->name, name, '+')) append_item(player->name, sizeof player->name, name, "+");
         append_item(player->change, sizeof player->change, text, ", ");
         if (slot->depth > player->depth) player->depth = slot->depth;
     }

@@ -55,9 +55,8 @@ void glint_shapley_finish(struct glint_shapley *shapley);
 
 /* The players of a pipeline and its reference (glint_study_reference). A player is a slot whose variant or values differ from the
    reference's, or a group of such slots that can only be exchanged together: one reads an image that only the other's variant makes,
-   both make the same image, or a row REFERENCE_WITH says so. Of a result that is made of all
-   effects, all slots of an effect are one player, which has the effect's name. The number of rays is a player of its own. Slots that the effect's result
-   does not depend on are no players. */
+   both make the same image, or a row REFERENCE_WITH says so. Of a result that is made of all effects, all slots of an effect are one player, which
+   has the effect's name. The number of rays is a player of its own. Slots that the effect's result does not depend on are no players. */
 struct glint_players;
 /* `rays`: the reference's rays a pixel; 0: those of its preset. The pipeline is copied. */
 struct glint_players *glint_players_create(const struct glint_pipeline *pipeline, const struct glint_effect *effect,
