@@ -20,6 +20,7 @@ CURVES = {
     "indirect": ("indirect_trace.directions", "1,2,4,8,16", "occlusion"),
 }
 UNITS = {"ms": "GPU time of a frame, ms", "fetches": "texture fetches a pixel"}
+SHORT = {"ms": "ms", "fetches": "fetches a pixel"}
 
 
 def slots(glint):
@@ -90,13 +91,13 @@ def chart(record, scene):
     return {"title": f"{scene}: what each effect buys", "series": series, "x": {"name": UNITS[record["cost"]]}, "y": {"name": "RMSE of the picture"}}
 
 
-def bought(points):
+def bought(points, unit):
     """Cost and error removed by the effect as in its cheapest point, and the best that its parameter adds to that."""
     (_, base, error), first = points[0], points[1]
     best = min(points[1:], key=lambda point: point[2])
     for name, cost, after in (first, best):
         spent, removed = cost - base, error - after
-        yield f"{name}: {removed:+.4f} for {spent:.3g}" + (f", {removed / spent:+.4f} each" if spent > 0 else "")
+        yield f"at {name}: {removed:+.4f} for {spent:.3g} {unit}" + (f", {removed / spent:+.4f} for one" if spent > 0 else "")
 
 
 def page(args):
@@ -104,9 +105,9 @@ def page(args):
     pages.draw(args.glint, {f"spent-{scene}.svg": chart(record, scene) for scene in record["scenes"]}, args.docs)
     parts = []
     for scene, curves in record["scenes"].items():
-        rows = [(f"`{effect}`", f"`{CURVES[effect][0]}`", f"{points[0][2]:.4f}", *bought(points)) for effect, points in curves.items()]
+        rows = [(f"`{effect}`", f"`{CURVES[effect][0]}`", f"{points[0][2]:.4f}", *bought(points, SHORT[record["cost"]])) for effect, points in curves.items()]
         parts.append(f"## {scene}\n\n![{scene}: error of the picture over its cost, by effect](spent-{scene}.svg)\n\n"
-                     + pages.table(("effect", "parameter", "RMSE without it", "its lowest value removes", "its best value removes"), rows))
+                     + pages.table(("effect", "parameter", "RMSE without it", "RMSE that the lowest value removes", "RMSE that the best value removes"), rows))
     if "tuned" in record:
         def cost(contender):
             return contender["ms"]["median"] if record["cost"] == "ms" else contender["fetches_px"]
