@@ -102,7 +102,7 @@ class Terminal:
 class Tests:
     def __init__(self, folder):
         os.chdir(folder)
-        subprocess.run([GLINT, "sample", "room", "--size", "16x9", "--cube-size", "8", "-o", "s.exr"], check=True, capture_output=True)
+        subprocess.run([GLINT, "sample", "room", "--light=4", "--size", "16x9", "--cube-size", "8", "-o", "s.exr"], check=True, capture_output=True)
         os.link("s.exr", "two words.exr")
         os.makedirs("run")
         images = [{"name": name, "file": "01-a.exr", "part": name, "channels": "Z", "unit": "m", "meaning": "for this test", "width": 4,

@@ -10,6 +10,7 @@ import tempfile
 import tap
 
 GLINT = os.path.abspath(sys.argv[1])
+PRESET = ("-p", os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "plain.json"), "--use=hiz=nearest", "--use=screen_trace=hiz")
 
 
 def glint(*words, status=0, folder=None):
@@ -28,9 +29,9 @@ class Tests:
     def __init__(self, folder):
         self.folder = folder
         self.capture, self.run = self.path("room.exr"), self.path("run")
-        glint("sample", "room", "-o", self.capture, "--size=96x54", "--cube-size=32", "--truth=1")
-        glint("replay", self.capture, "-o", self.path("right"), "--set", "downsample.jitter=false")
-        glint("replay", self.capture, "-o", self.run, "--set", "downsample.jitter=false", "--set", "screen_trace.cells=4")
+        glint("sample", "room", "--light=4", "-o", self.capture, "--size=96x54", "--cube-size=32", "--truth=1")
+        glint("replay", self.capture, *PRESET, "-o", self.path("right"), "--set", "downsample.jitter=false")
+        glint("replay", self.capture, *PRESET, "-o", self.run, "--set", "downsample.jitter=false", "--set", "screen_trace.cells=4")
         worst = json.loads(glint("diff", self.path("right"), self.run, "--json", status=2))
         image = next(i for i in worst["images"] if i["name"] == "reflection_half")
         self.pixel = "{},{}".format(2 * image["largest"]["x"], 2 * image["largest"]["y"])
@@ -56,7 +57,7 @@ class Tests:
         assert abs(symmetric(found["ray"]["radiance"], right) - found["error"]) < 1e-6, found
         assert found["best"]["error"] == min(t["error"] for t in found["tried"])
         changed = self.path("changed")
-        glint("replay", self.capture, "-o", changed, "--set", "downsample.jitter=false", "--set", found["best"]["change"])
+        glint("replay", self.capture, *PRESET, "-o", changed, "--set", "downsample.jitter=false", "--set", found["best"]["change"])
         again = self.explain("--tries=0", run=changed)
         assert abs(symmetric(again["ray"]["radiance"], right) - found["best"]["error"]) < 1e-6, (again, found["best"])
 
@@ -80,7 +81,7 @@ class Tests:
         moved = self.path("moved")
         os.mkdir(moved)
         shutil.copy(self.capture, os.path.join(moved, "room.exr"))
-        glint("replay", "room.exr", "-o", "run", folder=moved)
+        glint("replay", "room.exr", *PRESET, "-o", "run", folder=moved)
         assert json.loads(glint("explain", os.path.join(moved, "run"), "5,5", "--tries=0", "--json"))["sentences"]
         glint("sample", "mirror_box", "-o", self.path("other.exr"), "--size=96x54", "--cube-size=16")
         text = glint("explain", self.run, "5,5", "--capture", self.path("other.exr"), status=2)

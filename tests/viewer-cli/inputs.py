@@ -41,7 +41,7 @@ def interrupted(words, when, **more):
 class Tests:
     def __init__(self, folder):
         os.chdir(folder)
-        ok("sample room --size 48x27 --cube-size 8 --truth 1 -o s.exr")
+        ok("sample room --light 4 --size 48x27 --cube-size 8 --truth 1 -o s.exr")
         with open("s.exr", "rb") as file:
             self.bytes = file.read()
 
@@ -163,7 +163,7 @@ class Tests:
 
     def test_images_of_two_runs_have_two_names_in_tev(self):
         for name in ("run", "other"):
-            ok(f"replay s.exr -o {name} --outputs composed")
+            ok(f"replay s.exr -p kf2 -o {name} --outputs composed")
         names = []
         for path in ("run:composed", "other:composed", "s.exr:gbuffer:normal"):
             server = socket.create_server(("127.0.0.1", 0))

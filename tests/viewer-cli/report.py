@@ -8,6 +8,7 @@ import sys
 from browser import run_tests
 
 GLINT = sys.argv[1]
+PLAIN = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "plain.json")
 NAME = "<img src=x onerror=alert(1)>.exr"
 # A section's table as lists of texts, without intervals and units.
 TABLE = """(title => [...[...document.querySelectorAll('main > section')].find(s => s.querySelector('h2')?.textContent === title)
@@ -149,7 +150,7 @@ class Tests:
 
     def test_a_shot_is_played_with_its_error_and_flicker(self):
         glint("sample", "room", "--light=4", "-o", self.path("s.exr"), "--size=64x36", "--cube-size=16", "--frames=3", "--truth=4")
-        glint("replay", *(self.path(f"s.000{i}.exr") for i in (1, 2, 3)), "-o", self.path("shot"), "--against=truth")
+        glint("replay", *(self.path(f"s.000{i}.exr") for i in (1, 2, 3)), "-p", PLAIN, "-o", self.path("shot"), "--against=truth")
         self.show("shot")
         rows = self.table("Error and flicker", 2)
         assert [r[:2] for r in rows] == [[str(i), f"s.000{i}"] for i in (1, 2, 3)], rows
@@ -199,7 +200,7 @@ class Tests:
 
     def test_a_reference_says_what_noise_is_left_and_what_it_assumed(self):
         small = self.path("small.exr")
-        glint("sample", "mirror_box", "-o", small, "--size=48x27", "--cube-size=16")
+        glint("sample", "mirror_box", "-o", small, "--size=32x18", "--cube-size=8")
         glint("reference", small, "-o", self.path("reference"), "--rays=16", "--sensitivity=16")
         reference = self.run_json("reference")["reference"]
         self.show("reference")

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#define PLAIN "-p", GLINT_TEST_PRESET
 #define CAPTURE in_folder("box.exr")
 #define RAIN in_folder("rain.exr")
 
@@ -40,7 +41,7 @@ static void check_sets(const json_t *classes, double pixels, double mean) {
 }
 
 static void classes_part_the_pixels(UNUSED void **state) {
-    char *text = glint_ok("replay", CAPTURE, "--against=truth", "--json");
+    char *text = glint_ok("replay", CAPTURE, PLAIN, "--against=truth", "--json");
     json_t *json = parse_json(text);
     const json_t *image = image_of(json), *all = named(json_object_get(image, "surfaces"), "surfaces", "all");
     assert_true(number(all, "pixels") > 1000);
@@ -52,7 +53,7 @@ static void classes_part_the_pixels(UNUSED void **state) {
     assert_true(number(all, "flip") > 0 && number(all, "ssim") < 1);
     assert_null(json_object_get(all, "hdr_flip"));
     /* the same again, bit for bit */
-    char *again = glint_ok("replay", CAPTURE, "--against=truth", "--json");
+    char *again = glint_ok("replay", CAPTURE, PLAIN, "--against=truth", "--json");
     json_t *other = parse_json(again);
     assert_true(json_equal(image, image_of(other)));
     json_decref(json), json_decref(other);
@@ -61,7 +62,7 @@ static void classes_part_the_pixels(UNUSED void **state) {
 
 static void metrics_are_chosen(UNUSED void **state) {
     char *text =
-        glint_ok("replay", CAPTURE, "--against=truth", "--json", "--metrics=psnr,hdr_flip", "--ppd=20", "--peak=2");
+        glint_ok("replay", CAPTURE, PLAIN, "--against=truth", "--json", "--metrics=psnr,hdr_flip", "--ppd=20", "--peak=2");
     json_t *json = parse_json(text);
     const json_t *image = image_of(json), *all = named(json_object_get(image, "surfaces"), "surfaces", "all");
     const json_t *exposures = json_object_get(image, "hdr_flip");
@@ -71,7 +72,7 @@ static void metrics_are_chosen(UNUSED void **state) {
     assert_null(json_object_get(all, "rmse"));
     json_decref(json);
     free(text);
-    text = glint_ok("replay", CAPTURE, "--against=truth", "--metrics=hdr_flip");
+    text = glint_ok("replay", CAPTURE, PLAIN, "--against=truth", "--metrics=hdr_flip");
     assert_contains(text, "HDR-ꟻLIP over");
     free(text);
     glint_fails(2, "metric 'flop' (did you mean flip?): expected one of all, mean_error", "replay", CAPTURE,
@@ -91,7 +92,7 @@ static void advice_of_help_works_in_every_preset(UNUSED void **state) {
 
 /* End reasons of rays by those of the truth, and the sources of reflections in both. */
 static void ends_are_held_against_the_truth_and_the_reference(UNUSED void **state) {
-    char *text = glint_ok("replay", CAPTURE, "--against=truth", "--json", "--set=downsample.jitter=false");
+    char *text = glint_ok("replay", CAPTURE, PLAIN, "--against=truth", "--json", "--set=downsample.jitter=false");
     json_t *json = parse_json(text);
     const json_t *rays =
         json_object_get(json_object_get(json_array_get(json_object_get(json, "runs"), 0), "against_truth"), "rays");
@@ -102,7 +103,7 @@ static void ends_are_held_against_the_truth_and_the_reference(UNUSED void **stat
     assert_true(screen > 0.9 * number(hit, "rays")); /* a screen trace finds what is visible on screen */
     json_decref(json);
     free(text);
-    text = glint_ok("replay", CAPTURE, "--against=reference", "--diagnostics", "--json");
+    text = glint_ok("replay", CAPTURE, PLAIN, "--against=reference", "--diagnostics", "--json");
     json = parse_json(text);
     const json_t *sources = json_object_get(
         json_object_get(json_array_get(json_object_get(json, "runs"), 0), "against_reference"), "sources");
@@ -114,7 +115,7 @@ static void ends_are_held_against_the_truth_and_the_reference(UNUSED void **stat
 
 /* The image's errors against the truth, as text, after checking what is said of fog. */
 static char *truth_errors(const char *setting, const char *said) {
-    struct outcome outcome = glint("replay", RAIN, "--against=truth", "--json", setting, NULL);
+    struct outcome outcome = glint("replay", RAIN, PLAIN, "--against=truth", "--json", setting, NULL);
     assert_int_equal(outcome.status, 0);
     assert_contains(outcome.err, said);
     json_t *json = parse_json(outcome.out);
@@ -139,16 +140,16 @@ static void both_sides_have_the_same_fog(UNUSED void **state) {
     assert_true(asprintf(&both, "--against=both=%s", in_folder("fogged")) > 0);
     free(glint_ok("reference", RAIN, "-o", in_folder("clear"), "--rays=2", "--set=pipeline.fog=false"));
     free(glint_ok("reference", RAIN, "-o", in_folder("fogged"), "--rays=2"));
-    struct outcome outcome = glint("replay", RAIN, clear, NULL);
+    struct outcome outcome = glint("replay", RAIN, PLAIN, clear, NULL);
     assert_int_equal(outcome.status, 0);
     assert_contains(outcome.err, left_out);
     outcome_free(&outcome);
-    outcome = glint("replay", RAIN, fogged, NULL);
+    outcome = glint("replay", RAIN, PLAIN, fogged, NULL);
     assert_int_equal(outcome.status, 0);
     assert_null(strstr(outcome.err, left_out));
     outcome_free(&outcome);
-    glint_fails(2, "expected a run with resolve.fog=0, as here, found 1", "replay", RAIN, both);
-    glint_fails(2, "expected a run with downsample.ndf=blinn_phong, as here, found ggx", "replay", RAIN, fogged,
+    glint_fails(2, "expected a run with resolve.fog=0, as here, found 1", "replay", RAIN, PLAIN, both);
+    glint_fails(2, "expected a run with downsample.ndf=blinn_phong, as here, found ggx", "replay", RAIN, PLAIN, fogged,
                 "--set=downsample.ndf=blinn_phong");
     glint_fails(1, "nodir", "replay", RAIN, "--against=reference=nodir");
     free(clear), free(fogged), free(both);
@@ -167,8 +168,7 @@ static void what_is_no_number_fails(UNUSED void **state) {
     assert_int_equal(fclose(file), 0);
     char *shader = NULL;
     assert_true(asprintf(&shader, "--shader=upscale=%s", in_folder("bad.comp")) > 0);
-    struct outcome outcome = glint("replay", CAPTURE, "--against=truth", "--use=upscale=bilinear",
-                                   "--use=resolve_sharp=none", "--use=temporal_sharp=none", shader, NULL);
+    struct outcome outcome = glint("replay", CAPTURE, PLAIN, "--against=truth", shader, NULL);
     assert_int_equal(outcome.status, 1);
     assert_contains(outcome.err,
                     "NaN or infinite in 2 pixels, and in 0 of what it is compared with; the first is 41,50");

@@ -10,6 +10,7 @@
 
 #include "glint/exr.h"
 
+#define PLAIN "-p", GLINT_TEST_PRESET
 enum { WIDTH = 40, HEIGHT = 30, PIXELS = WIDTH * HEIGHT };
 
 static void write_image(const char *name, const char *part, uint32_t width, size_t channels, const float *values) {
@@ -186,10 +187,10 @@ static void alpha_does_not_hide_colors(UNUSED void **state) {
 
 static void runs_name_what_differs_first(UNUSED void **state) {
     free(glint_ok("sample", "mirror_box", "-o", in_folder("box.exr"), "--size=48x27", "--cube-size=16"));
-    free(glint_ok("replay", in_folder("box.exr"), "-o", in_folder("one"), "--diagnostics"));
-    free(glint_ok("replay", in_folder("box.exr"), "-o", in_folder("same"), "--diagnostics"));
-    free(glint_ok("replay", in_folder("box.exr"), "-o", in_folder("other"), "--diagnostics",
-                  "--set=cubemap_trace.steps_hq=5", "--use=resolve_sharp=none"));
+    free(glint_ok("replay", in_folder("box.exr"), PLAIN, "--use=temporal=rough", "-o", in_folder("one"), "--diagnostics"));
+    free(glint_ok("replay", in_folder("box.exr"), PLAIN, "--use=temporal=rough", "-o", in_folder("same"), "--diagnostics"));
+    free(glint_ok("replay", in_folder("box.exr"), PLAIN, "-o", in_folder("other"), "--diagnostics",
+                  "--set=cubemap_trace.steps_hq=5"));
     json_t *json = diff_of(0, "one", "same");
     assert_int_equal(json_array_size(json_object_get(json, "settings")), 0);
     assert_true(json_array_size(json_object_get(json, "images")) > 20);
@@ -198,7 +199,7 @@ static void runs_name_what_differs_first(UNUSED void **state) {
     const json_t *setting = named(json_object_get(json, "settings"), "what", "cubemap_trace.steps_hq");
     assert_true(number(setting, "a") == 24 && number(setting, "b") == 5);
     assert_string_equal(json_string_value(json_object_get(json_object_get(json, "first"), "slot")), "cubemap_trace");
-    const json_t *images = json_object_get(json, "images"), *lost = named(images, "name", "reflection_sharp");
+    const json_t *images = json_object_get(json, "images"), *lost = named(images, "name", "reflection_temporal");
     assert_contains(json_string_value(json_object_get(lost, "note")), "the second does not contain this image");
     assert_true(number(named(images, "name", "screen_travelled"), "differing") == 0);
     assert_true(number(named(images, "name", "cubemap_end"), "differing") > 0);

@@ -12,6 +12,8 @@
 #include <time.h>
 #include <unistd.h>
 
+#define PLAIN "-p", GLINT_TEST_PRESET
+/* Those of the plain preset. */
 static const char *const slots[] = {"downsample",    "screen_trace", "cubemap_active", "cubemap_select",
                                     "cubemap_trace", "resolve",      "upscale",        "compose"};
 enum { SLOTS = sizeof slots / sizeof *slots };
@@ -97,7 +99,7 @@ static void plan_says_what_the_scene_has_nothing_for(UNUSED void **state) {
 }
 
 static void replay_reports_times_and_leaves_a_run(UNUSED void **state) {
-    char *text = glint_ok("replay", capture, "-o", in_folder("timed"), "--repeat=3", "--json");
+    char *text = glint_ok("replay", capture, PLAIN, "-o", in_folder("timed"), "--repeat=3", "--json");
     json_t *json = parse_json(text);
     const json_t *one = json_array_get(json_object_get(json, "runs"), 0);
     for (size_t i = 0; i < SLOTS; i++) {
@@ -114,17 +116,17 @@ static void replay_reports_times_and_leaves_a_run(UNUSED void **state) {
     json_decref(json);
     free(text);
 
-    text = glint_ok("replay", capture, "--repeat=2");
+    text = glint_ok("replay", capture, PLAIN, "--repeat=2");
     for (size_t i = 0; i < SLOTS; i++) assert_contains(text, slots[i]);
     assert_contains(text, "median ms");
     assert_contains(text, "nothing written");
     assert_null(strstr(text, "cold"));
     free(text);
-    text = glint_ok("replay", capture);
+    text = glint_ok("replay", capture, PLAIN);
     assert_contains(text, "cold ms");
     assert_null(strstr(text, "median ms"));
     free(text);
-    text = glint_ok("replay", capture, "--json", "--no-cache");
+    text = glint_ok("replay", capture, PLAIN, "--json", "--no-cache");
     json = parse_json(text);
     const json_t *cold =
         named(json_object_get(json_array_get(json_object_get(json, "runs"), 0), "passes"), "slot", "resolve");
@@ -139,7 +141,7 @@ static void replay_finds_cube_map_work_of_an_earlier_call(UNUSED void **state) {
     snprintf(option, sizeof option, "--cache=%s", in_folder("cache"));
     snprintf(again, sizeof again, "%s", in_folder("again"));
     for (int call = 0; call < 4; call++) {
-        char *text = glint_ok("replay", capture, "-o", again, "--force=cubemap_mips", "--json",
+        char *text = glint_ok("replay", capture, PLAIN, "--use=cubemap_mips=prefilter", "-o", again, "--force=cubemap_mips", "--json",
                               call == 2 ? "--cache=none" : option, call == 3 ? "--no-cache" : "--json");
         json_t *json = parse_json(text);
         const json_t *passes = json_object_get(json_array_get(json_object_get(json, "runs"), 0), "passes");
@@ -156,7 +158,7 @@ static void replay_compares_with_the_truth(UNUSED void **state) {
     free(glint_ok("sample", "mirror_box", "-o", in_folder("truth.exr"), "--size=160x90", "--cube-size=64",
                   "--probes=perfect", "--truth=2"));
     char *text =
-        glint_ok("replay", in_folder("truth.exr"), "--against=truth", "--set=downsample.jitter=false", "--json");
+        glint_ok("replay", in_folder("truth.exr"), PLAIN, "--against=truth", "--set=downsample.jitter=false", "--json");
     json_t *json = parse_json(text);
     const json_t *against = json_object_get(json_array_get(json_object_get(json, "runs"), 0), "against_truth");
     const json_t *all = named(json_object_get(against, "rays"), "tracer", "all");
@@ -174,12 +176,12 @@ static void replay_compares_with_the_truth(UNUSED void **state) {
 
 static void several_captures_get_a_folder_each(UNUSED void **state) {
     free(glint_ok("sample", "mirror_box", "-o", in_folder("s.exr"), "--size=32x18", "--cube-size=16", "--frames=2"));
-    free(glint_ok("replay", in_folder("s.0001.exr"), in_folder("s.0002.exr"), "-o", in_folder("runs")));
+    free(glint_ok("replay", in_folder("s.0001.exr"), in_folder("s.0002.exr"), PLAIN, "-o", in_folder("runs")));
     assert_true(file_exists(in_folder("runs/s.0001/run.json")));
     assert_true(file_exists(in_folder("runs/s.0002/run.json")));
     /* A missing capture does not prevent the replay of the others. */
     struct outcome some =
-        glint("replay", in_folder("none.exr"), in_folder("s.0002.exr"), "-o", in_folder("some"), NULL);
+        glint("replay", in_folder("none.exr"), in_folder("s.0002.exr"), PLAIN, "-o", in_folder("some"), NULL);
     assert_int_equal(some.status, 1);
     assert_contains(some.err, "none.exr");
     assert_true(file_exists(in_folder("some/s.0002/run.json")));
@@ -417,8 +419,8 @@ static void history_must_be_of_the_frame_before(UNUSED void **state) {
     assert_true(asprintf(&history, "--history=%s", in_folder("one")) > 0);
     free(glint_ok("sample", "room", "--light=4", "-o", in_folder("shot.exr"), "--frames=2", "--size=48x27",
                   "--cube-size=8"));
-    free(glint_ok("replay", in_folder("shot.0001.exr"), "-o", in_folder("one")));
-    free(glint_ok("replay", in_folder("shot.0002.exr"), history));
+    free(glint_ok("replay", in_folder("shot.0001.exr"), PLAIN, "-o", in_folder("one")));
+    free(glint_ok("replay", in_folder("shot.0002.exr"), PLAIN, history));
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
         free(glint_ok("sample", others[i].scene, "--light=4", "-o", in_folder(others[i].name), others[i].size,
                       others[i].first, "--cube-size=8"));
@@ -426,7 +428,7 @@ static void history_must_be_of_the_frame_before(UNUSED void **state) {
         glint_fails(2, others[i].said, "probe", in_folder(others[i].name), "5,5", history);
     }
     free(history);
-    struct outcome outcome = glint("replay", in_folder("shot.0002.exr"), in_folder("shot.0001.exr"), NULL);
+    struct outcome outcome = glint("replay", in_folder("shot.0002.exr"), in_folder("shot.0001.exr"), PLAIN, NULL);
     assert_int_equal(outcome.status, 0);
     assert_contains(outcome.err, "frame 1 after frame 2: it begins without history");
     outcome_free(&outcome);

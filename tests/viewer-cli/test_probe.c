@@ -9,6 +9,7 @@
 
 #include "glint/exr.h"
 
+#define PLAIN "-p", GLINT_TEST_PRESET
 #define CAPTURE in_folder("street.exr")
 
 static void make_capture(void) {
@@ -52,7 +53,7 @@ static const json_t *last_step(const json_t *pass, const char *kind) {
 static void a_trace_agrees_with_the_run(UNUSED void **state) {
     size_t width = 0, height = 0, hits = 0, skies = 0;
     make_capture();
-    free(glint_ok("replay", CAPTURE, "-o", in_folder("run"), "--diagnostics"));
+    free(glint_ok("replay", CAPTURE, PLAIN, "-o", in_folder("run"), "--diagnostics"));
     char file[300];
     json_t *run = json_load_file(in_folder("run/run.json"), 0, NULL);
     const json_t *traced = named(json_object_get(run, "passes"), "slot", "screen_trace");
@@ -64,7 +65,7 @@ static void a_trace_agrees_with_the_run(UNUSED void **state) {
         for (unsigned x = 5; x < 96; x += 60) {
             char pixel[32];
             snprintf(pixel, sizeof pixel, "%u,%u", x, y);
-            char *text = glint_ok("probe", CAPTURE, pixel, "--json", "--alone");
+            char *text = glint_ok("probe", CAPTURE, pixel, PLAIN, "--json", "--alone");
             json_t *json = parse_json(text);
             const json_t *pass =
                 named(json_object_get(json_object_get(json, "pipeline"), "passes"), "slot", "screen_trace");
@@ -101,7 +102,7 @@ static char *read_text(const char *path) {
 /* A mark for each step with a position, a legend of decisions, and the hit of the reference. */
 static void a_drawing_has_every_step(UNUSED void **state) {
     make_capture();
-    char *text = glint_ok("probe", CAPTURE, "40,45", "--use=screen_trace=dda", "-o", in_folder("ray.svg"), "--json");
+    char *text = glint_ok("probe", CAPTURE, "40,45", PLAIN, "--use=screen_trace=dda", "-o", in_folder("ray.svg"), "--json");
     json_t *json = parse_json(text);
     size_t drawn = 0, i, p;
     const json_t *pass, *step;
@@ -152,7 +153,7 @@ static void mixtures_are_printed_and_drawn(UNUSED void **state) {
 
 static void the_text_tells_it_all(UNUSED void **state) {
     make_capture();
-    char *text = glint_ok("probe", CAPTURE, "40,45", "--set=screen_trace.length_m=0");
+    char *text = glint_ok("probe", CAPTURE, "40,45", PLAIN, "--set=screen_trace.length_m=0");
     assert_contains(text, "capture  G-buffer at the pixel");
     assert_contains(text, "normal_jittered");
     assert_contains(text, "cubemap_trace/march");
@@ -161,7 +162,7 @@ static void the_text_tells_it_all(UNUSED void **state) {
     assert_contains(text, "composed");
     assert_contains(text, "reference: screen_trace/dda, cubemap_trace/exact");
     free(text);
-    text = glint_ok("probe", CAPTURE, "48,1", "--alone");
+    text = glint_ok("probe", CAPTURE, "48,1", PLAIN, "--alone");
     assert_contains(text, "no ray: it is sky");
     free(text);
     free(glint_ok("sample", "matte", "--light=4", "-o", in_folder("matte.exr"), "--size=64x36", "--cube-size=8"));
@@ -181,7 +182,7 @@ static void what_is_asked_wrong_is_said(UNUSED void **state) {
     glint_fails(2, "pixel 5,-3: outside of the picture of 96 x 54 pixels", "probe", CAPTURE, "--alone", "5,-3");
     glint_fails(2, "expected a pixel X,Y", "probe", CAPTURE, "-5");
     glint_fails(2, "invalid option -- '5'", "probe", CAPTURE, "-j5,3");
-    glint_fails(1, "pixel 48,1 has no ray to draw", "probe", CAPTURE, "48,1", "-o", in_folder("none.svg"));
+    glint_fails(1, "pixel 48,1 has no ray to draw", "probe", CAPTURE, "48,1", PLAIN, "-o", in_folder("none.svg"));
     assert_false(file_exists(in_folder("none.svg")));
     glint_fails(1, "nowhere.exr", "probe", in_folder("nowhere.exr"), "1,1");
 }

@@ -9,6 +9,8 @@
 
 #include "glint/exr.h"
 
+#define PLAIN "-p", GLINT_TEST_PRESET
+
 static double largest_of(const char *file, const char *part, const char *channel) {
     struct glint_error err = {0};
     struct glint_exr *exr = glint_exr_open(file, NULL, &err);
@@ -31,7 +33,7 @@ static double largest_of(const char *file, const char *part, const char *channel
 static void layers_match_the_figures(UNUSED void **state) {
     free(glint_ok("sample", "room", "--light=4", "-o", in_folder("room.exr"), "--size=64x36", "--cube-size=16"));
     char *text =
-        glint_ok("stability", in_folder("room.exr"), "--seeds=2", "-o", in_folder("stable"), "--json", "--bound=5");
+        glint_ok("stability", in_folder("room.exr"), PLAIN, "--seeds=2", "-o", in_folder("stable"), "--json", "--bound=5");
     json_t *json = parse_json(text), *kept = json_load_file(in_folder("stable/stability.json"), 0, NULL);
     const json_t *images = json_object_get(json, "images"), *passes = json_object_get(json, "passes");
     assert_true(json_array_size(json_object_get(kept, "images")) == json_array_size(images));
@@ -68,12 +70,12 @@ static void layers_match_the_figures(UNUSED void **state) {
 }
 
 static void checks_end_with_their_status(UNUSED void **state) {
-    free(glint_ok("stability", in_folder("room.exr"), "--seeds=1", "--fail-above=1e30"));
-    struct outcome found = glint("stability", in_folder("room.exr"), "--seeds=1", "--fail-above=0.001", NULL);
+    free(glint_ok("stability", in_folder("room.exr"), PLAIN, "--seeds=1", "--fail-above=1e30"));
+    struct outcome found = glint("stability", in_folder("room.exr"), PLAIN, "--seeds=1", "--fail-above=0.001", NULL);
     assert_int_equal(found.status, 1);
     assert_contains(found.err, "downsample");
     outcome_free(&found);
-    free(glint_ok("stability", in_folder("room.exr"), "--seeds=1", "--fail-above=0.001", "--fail-percent=100"));
+    free(glint_ok("stability", in_folder("room.exr"), PLAIN, "--seeds=1", "--fail-above=0.001", "--fail-percent=100"));
     glint_fails(2, "found \"gbuffer:depht\"", "stability", in_folder("room.exr"), "--perturb=gbuffer:depht");
     glint_fails(2, "no capture given", "stability");
     glint_fails(2, "the same bound", "stability", in_folder("room.exr"), "--bound=3", "--fail-above=4");
@@ -82,7 +84,7 @@ static void checks_end_with_their_status(UNUSED void **state) {
 
 /* Perturbing albedo changes nothing, because rays do not depend on it. */
 static void what_is_not_read_moves_nothing(UNUSED void **state) {
-    char *text = glint_ok("stability", in_folder("room.exr"), "--seeds=2", "--perturb=gbuffer:albedo", "--json");
+    char *text = glint_ok("stability", in_folder("room.exr"), PLAIN, "--seeds=2", "--perturb=gbuffer:albedo", "--json");
     json_t *json = parse_json(text);
     const json_t *images = json_object_get(json, "images");
     const json_t *travelled = named(images, "name", "travelled"), *composed = named(images, "name", "composed");

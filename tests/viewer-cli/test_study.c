@@ -65,14 +65,15 @@ static bool newer(const char *path, const struct stat *before) {
     return now.st_mtim.tv_sec != before->st_mtim.tv_sec || now.st_mtim.tv_nsec != before->st_mtim.tv_nsec;
 }
 
-#define SHOT in_folder("s.0001.exr"), in_folder("s.0002.exr"), in_folder("s.0003.exr"), "-o", in_folder("shot")
+/* A preset that accumulates, in few passes. */
+#define FRAMES in_folder("s.0001.exr"), in_folder("s.0002.exr"), in_folder("s.0003.exr"), "-p", GLINT_TEST_PRESET, "--use=temporal=rough"
+#define SHOT FRAMES, "-o", in_folder("shot")
 
 static void an_interrupted_shot_is_completed(UNUSED void **state) {
     struct stat first, last;
     free(glint_ok("sample", "mirror_box", "-o", in_folder("s.exr"), "--size=32x18", "--cube-size=16", "--frames=3"));
     free(glint_ok("replay", SHOT));
-    free(glint_ok("replay", in_folder("s.0001.exr"), in_folder("s.0002.exr"), in_folder("s.0003.exr"), "-o",
-                  in_folder("whole")));
+    free(glint_ok("replay", FRAMES, "-o", in_folder("whole")));
     age(in_folder("shot/s.0001/run.json"), &first);
     /* as if interrupted within the second frame: its files exist, but not run.json */
     assert_int_equal(unlink(in_folder("shot/s.0002/run.json")), 0);
@@ -100,18 +101,18 @@ static void an_interrupted_shot_is_completed(UNUSED void **state) {
     assert_true(newer(in_folder("shot/s.0001/run.json"), &first));
     age(in_folder("shot/s.0001/run.json"), &first);
     /* other settings, another capture or a missing file: replayed again */
-    free(glint_ok("replay", SHOT, "--set=screen_trace.cells=9"));
+    free(glint_ok("replay", SHOT, "--set=screen_trace.steps=9"));
     assert_true(newer(in_folder("shot/s.0001/run.json"), &first));
     free(glint_ok("sample", "mirror_box", "-o", in_folder("s.0002.exr"), "--size=32x18", "--cube-size=16"));
     age(in_folder("shot/s.0001/run.json"), &first);
     age(in_folder("shot/s.0002/run.json"), &last);
-    free(glint_ok("replay", SHOT, "--set=screen_trace.cells=9"));
+    free(glint_ok("replay", SHOT, "--set=screen_trace.steps=9"));
     assert_false(newer(in_folder("shot/s.0001/run.json"), &first));
     assert_true(newer(in_folder("shot/s.0002/run.json"), &last));
     struct outcome removed = run_program("sh", "-c", "rm \"$0\"/*-compose.exr", in_folder("shot/s.0001"), NULL);
     assert_int_equal(removed.status, 0);
     outcome_free(&removed);
-    free(glint_ok("replay", SHOT, "--set=screen_trace.cells=9"));
+    free(glint_ok("replay", SHOT, "--set=screen_trace.steps=9"));
     assert_true(newer(in_folder("shot/s.0001/run.json"), &first));
 }
 

@@ -96,7 +96,7 @@ static bool read_cubes(struct lint_data *data, struct glint_capture *capture, st
 }
 
 uint32_t lint_lattice(const struct lint_data *data, uint32_t i) {
-    const double u = fmod(0.5 + i * 0.7548776662466927, 1), v = fmod(0.5 + i * 0.5698402909980532, 1);
+    const double a = 0.5 + i * 0.7548776662466927, b = 0.5 + i * 0.5698402909980532, u = a - floor(a), v = b - floor(b);
     const uint32_t x = 1 + (uint32_t)(u * (data->width - 2)), y = 1 + (uint32_t)(v * (data->height - 2));
     return y * data->width + x;
 }
