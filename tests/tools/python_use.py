@@ -253,7 +253,7 @@ class Tests:
         tap.programs.find("mypy")
         with open("wrong.py", "w", encoding="utf-8") as file:
             file.write("import glint\nreveal_type(glint.open('a')['gbuffer'].read())\nglint.Frame(3)\n")
-        done = subprocess.run(["mypy", "--config-file", os.path.join(PACKAGE, "mypy.ini"), os.path.join(PACKAGE, "glint"), os.path.join(PACKAGE, "hit_distances.py"),
+        done = subprocess.run(["mypy", "--cache-dir", os.path.join(BUILD, "mypy"), "--config-file", os.path.join(PACKAGE, "mypy.ini"), os.path.join(PACKAGE, "glint"), os.path.join(PACKAGE, "hit_distances.py"),
                                "wrong.py"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         found = done.stdout.splitlines()
         assert len(found) == 3 and found[0].startswith("wrong.py:2: note: Revealed type is \"numpy.ndarray[") and 'expected "Camera"' in found[1], done.stdout

@@ -15,7 +15,7 @@ STARTS = {"png": b"\x89PNG", "svg": b"<svg", "html": b"<!doctype html", "json": 
 # What each command writes: the kind, and its arguments before the name.
 WRITERS = [
     ("png", "view run -o"), ("png", "diff run other -o"), ("png", "diff run other --side-by-side"), ("png", "diff run other --flicker"),
-    ("html", "diff run other --html"), ("svg", "probe s.exr 20,20 -o"), ("html", "report run -o"),
+    ("html", "diff run other --html"), ("svg", "probe s.exr 20,20 -p kf2 --alone -o"), ("html", "report run -o"),
     ("exr", "set s.exr frame=7 -o"), ("exr", "crop s.exr 0,0,32,16 -o"), ("exr", "strip s.exr --drop truth -o"),
     ("exr", "export run -o"), ("exr", "pack extracted/manifest.json -o"), ("exr", "sample room --light 4 --size 32x18 --cube-size 8 -o"),
     ("json", "tune s.exr -p kf2 --vary screen_trace.cells --tries 2 --repeat 0 --rays 1 --budget-fetches 200% --folder tuned -o"),
