@@ -12,10 +12,10 @@ COUNT = "a count of fetches for diagnostics; no other bit depends on it"
 
 # (file, original line, mutated line): reason.
 HARMLESS = {
-    ("reflection/compose/brdf.comp", "float cosine = clamp(dot(to_viewer, normalize(surface.xyz)), 0.0, 1.0);",
+    ("picture/compose/brdf.comp", "float cosine = clamp(dot(to_viewer, normalize(surface.xyz)), 0.0, 1.0);",
      "float cosine = clamp(dot(to_viewer, normalize(surface.xyz)), 0.0, 2.0);"):
         "the dot product of two unit vectors exceeds 1 by rounding at most, and only the fifth power of 1 minus it is used",
-    ("reflection/compose/contribution.comp", "if (any(greaterThanEqual(pixel, imageSize(composed)))) return;", "if (false) return;"): OUTSIDE,
+    ("picture/compose/contribution.comp", "if (any(greaterThanEqual(pixel, imageSize(composed)))) return;", "if (false) return;"): OUTSIDE,
     ("reflection/cubemap_select/nearest.comp", "if (any(greaterThanEqual(pixel, imageSize(cubemap_best)))) return;", "if (false) return;"): OUTSIDE,
     ("reflection/resolve/hit.comp", "if (any(greaterThanEqual(pixel, imageSize(reflection_half)))) return;", "if (false) return;"): OUTSIDE,
     ("prepare/cubemap_mips/plain.comp", "int size = imageSize(cubemap_color_mips).x, level = int(dispatch_level);",
