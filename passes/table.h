@@ -15,6 +15,12 @@ const struct glint_effect *glint_effects(size_t *count) {
     return effect_table;
 }
 
+const struct glint_effect *glint_effects_by_default(size_t *count) {
+    const struct glint_effect *all = glint_effects(count);
+    while (*count && all[*count - 1].of_all) --*count;
+    return all;
+}
+
 const struct glint_effect *glint_effect_find(const char *name) {
     for (size_t i = 0; i < sizeof effect_table / sizeof effect_table[0]; i++)
         if (strcmp(effect_table[i].name, name) == 0) return &effect_table[i];

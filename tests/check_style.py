@@ -63,6 +63,13 @@ for f in files:
             named = re.match(r'\s*#\s*include\s*"([^"]*\.\./[^"]*)"', line)
             if named and os.path.normpath(os.path.join(os.path.dirname(f), named[1])).split("/")[:depth] != f.split("/")[:depth]:
                 faults.append(f"{f}:{n}: includes {named[1]}, which leaves its room; expected a header that the build lets it see")
+# What several effects use is in no folder of theirs.
+effects = {os.path.basename(os.path.dirname(f)) for f in files if re.fullmatch(r"passes/\w+/effect\.h", f)}
+for f in files:
+    if f.startswith("passes/") and f.endswith((".h", ".glsl", ".comp")):
+        with open(f, encoding="utf-8") as text:
+            faults += [f"{f}:{n}: includes {line.split()[1]} of another effect, expected a folder for all" for n, line in enumerate(text, 1)
+                       if (named := re.match(r'#include "(\w+)/', line)) and named[1] in effects - {f.split("/")[1]}]
 # Engines link libglint-capture on Windows, too.
 for f in files:
     if f.startswith("capture-format/") and not f.startswith("capture-format/system/") and f.endswith((".c", ".h", ".cc")):

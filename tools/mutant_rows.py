@@ -12,10 +12,10 @@ COUNT = "a count of fetches for diagnostics; no other bit depends on it"
 
 # (file, original line, mutated line): reason.
 HARMLESS = {
-    ("reflection/compose/brdf.comp", "float cosine = clamp(dot(to_viewer, normalize(surface.xyz)), 0.0, 1.0);",
+    ("picture/compose/brdf.comp", "float cosine = clamp(dot(to_viewer, normalize(surface.xyz)), 0.0, 1.0);",
      "float cosine = clamp(dot(to_viewer, normalize(surface.xyz)), 0.0, 2.0);"):
         "the dot product of two unit vectors exceeds 1 by rounding at most, and only the fifth power of 1 minus it is used",
-    ("reflection/compose/contribution.comp", "if (any(greaterThanEqual(pixel, imageSize(composed)))) return;", "if (false) return;"): OUTSIDE,
+    ("picture/compose/contribution.comp", "if (any(greaterThanEqual(pixel, imageSize(composed)))) return;", "if (false) return;"): OUTSIDE,
     ("reflection/cubemap_select/nearest.comp", "if (any(greaterThanEqual(pixel, imageSize(cubemap_best)))) return;", "if (false) return;"): OUTSIDE,
     ("reflection/resolve/hit.comp", "if (any(greaterThanEqual(pixel, imageSize(reflection_half)))) return;", "if (false) return;"): OUTSIDE,
     ("prepare/cubemap_mips/plain.comp", "int size = imageSize(cubemap_color_mips).x, level = int(dispatch_level);",
@@ -42,10 +42,10 @@ HARMLESS = {
     ("reflection/cubemap_trace/proxy.glsl", "return root < 0.0 ? -ALWAYS : along + vec2(-sqrt(root), sqrt(root));",
      "return root < 0.0 ? ALWAYS : along + vec2(-sqrt(root), sqrt(root));"):
         "a ray that never leaves the sphere is sampled by direction, as is one that never meets it",
-    ("reflection/screen_trace/linear.glsl", "return mix(s_front, s, clamp(gap_front / (gap_front - gap), 0.0, 1.0));",
+    ("screen_rays/linear.glsl", "return mix(s_front, s, clamp(gap_front / (gap_front - gap), 0.0, 1.0));",
      "return mix(s_front, s, clamp(gap_front / (gap_front - gap), 0.0, 2.0));"):
         "gap is negative here, so that the quotient is at most 1",
-    ("reflection/temporal/history.glsl", "return total > 1e-3 ? Past(past.color / total, past.age / total) : Past(vec4(0.0), 0.0);",
+    ("previous_frame/history.glsl", "return total > 1e-3 ? Past(past.color / total, past.age / total) : Past(vec4(0.0), 0.0);",
      "return total > 1e-3 ? Past(past.color / total, past.age / total) : Past(vec4(1.0), 0.0);"):
         "a history of age 0 has the weight 0, whatever its colour",
     ("reflection/transparency/trace.comp", "ivec2 texel = clamp(corner + ivec2(i & 1, i >> 1), ivec2(0), last);",
@@ -54,7 +54,7 @@ HARMLESS = {
         "image, have alpha 0, and do not enter the mean",
     ("shared/cube_chain.glsl", "if (level == 0 || reach == 0) return texelFetch(faces, at, level);", "if (false) return texelFetch(faces, at, level);"):
         "level 0 is never requested, and without neighbours the only tap is the texel itself",
-    ("reflection/screen_trace/hiz.glsl", "if (!pass_behind || highest * fma(thickness_m, farthest, 1.0 + thickness) >= 0.999999 * farthest) return false;",
+    ("screen_rays/hiz.glsl", "if (!pass_behind || highest * fma(thickness_m, farthest, 1.0 + thickness) >= 0.999999 * farthest) return false;",
      "if (!pass_behind || highest * fma(thickness_m, farthest, 2.0 + thickness) >= 0.999999 * farthest) return false;"):
         "more cells are tested than necessary: more steps with the same result",
     ("prepare/downsample/pick.comp", "float depth_m = texelFetch(depth_full, min(block + ivec2(i & 1, i >> 1), last), 0).x;",
@@ -62,8 +62,8 @@ HARMLESS = {
         "choose() ignores pixels outside of the picture, whatever was fetched there",
     ("reflection/resolve/blurred.comp", "precise vec2 place = uv + vec2(2 * ivec2(i % taps, i / taps) + 1 - taps) * apart;",
      "precise vec2 place = uv - vec2(2 * ivec2(i % taps, i / taps) + 1 - taps) * apart;"): "the taps are symmetric about the middle",
-    ("reflection/screen_trace/linear.glsl", "if (verify) result.fetches++;", "if (false) result.fetches++;"): COUNT,
-    ("reflection/screen_trace/hiz.glsl", "int coarsest_level() { return max(findMSB(min(frame.size.z, frame.size.w)) - 2, 0); }",
+    ("screen_rays/linear.glsl", "if (verify) result.fetches++;", "if (false) result.fetches++;"): COUNT,
+    ("screen_rays/hiz.glsl", "int coarsest_level() { return max(findMSB(min(frame.size.z, frame.size.w)) - 2, 0); }",
      "int coarsest_level() { return (findMSB(min(frame.size.z, frame.size.w)) - 2); }"):
         "a ray ascends only from a level below the coarsest: level 0 is below neither 0 nor less",
     ("reflection/upscale/best_match.comp", "texel = clamp(texel, ivec2(0), last);", "texel = (texel);"):

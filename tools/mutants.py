@@ -202,7 +202,8 @@ def slot_of(file):
 def likeliest(programs, file, report):
     """The programs that open the file: first those named after its slot, then by their chance to fail per second, as measured so far."""
     def is_own(program):
-        words = {"shared": "functions", "temporal": "time", "temporal_sharp": "time", "screen_trace": "geometry", "cubemap_trace": "geometry"}
+        words = {"shared": "functions", "temporal": "time", "temporal_sharp": "time", "previous_frame": "time", "screen_trace": "geometry",
+                 "screen_rays": "geometry", "cubemap_trace": "geometry"}
         slot = "shared" if file.startswith("shared/") else file.split("/")[-2]
         return slot in program.name or words.get(slot, slot) in program.name
 

@@ -2,6 +2,7 @@
 
 A row of a page is (name, words); a word is SLOT=VARIANT, none to leave the slot out, or SLOT.PARAMETER=VALUE. A page with
 times defines timed(): {scene: {key: preset}}; tools/times.py measures these presets on a device, and Times reads the record."""
+import argparse
 import json
 import os
 import pathlib
@@ -23,6 +24,25 @@ def run(*command):
     if done.returncode:
         sys.exit(f"{' '.join(map(str, command))}: {done.stderr.strip()}")
     return done.stdout
+
+
+def arguments(about, measure, page, size, cube, truth):
+    """The parser of a script that measures samples, with measure(args), and writes a page of that, with page(args); and its first command, for more options."""
+    parser = argparse.ArgumentParser(description=about, formatter_class=argparse.RawDescriptionHelpFormatter)
+    commands = parser.add_subparsers(required=True)
+    measuring, writing = commands.add_parser("measure"), commands.add_parser("page")
+    measuring.add_argument("glint")
+    measuring.add_argument("-o", "--output", required=True, type=pathlib.Path)
+    measuring.add_argument("--size", default=size)
+    measuring.add_argument("--cube", default=cube)
+    measuring.add_argument("--truth", default=truth)
+    measuring.add_argument("--work", help="folder for temporary files")
+    measuring.set_defaults(act=measure)
+    writing.add_argument("glint")
+    writing.add_argument("record", type=pathlib.Path)
+    writing.add_argument("-o", "--docs", default=HERE.parent / "docs", type=pathlib.Path)
+    writing.set_defaults(act=page)
+    return parser, measuring
 
 
 def sample(glint, scene, folder, size, cube, *options):

@@ -4,7 +4,6 @@ and over the range of its main parameter, all else as it is, and tuned with all 
 
 spent.py measure GLINT -o RECORD.json [--cost ms]    needs nothing but the program
 spent.py page GLINT RECORD.json [-o DOCS]            DOCS/spent.md and its charts"""
-import argparse
 import json
 import pathlib
 import tempfile
@@ -124,24 +123,11 @@ def page(args):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    commands = parser.add_subparsers(required=True)
-    measuring, writing = commands.add_parser("measure"), commands.add_parser("page")
-    measuring.add_argument("glint")
-    measuring.add_argument("-o", "--output", required=True, type=pathlib.Path)
+    parser, measuring = pages.arguments(__doc__, measure, page, "320x180", "64", "64")
     measuring.add_argument("--cost", choices=("ms", "fetches"), default="fetches")
-    measuring.add_argument("--size", default="320x180")
-    measuring.add_argument("--cube", default="64")
-    measuring.add_argument("--truth", default="64")
     measuring.add_argument("--budget", type=int, default=50)
     measuring.add_argument("--tries", type=int, default=40)
     measuring.add_argument("--rounds", type=int, default=5)
-    measuring.add_argument("--work", help="folder for temporary files")
-    measuring.set_defaults(act=measure)
-    writing.add_argument("glint")
-    writing.add_argument("record", type=pathlib.Path)
-    writing.add_argument("-o", "--docs", type=pathlib.Path, default=pages.HERE.parent / "docs")
-    writing.set_defaults(act=page)
     args = parser.parse_args()
     args.act(args)
 

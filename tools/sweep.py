@@ -6,7 +6,6 @@ sweep.py page GLINT RECORD.json [-o DOCS]                            DOCS/sweep.
 
 Several sets of rays are traced, each compared with a reference of the same rays, so that the noise of the rays cancels out. The spread of the
 sets is the noise of the errors."""
-import argparse
 import json
 import math
 import pathlib
@@ -224,27 +223,14 @@ def page(args):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    commands = parser.add_subparsers(required=True)
-    measuring, writing = commands.add_parser("measure"), commands.add_parser("page")
-    measuring.add_argument("glint")
-    measuring.add_argument("-o", "--output", required=True, type=pathlib.Path)
+    parser, measuring = pages.arguments(__doc__, measure, page, SIZE, CUBE, TRUTH)
     measuring.add_argument("--scenes", default=SCENES)
-    measuring.add_argument("--size", default=SIZE)
-    measuring.add_argument("--cube", default=CUBE)
-    measuring.add_argument("--truth", default=TRUTH)
     measuring.add_argument("--rays", type=int, default=RAYS)
     measuring.add_argument("--sets", type=int, default=SETS)
     measuring.add_argument("--other-sets", type=int, default=OTHER_SETS, help="of the curves that are not drawn")
     measuring.add_argument("--steps", default=STEPS)
-    measuring.add_argument("--work", help="folder for temporary files")
-    measuring.set_defaults(call=measure)
-    writing.add_argument("glint")
-    writing.add_argument("record", type=pathlib.Path)
-    writing.add_argument("-o", "--docs", default=pathlib.Path("docs"), type=pathlib.Path)
-    writing.set_defaults(call=page)
     args = parser.parse_args()
-    args.call(args)
+    args.act(args)
 
 
 main()

@@ -153,3 +153,12 @@ bool glint_pass_depends(const struct glint_pass *later, const struct glint_pass 
     }
     return false;
 }
+
+void glint_passes_mark_needed(bool *marked, size_t count, glint_depends depends, const void *user) {
+    for (bool more = true; more;) { /* repeated, since a pass may depend on a later one, through history */
+        more = false;
+        for (size_t i = 0; i < count; i++)
+            for (size_t j = 0; j < count && marked[i]; j++)
+                if (!marked[j] && depends(user, i, j)) marked[j] = more = true;
+    }
+}

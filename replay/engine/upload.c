@@ -148,25 +148,23 @@ static bool read_engine_level(struct run *run, size_t i, uint32_t l, void *data,
 }
 
 /* A level of the capture's probe is a part of its own. */
-static bool read_probe_level(struct run *run, size_t i, uint32_t l, void *data, struct glint_error *err) {
+static bool read_probe_level(struct run *run, uint32_t l, void *data, struct glint_error *err) {
     static const char *const names[] = {"R", "G", "B", NULL};
     const struct glint_part_info *levels[GLINT_MAX_LEVELS];
     double roughness[GLINT_MAX_LEVELS];
-    (void)i;
     glint_capture_probe(run->source->capture, 0, levels, roughness);
     return glint_capture_read(run->source->capture, levels[l], names, 4, GLINT_F32, data, 0, err);
 }
 
-static bool upload_levels(struct run *run, size_t i,
-                          bool (*read_level)(struct run *run, size_t i, uint32_t l, void *data,
-                                             struct glint_error *err),
-                          struct glint_error *err) {
+static bool upload_levels(struct run *run, size_t i, struct glint_error *err) {
+    const bool engine = run->graph->images[i].source == SOURCE_ENGINE;
     const struct image_desc *desc = &run->images[i]->image.desc;
     size_t values = 0;
     for (uint32_t l = 0; l < desc->levels; l++) values += image_values(desc, l);
     uint32_t *data = malloc(values * sizeof *data), *at = data;
     bool ok = data || glint_fail(err, GLINT_ERROR_MEMORY, "image %s: out of memory", run->images[i]->image.name);
-    for (uint32_t l = 0; ok && l < desc->levels; at += image_values(desc, l++)) ok = read_level(run, i, l, at, err);
+    for (uint32_t l = 0; ok && l < desc->levels; at += image_values(desc, l++))
+        ok = engine ? read_engine_level(run, i, l, at, err) : read_probe_level(run, l, at, err);
     ok = ok && upload_values(run, i, data, err);
     free(data);
     return ok;
@@ -176,7 +174,7 @@ static bool upload_input(struct run *run, size_t i, struct glint_error *err) {
     const struct graph_image *image = &run->graph->images[i];
     const struct glint_table *table = tables_find(run->plan->tables, image->name);
     if (image->source == SOURCE_RUN) return upload_values(run, i, run->stored[i], err);
-    if (image->source == SOURCE_ENGINE) return upload_levels(run, i, read_engine_level, err);
+    if (image->source == SOURCE_ENGINE) return upload_levels(run, i, err);
     if (image->source == SOURCE_MADE && table && table->width && table->height)
         return upload_values(run, i, table->texels.u, err);
     if (!device_begin(run->gpu, err)) return false;
@@ -203,7 +201,7 @@ static bool upload_captured(struct run *run, size_t i, struct glint_error *err) 
     const char *role = image->row->role;
     if (glint_format_is_uint(image->row->format)) return upload_ids(run, i, err);
     if (size_is_array(image->row->size)) return upload_cubemaps(run, role, err);
-    if (size_has_levels(image->row->size)) return upload_levels(run, i, read_probe_level, err);
+    if (size_has_levels(image->row->size)) return upload_levels(run, i, err);
     struct channels own = {0}, *channels = &own;
     const struct glint_part_info *part = glint_capture_find(source->capture, role);
     if (source->gbuffer.data && source->gbuffer.part == part) channels = &source->gbuffer;

@@ -205,6 +205,13 @@ static void add_without(struct graph_pass *pass, const struct glint_capture *cap
     }
 }
 
+static bool calls_for(const void *passes, size_t later, size_t earlier) {
+    const struct graph_pass *reader = (const struct graph_pass *)passes + later;
+    const struct graph_pass *maker = (const struct graph_pass *)passes + earlier;
+    return reader->runs &&
+           (glint_pass_depends(reader->pass, maker->pass) || pass_reads_history(reader->pass, maker->pass));
+}
+
 /* Drops passes that no requested image depends on. */
 static void cull_passes(struct graph *graph, const struct glint_replay_options *options, struct faults *faults) {
     if (!options->outputs) return;
@@ -230,14 +237,7 @@ static void cull_passes(struct graph *graph, const struct glint_replay_options *
                        *name, graph->passes[maker].pass->slot);
         else needed[maker] = true;
     }
-    for (bool more = true; more;) { /* repeated, since history leads back to passes that run later */
-        more = false;
-        for (size_t i = graph->pass_count; i-- > 0;)
-            for (size_t j = 0; j < graph->pass_count && !needed[i]; j++)
-                more |= needed[i] = needed[j] && graph->passes[j].runs &&
-                                    (glint_pass_depends(graph->passes[j].pass, graph->passes[i].pass) ||
-                                     pass_reads_history(graph->passes[j].pass, graph->passes[i].pass));
-    }
+    glint_passes_mark_needed(needed, graph->pass_count, calls_for, graph->passes);
     for (size_t i = graph->pass_count; i-- > 0;) {
         if (!needed[i]) graph->passes[i].alias = NULL;
         if (graph->passes[i].runs && !needed[i]) {

@@ -93,8 +93,10 @@ static void join_groups(struct glint_players *players, size_t a, size_t b) {
         if (players->slots[i].group == (from > to ? from : to)) players->slots[i].group = from > to ? to : from;
 }
 
-/* Whether the slot reads in any mode an image that `maker` makes in any mode. */
-static bool may_depend_on(const struct exchange *slot, const struct exchange *maker) {
+/* Whether a slot reads in any mode an image that another one makes in any mode. */
+static bool may_depend_on(const void *slots, size_t later, size_t earlier) {
+    const struct exchange *slot = (const struct exchange *)slots + later;
+    const struct exchange *maker = (const struct exchange *)slots + earlier;
     for (int mode = 0; mode < MODES; mode++)
         for (int other = 0; other < MODES; other++)
             if (slot->pass[mode] && maker->pass[other] && slot != maker &&
@@ -113,23 +115,17 @@ static bool makes_result(const struct exchange *slot, const struct glint_effect 
 }
 
 static void find_what_matters(struct glint_players *players) {
-    for (size_t i = 0; i < players->slot_count; i++)
-        players->slots[i].matters = makes_result(&players->slots[i], players->effect);
-    for (bool more = true; more;) {
-        more = false;
-        for (size_t i = 0; i < players->slot_count; i++)
-            for (size_t j = 0; j < players->slot_count && players->slots[i].matters; j++)
-                if (!players->slots[j].matters && may_depend_on(&players->slots[i], &players->slots[j]))
-                    players->slots[j].matters = more = true;
-    }
+    bool matters[SLOTS_MAX];
+    for (size_t i = 0; i < players->slot_count; i++) matters[i] = makes_result(&players->slots[i], players->effect);
+    glint_passes_mark_needed(matters, players->slot_count, may_depend_on, players->slots);
+    for (size_t i = 0; i < players->slot_count; i++) players->slots[i].matters = matters[i];
 }
 
 static void find_depths(struct glint_players *players) {
     for (size_t round = 0; round < players->slot_count; round++) /* as often as the longest possible chain requires */
         for (size_t i = 0; i < players->slot_count; i++)
             for (size_t j = 0; j < players->slot_count; j++)
-                if (may_depend_on(&players->slots[i], &players->slots[j]) &&
-                    players->slots[i].depth <= players->slots[j].depth)
+                if (may_depend_on(players->slots, i, j) && players->slots[i].depth <= players->slots[j].depth)
                     players->slots[i].depth = players->slots[j].depth + 1;
 }
 

@@ -5,6 +5,10 @@
 
 enum { PASSES_MAX = 64 };
 
+static bool depends(const void *pipeline, size_t later, size_t earlier) {
+    return glint_pass_depends(glint_pipeline_pass(pipeline, later), glint_pipeline_pass(pipeline, earlier));
+}
+
 /* Marks the passes on which the result depends; false if no pass makes it. */
 static bool mark(const struct glint_pipeline *pipeline, const struct glint_effect *effect, bool marked[PASSES_MAX]) {
     const size_t count = glint_pipeline_pass_count(pipeline);
@@ -12,14 +16,7 @@ static bool mark(const struct glint_pipeline *pipeline, const struct glint_effec
     if (!result || count > PASSES_MAX) return false;
     for (size_t i = 0; i < count; i++)
         marked[i] = glint_pass_output(glint_pipeline_pass(pipeline, i), result->name) != NULL;
-    for (bool more = true; more;) {
-        more = false;
-        for (size_t i = 0; i < count; i++)
-            for (size_t j = 0; j < count && marked[i]; j++)
-                if (!marked[j] &&
-                    glint_pass_depends(glint_pipeline_pass(pipeline, i), glint_pipeline_pass(pipeline, j)))
-                    marked[j] = more = true;
-    }
+    glint_passes_mark_needed(marked, count, depends, pipeline);
     return true;
 }
 

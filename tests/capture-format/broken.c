@@ -8,8 +8,14 @@
 #include "fixture.h"
 #include "unit.h"
 
+struct found {
+    size_t count;
+    char rules[32][32];
+    char messages[32][1024];
+};
+
 static void collect(void *user, const char *rule, const char *message) {
-    struct broken_found *found = user;
+    struct found *found = user;
     if (found->count < 32) {
         snprintf(found->rules[found->count], 32, "%s", rule);
         snprintf(found->messages[found->count], 1024, "%s", message);
@@ -17,7 +23,8 @@ static void collect(void *user, const char *rule, const char *message) {
     found->count++;
 }
 
-void broken_validate(const char *path, struct broken_found *found) {
+/* Fails the test when the file cannot be checked at all. */
+static void validate(const char *path, struct found *found) {
     struct glint_error err = {0};
     size_t count = 0;
     memset(found, 0, sizeof *found);
@@ -38,9 +45,9 @@ void broken_string(struct rewrite *r, const char *part, const char *name, const 
 }
 
 void broken_check_file(const struct broken_case *c, const char *path, size_t i) {
-    static struct broken_found found;
+    static struct found found;
     struct glint_error err = {0};
-    broken_validate(path, &found);
+    validate(path, &found);
     bool said = false;
     for (size_t f = 0; f < found.count && f < 32; f++)
         said |= !strcmp(found.rules[f], c->rule) && strstr(found.messages[f], c->words[0]) &&
@@ -52,6 +59,22 @@ void broken_check_file(const struct broken_case *c, const char *path, size_t i) 
     if (!!capture != c->opens) fail_msg("case %zu (%s): opens %d", i, c->words[0], capture != NULL);
     if (!capture && (!strstr(err.message, path) || !err.code)) fail_msg("case %zu: %s", i, err.message);
     glint_capture_close(&capture);
+}
+
+void broken_check_count(const char *path, void (*change)(struct rewrite *r), size_t count) {
+    static struct rewrite r;
+    static struct found found;
+    struct glint_error err = {0};
+    assert_true(fixture_write(&fixture, path, FIXTURE_PARTS, NULL, &err));
+    if (change) {
+        rewrite_load(&r, path);
+        change(&r);
+        rewrite_save(&r, path);
+        rewrite_finish(&r);
+    }
+    validate(path, &found);
+    if (found.count != count)
+        fail_msg("%zu reports, expected %zu; first %s: %s", found.count, count, found.rules[0], found.messages[0]);
 }
 
 void broken_check(const struct broken_case *cases, size_t count) {

@@ -4,14 +4,6 @@
 
 #include "rewrite.h"
 
-struct broken_found {
-    size_t count;
-    char rules[32][32];
-    char messages[32][1024];
-};
-/* Fails the test when the file cannot be checked at all. */
-void broken_validate(const char *path, struct broken_found *found);
-
 struct broken_case {
     const char *rule, *words[2]; /* words: in the message */
     void (*change)(struct rewrite *r);
@@ -19,6 +11,8 @@ struct broken_case {
 };
 /* Makes each change on the whole fixture by itself. */
 void broken_check(const struct broken_case *cases, size_t count);
+/* Stores the whole fixture with a change (NULL: none): validate reports so many violations. */
+void broken_check_count(const char *path, void (*change)(struct rewrite *r), size_t count);
 /* What validate and the reader say of one file. */
 void broken_check_file(const struct broken_case *c, const char *path, size_t i);
 

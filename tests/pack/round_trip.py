@@ -9,6 +9,7 @@ import tempfile
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "viewer-cli"))
 import tap  # noqa: E402
+from tap import glint  # noqa: E402
 import programs  # noqa: E402
 
 GLINT, SCHEMA = sys.argv[1:]
@@ -17,12 +18,6 @@ ENCODINGS = {"depth": ["view_linear", "device", "reversed", "reversed_infinite",
              "normal": ["signed", "unorm", "octahedral", "view_xy", "spheremap"], "normal_space": ["world", "view"],
              "roughness": ["perceptual", "alpha", "gloss", "power", "log2_power"], "motion": ["uv", "ndc", "pixels", "packed16"],
              "motion_depth": ["view_linear", "packed16"], "color": ["linear", "pre_exposed", "srgb"]}
-
-
-def glint(*words, status=0):
-    run = subprocess.run([GLINT, *words], capture_output=True, text=True)
-    assert run.returncode == status, (words, run.returncode, run.stdout[-2000:], run.stderr[-2000:])
-    return run.stdout + run.stderr
 
 
 def contents(path):
@@ -34,7 +29,7 @@ class Tests:
     def __init__(self, folder):
         self.folder = folder
         self.manifests = []
-        self.names = [line.split()[0] for line in glint("sample", "--list").split("\n")[1:] if line.strip()]
+        self.names = [line.split()[0] for line in glint("sample", "--list").stdout.split("\n")[1:] if line.strip()]
 
     def path(self, *names):
         return os.path.join(self.folder, *names)
@@ -71,7 +66,7 @@ class Tests:
               "shadow.000:shadowLight=0", "indirect:occluded=1", "-o", lamp)
         self.check_bytes(self.there_and_back(lamp))
         self.check_bytes(path)
-        said, known = glint("info", lamp), json.loads(glint("info", lamp, "--json"))
+        said, known = glint("info", lamp).stdout, json.loads(glint("info", lamp, "--json").stdout)
         assert "sun towards (" in said and "1 point and spot light" in said and "light 000" in said and "cells of light" in said, said
         parts = {part["name"]: part for part in known["parts"]}
         assert known["lights"][0]["axis"] == [0, -0.6, 0.8] and parts["truth.occlusion"]["radius"] == 0.75 and parts["truth.sun"]["length"] == 0.25
@@ -80,7 +75,7 @@ class Tests:
             out = self.path(f"light-{words[0]}-{kept}.exr")
             glint(*words, "-o", out)
             glint("validate", out)
-            left = {part["name"]: (part["width"], part["height"]) for part in json.loads(glint("info", out, "--json"))["parts"]}
+            left = {part["name"]: (part["width"], part["height"]) for part in json.loads(glint("info", out, "--json").stdout)["parts"]}
             size = (16, 8) if words[0] == "crop" else (40, 24)
             assert ("shadow.000" in left) == kept and left.get("shadow.000", (1024, 1024)) == (1024, 1024), left
             assert left["indirect"] == left["sun"] == size and left.get("volume.000", parts["volume.000"]) != size, left
@@ -162,15 +157,15 @@ class Tests:
         def pack(status=0, **changes):
             with open(file, "w", encoding="utf-8") as out:
                 json.dump(manifest | changes, out, indent=1)
-            return glint("pack", file, "-o", path, status=status, *["--overwrite"][:os.path.exists(path)])
+            return glint("pack", file, "-o", path, status=status, *["--overwrite"][:os.path.exists(path)]).stderr
         pack()
         self.manifests.append(file)
         glint("validate", path)
         self.check_bytes(path)
-        parts = {part["name"]: part for part in json.loads(glint("info", path, "--json"))["parts"]}
+        parts = {part["name"]: part for part in json.loads(glint("info", path, "--json").stdout)["parts"]}
         assert [parts[f"probe.000.level{i}" if i else "probe.000"]["probe"]["roughness"] for i in range(levels)] == [0, 0.25, 0.5, 0.75], parts
         assert parts["probe.000"]["probe"]["box_max"] == [1, 2, 3] and parts["probe.000"]["probe"]["ground_deg"] == 0 and parts["sky"]["ground_deg"] == -12.5
-        said = glint("info", path)
+        said = glint("info", path).stdout
         assert "probe.000.level3" in said and "in a box" in said and "below 0°" in said and "painted ground below -12.5°" in said, said
         listing = subprocess.run([programs.find("exrheader"), path], capture_output=True, text=True, check=True).stdout
         assert "glint.levelRoughness (type double): 0.75" in listing and "glint.ground (type double): 0" in listing, listing
@@ -183,14 +178,14 @@ class Tests:
         assert "parts.probe.000.probe: a box needs center, box_min and box_max, found no center" in pack(1, parts=manifest["parts"] | corner)
         edited = self.path("probe-edited.exr")
         glint("set", path, "sky:ground=-3", "probe.000.level3:levelRoughness=0.9", "-o", edited)
-        parts = {part["name"]: part for part in json.loads(glint("info", edited, "--json"))["parts"]}
+        parts = {part["name"]: part for part in json.loads(glint("info", edited, "--json").stdout)["parts"]}
         assert parts["sky"]["ground_deg"] == -3 and parts["probe.000.level3"]["probe"]["roughness"] == 0.9
         glint("set", path, "probe.000.level3:levelRoughness=0.4", "-o", self.path("refused.exr"), status=1)
         for command, kept in ((["crop", path, "4,4,16,8"], 4), (["strip", path, "--keep", "gbuffer,lit,probe"], 4), (["strip", path, "--keep", "gbuffer,lit"], 0)):
             out = self.path(f"probe-{command[0]}-{kept}.exr")
             glint(*command, "-o", out)
             glint("validate", out)
-            assert sum(part["name"].startswith("probe") for part in json.loads(glint("info", out, "--json"))["parts"]) == kept, command
+            assert sum(part["name"].startswith("probe") for part in json.loads(glint("info", out, "--json").stdout)["parts"]) == kept, command
 
     def test_what_glint_does_not_know(self):
         path = self.path("foreign.exr")
@@ -225,18 +220,18 @@ class Tests:
         folder = self.path("street-out")
         before = contents(os.path.join(folder, "lit.raw"))
         for name in ("lit.raw", "manifest.json"):
-            said = glint("pack", os.path.join(folder, "manifest.json"), "-o", os.path.join(folder, name), status=2)
+            said = glint("pack", os.path.join(folder, "manifest.json"), "-o", os.path.join(folder, name), status=2).stderr
             assert "expected FILE.exr" in said, said
             link = os.path.join(folder, f"{name}.exr")
             os.symlink(name, link)
-            said = glint("pack", os.path.join(folder, "manifest.json"), "-o", link, "--overwrite", status=2)
+            said = glint("pack", os.path.join(folder, "manifest.json"), "-o", link, "--overwrite", status=2).stderr
             assert "is an input" in said, said
         assert contents(os.path.join(folder, "lit.raw")) == before
         os.symlink(self.path("street.exr"), self.path("manifest.json"))
         kept = contents(self.path("street.exr"))
         os.makedirs(self.path("same"), exist_ok=True)
         os.link(self.path("street.exr"), self.path("same", "manifest.json"))
-        assert "the capture itself" in glint("extract", self.path("street.exr"), "-o", self.path("same"), status=2)
+        assert "the capture itself" in glint("extract", self.path("street.exr"), "-o", self.path("same"), status=2).stderr
         assert contents(self.path("street.exr")) == kept
 
     def test_stdout_and_explain(self):
@@ -245,7 +240,7 @@ class Tests:
         run = subprocess.run([GLINT, "pack", manifest, "-o", "-", "-j", "1"], capture_output=True, check=True)
         assert run.stdout == contents(self.path("street.exr"))
         before = sorted(os.listdir(folder))
-        said = glint("pack", manifest, "--explain")
+        said = glint("pack", manifest, "--explain").stdout
         assert sorted(os.listdir(folder)) == before
         for wanted in ("frame.handedness: not said; right", "parts.lit.R: lit.r, stored as half", "parts.gbuffer.encodings.depth: ",
                        "without a far plane, near at 0.1 units"):

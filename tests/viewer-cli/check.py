@@ -7,15 +7,9 @@ import tempfile
 import threading
 
 import tap
+from tap import PLAIN, glint
 
 GLINT = sys.argv[1]
-PLAIN = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "plain.json")
-
-
-def glint(*words, status=0):
-    run = subprocess.run([GLINT, *words], capture_output=True, text=True)
-    assert run.returncode == status, (words, run.returncode, run.stdout[-2000:], run.stderr)
-    return run.stdout + run.stderr
 
 
 def contents(folder):
@@ -46,12 +40,13 @@ class Tests:
 
     def test_the_same_run_passes_and_a_changed_one_names_its_first_pass(self):
         base = self.approved("base")
-        assert "PASS" in glint("check", self.replay("again"), "--baseline", base)
-        report = glint("check", self.other, "--baseline", base, status=2)
+        assert "PASS" in glint("check", self.replay("again"), "--baseline", base).stdout
+        report = glint("check", self.other, "--baseline", base, status=2).stdout
         assert "cubemap_trace.steps_hq" in report and "the first that differs is cubemap_trace: travelled" in report, report
-        found = json.loads(glint("check", self.other, "--baseline", base, "--json", status=2))
+        found = json.loads(glint("check", self.other, "--baseline", base, "--json", status=2).stdout)
         assert found["status"] == 2 and found["runs"][0]["first"]["slot"] == "cubemap_trace"
-        assert not glint("check", self.other, "--baseline", base, "-q", status=2)
+        quiet = glint("check", self.other, "--baseline", base, "-q", status=2)
+        assert not quiet.stdout and not quiet.stderr, quiet
         assert contents(base) == contents(self.one), "a check changes nothing"
 
     def test_limits_are_those_of_diff(self):
@@ -62,25 +57,25 @@ class Tests:
 
     def test_an_image_that_one_of_them_lacks_fails(self):
         base, fewer = self.approved("whole"), self.replay("fewer", "--outputs=travelled")
-        assert "the second does not contain this image" in glint("check", fewer, "--baseline", base, status=2)
+        assert "the second does not contain this image" in glint("check", fewer, "--baseline", base, status=2).stdout
         glint("check", fewer, "--baseline", self.path("small"), "--approve")
-        assert "the first does not contain this image" in glint("check", self.one, "--baseline", self.path("small"), status=2)
+        assert "the first does not contain this image" in glint("check", self.one, "--baseline", self.path("small"), status=2).stdout
 
     def test_no_baseline_fails_and_says_how_to_make_one(self):
-        assert "--approve" in glint("check", self.one, "--baseline", self.path("nothing"), status=2)
+        assert "--approve" in glint("check", self.one, "--baseline", self.path("nothing"), status=2).stderr
         assert not os.path.exists(self.path("nothing"))
         glint("check", self.path("nowhere"), "--baseline", self.path("nothing"), status=4)
         glint("check", self.one, status=5)
 
     def test_approving_says_what_changed_and_keeps_the_baseline_before(self):
         base, before = self.approved("to/be/approved"), contents(self.one)
-        report = glint("check", self.other, "--baseline", base + "/", "--approve")
-        found = json.loads(subprocess.run([GLINT, "diff", "--json", self.one, self.other], capture_output=True, text=True).stdout)
+        report = glint("check", self.other, "--baseline", base + "/", "--approve").stdout
+        found = json.loads(glint("diff", "--json", self.one, self.other, status=2).stdout)
         changed = sum(image["differing"] > 0 for image in found["images"])
         assert changed > 3 and f"{changed} images changed, 0 added, 0 removed" in report, report
         assert contents(base) == contents(self.other) and contents(base + "~") == before
         assert sorted(os.listdir(os.path.dirname(base))) == ["approved", "approved~"]
-        report = glint("check", self.replay("three", "--outputs=travelled"), "--baseline", base, "--approve")
+        report = glint("check", self.replay("three", "--outputs=travelled"), "--baseline", base, "--approve").stdout
         assert " removed" in report and ", 0 removed" not in report, report
         assert contents(base + "~") == contents(self.other)
 
@@ -89,10 +84,10 @@ class Tests:
         with open(os.path.join(base, "NOTES"), "w", encoding="utf-8") as file:
             file.write("keep me")
         before = contents(base)
-        assert "NOTES" in glint("check", self.other, "--baseline", base, "--approve", status=5)
+        assert "NOTES" in glint("check", self.other, "--baseline", base, "--approve", status=5).stderr
         assert contents(base) == before and not os.path.exists(base + "~")
         assert not [name for name in os.listdir(self.folder) if ".tmp-" in name]
-        assert "the same folder" in glint("check", self.one, "--baseline", self.one, "--approve", status=5)
+        assert "the same folder" in glint("check", self.one, "--baseline", self.one, "--approve", status=5).stderr
 
     def test_a_run_that_is_broken_is_not_approved(self):
         base, broken = self.approved("sound"), self.replay("broken")
@@ -134,11 +129,11 @@ class Tests:
         self.replay("runs/b", "--set=cubemap_trace.steps_hq=5")
         self.replay("runs/c")
         os.rename(self.path("runs/a"), self.path("elsewhere"))
-        found = json.loads(subprocess.run([GLINT, "check", self.path("runs"), "--baseline", base, "--json"], capture_output=True, text=True).stdout)
+        found = json.loads(glint("check", self.path("runs"), "--baseline", base, "--json", status=2).stdout)
         states = {os.path.basename(run["b"]): (run["status"], run.get("note", "")) for run in found["runs"]}
         assert found["status"] == 2 and states["b"][0] == 2 and "no run" in states["a"][1] and "no baseline" in states["c"][1], states
         glint("check", self.path("runs"), "--baseline", base, "--html", self.path("x.html"), status=5)
-        report = glint("check", self.path("runs"), "--baseline", base, "--approve")
+        report = glint("check", self.path("runs"), "--baseline", base, "--approve").stderr
         assert sorted(os.listdir(base)) == ["a", "b", "b~", "c"] and "no run of this name" in report, report
 
 

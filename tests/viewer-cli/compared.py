@@ -11,7 +11,6 @@ import tempfile
 import tap
 
 GLINT = sys.argv[1]
-PLAIN = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "plain.json")
 
 
 def run(words):
@@ -86,8 +85,8 @@ class Tests:
         os.chdir(folder)
         ok("sample room --light 4 --size 48x27 --cube-size 8 --truth 4 -o s.exr")
         ok("reference s.exr -o ref --rays 16")
-        ok(f"replay s.exr -p {PLAIN} -o run")
-        ok(f"replay s.exr -p {PLAIN} -o other --set screen_trace.steps=8")
+        ok(f"replay s.exr -p {tap.PLAIN} -o run")
+        ok(f"replay s.exr -p {tap.PLAIN} -o other --set screen_trace.steps=8")
 
     def test_the_true_picture_is_made_of_the_other_truths(self):
         """That of `scene`, which has the captured indirect light, with the traced light in its place."""
@@ -128,7 +127,7 @@ class Tests:
     def test_values_of_a_capture_are_decoded(self):
         for name, more in (("box", ""), ("encoded", "--depth reversed_infinite")):
             ok(f"sample mirror_box --size 48x27 --cube-size 8 {more} -o {name}.exr")
-        ok(f"replay box.exr -p {PLAIN} -o boxed --passes downsample")
+        ok(f"replay box.exr -p {tap.PLAIN} -o boxed --passes downsample")
         found = json.loads(ok("diff boxed:depth_half encoded.exr:gbuffer:depth --resample --json", 2))
         assert found["images"][0]["largest"]["channel"] == "Z" and found["images"][0]["width"] == 24, found
         assert found["images"][0]["rms"] < 2, found["images"][0]["rms"]  # metres, not a depth buffer's 0 to 1
@@ -190,7 +189,7 @@ class Tests:
         assert "LIP" not in one and "RMSE" in one, one
 
     def test_the_images_of_the_error_are_in_the_run(self):
-        figures = json.loads(ok(f"replay s.exr -p {PLAIN} -o judged --against both=ref --json"))["runs"][0]["against_truth"]["image"]["surfaces"][0]
+        figures = json.loads(ok(f"replay s.exr -p {tap.PLAIN} -o judged --against both=ref --json"))["runs"][0]["against_truth"]["image"]["surfaces"][0]
         error, flip = texels(*image("judged", "error"), 1), texels(*image("judged", "flip"), 1)
         ours, theirs = texels(*image("judged", "reflection"), 3), texels("s.exr", "truth.reflection.ggx", 3)
         lit = [i for i, (value,) in enumerate(error) if value > 0]
@@ -209,11 +208,11 @@ class Tests:
         assert ok("view judged -o default.png") == ok("view run -o plain.png")
         same = json.loads(ok("diff judged judged --json --verbose"))
         assert {"error", "flip"} <= {pair["name"] for pair in same["images"]}
-        ok(f"replay s.exr -p {PLAIN} -o judged --passes downsample")
+        ok(f"replay s.exr -p {tap.PLAIN} -o judged --passes downsample")
         assert not os.path.exists("judged/errors.exr") and "flip" not in ok("info judged")
 
     def test_a_sweep_of_one_parameter_has_its_knee(self):
-        out = ok(f"sweep s.exr -p {PLAIN} -o swept --reference truth --repeat 0 --no-pictures --vary screen_trace.steps=1,2,4,8,16,32,64,128")
+        out = ok(f"sweep s.exr -p {tap.PLAIN} -o swept --reference truth --repeat 0 --no-pictures --vary screen_trace.steps=1,2,4,8,16,32,64,128")
         points = json.load(open("swept/points.json", encoding="utf-8"))
         for name in ("parameter-error.svg", "parameter-fetches.svg"):
             with open(f"swept/{name}", encoding="utf-8") as file:

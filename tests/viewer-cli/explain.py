@@ -3,20 +3,13 @@ import json
 import os
 import re
 import shutil
-import subprocess
 import sys
 import tempfile
 
 import tap
+from tap import PLAIN, glint
 
-GLINT = os.path.abspath(sys.argv[1])
-PRESET = ("-p", os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "plain.json"), "--use=hiz=nearest", "--use=screen_trace=hiz")
-
-
-def glint(*words, status=0, folder=None):
-    run = subprocess.run([GLINT, *words], capture_output=True, text=True, cwd=folder)
-    assert run.returncode == status, (words, run.returncode, run.stdout[-2000:], run.stderr)
-    return run.stdout + run.stderr
+PRESET = ("-p", PLAIN, "--use=hiz=nearest", "--use=screen_trace=hiz")
 
 
 def symmetric(found, right):
@@ -32,7 +25,7 @@ class Tests:
         glint("sample", "room", "--light=4", "-o", self.capture, "--size=96x54", "--cube-size=32", "--truth=1")
         glint("replay", self.capture, *PRESET, "-o", self.path("right"), "--set", "downsample.jitter=false")
         glint("replay", self.capture, *PRESET, "-o", self.run, "--set", "downsample.jitter=false", "--set", "screen_trace.cells=4")
-        worst = json.loads(glint("diff", self.path("right"), self.run, "--json", status=2))
+        worst = json.loads(glint("diff", self.path("right"), self.run, "--json", status=2).stdout)
         image = next(i for i in worst["images"] if i["name"] == "reflection_half")
         self.pixel = "{},{}".format(2 * image["largest"]["x"], 2 * image["largest"]["y"])
 
@@ -42,7 +35,7 @@ class Tests:
         return os.path.join(self.folder, name)
 
     def explain(self, *words, run=None):
-        return json.loads(glint("explain", run or self.run, self.pixel, "--json", *words))
+        return json.loads(glint("explain", run or self.run, self.pixel, "--json", *words).stdout)
 
     def test_the_parameter_that_is_wrong_is_named(self):
         found = self.found
@@ -71,7 +64,7 @@ class Tests:
 
     def test_text_and_page(self):
         page = self.path("page.html")
-        text = glint("explain", self.run, self.pixel, "--tries=0", "-o", page)
+        text = glint("explain", self.run, self.pixel, "--tries=0", "-o", page).stdout
         assert text.startswith(f"Pixel {self.pixel} is a "), text
         with open(page, encoding="utf-8") as file:
             assert "<html" in file.read()
@@ -82,19 +75,19 @@ class Tests:
         os.mkdir(moved)
         shutil.copy(self.capture, os.path.join(moved, "room.exr"))
         glint("replay", "room.exr", *PRESET, "-o", "run", folder=moved)
-        assert json.loads(glint("explain", os.path.join(moved, "run"), "5,5", "--tries=0", "--json"))["sentences"]
+        assert json.loads(glint("explain", os.path.join(moved, "run"), "5,5", "--tries=0", "--json").stdout)["sentences"]
         glint("sample", "mirror_box", "-o", self.path("other.exr"), "--size=96x54", "--cube-size=16")
-        text = glint("explain", self.run, "5,5", "--capture", self.path("other.exr"), status=2)
+        text = glint("explain", self.run, "5,5", "--capture", self.path("other.exr"), status=2).stderr
         assert "not the capture that" in text and re.search("XXH3 [0-9a-f]{32}, expected [0-9a-f]{32}", text), text
 
     def test_other_effects_are_said_to_have_no_explanation(self):
-        said = glint("explain", self.run, self.pixel, "--effect", "occlusion", status=2)
+        said = glint("explain", self.run, self.pixel, "--effect", "occlusion", status=2).stderr
         assert "the occlusion cannot be explained" in said and "rays of the effect reflection alone" in said, said
 
     def test_errors_say_what_was_expected(self):
-        assert "is outside of" in glint("explain", self.run, "96,0", status=2)
-        assert "expected a pixel X,Y" in glint("explain", self.run, "96", status=2)
-        assert "no pixel of" in glint("explain", self.run, status=2)
+        assert "is outside of" in glint("explain", self.run, "96,0", status=2).stderr
+        assert "expected a pixel X,Y" in glint("explain", self.run, "96", status=2).stderr
+        assert "no pixel of" in glint("explain", self.run, status=2).stderr
         glint("explain", self.capture, "1,1", status=1)
 
 

@@ -7,9 +7,8 @@ import sys
 import tempfile
 
 import tap
-from tap import programs
+from tap import glint, programs
 
-GLINT = sys.argv[1]
 SIZE = (61, 34)  # halves are 31 x 17: not every texel covers the same number of pixels
 
 
@@ -25,18 +24,13 @@ def channels(file):
 class Tests:
     def __init__(self, folder):
         os.chdir(folder)
-        self.glint("sample", "room", "--light=4", "--size", "%dx%d" % SIZE, "--cube-size", "8", "-o", "s.exr")
-        self.glint("replay", "s.exr", "-o", "run", "--diagnostics")
-        self.said = self.glint("export", "run", "-o", "layers.exr", "--multilayer").stderr
-        self.glint("export", "run", "-o", "parts.exr")
+        glint("sample", "room", "--light=4", "--size", "%dx%d" % SIZE, "--cube-size", "8", "-o", "s.exr")
+        glint("replay", "s.exr", "-o", "run", "--diagnostics")
+        self.said = glint("export", "run", "-o", "layers.exr", "--multilayer").stderr
+        glint("export", "run", "-o", "parts.exr")
         with open("run/run.json", encoding="utf-8") as file:
             self.run = json.load(file)
         self.images = [image for ran in self.run["passes"] for image in ran["images"]]
-
-    def glint(self, *words, status=0):
-        done = subprocess.run([GLINT, *words], capture_output=True, text=True)
-        assert done.returncode == status, (words, done.returncode, done.stderr)
-        return done
 
     def pictures(self):
         sizes = (self.run["resolution"]["full"], self.run["resolution"]["half"])
@@ -99,7 +93,7 @@ class Tests:
         assert len(cameras[2]) == 2 * len(pictures) and set(cameras[2]) == set(cameras[0])
 
     def test_only_named_images(self):
-        self.glint("export", "run", "-o", "few.exr", "--multilayer", "--images", "travelled,hiz.level1")
+        glint("export", "run", "-o", "few.exr", "--multilayer", "--images", "travelled,hiz.level1")
         assert sorted(channels("few.exr")) == ["hiz.level1.far.V", "hiz.level1.near.V", "travelled.Z"], channels("few.exr")
 
     def test_bad_words_are_refused(self):
@@ -109,8 +103,8 @@ class Tests:
                 ("x.png: expected FILE.exr", "run", "-o", "x.png"),
                 ("no output given", "run"),
                 ("is a picture of what the camera sees", "run", "-o", "x.exr", "--multilayer", "--images", "cocoon")):
-            assert said in self.glint("export", *words, status=2).stderr, words
-        assert "expected a run, which is a folder" in self.glint("export", "s.exr", "-o", "x.exr", status=1).stderr
+            assert said in glint("export", *words, status=2).stderr, words
+        assert "expected a run, which is a folder" in glint("export", "s.exr", "-o", "x.exr", status=1).stderr
         assert not os.path.exists("x.exr")
 
     def test_a_run_without_the_camera_says_so(self):
@@ -118,7 +112,7 @@ class Tests:
             text = file.read()
         with open("run/run.json", "w", encoding="utf-8") as file:
             file.write(text.replace('"clip_y"', '"old"'))
-        said = self.glint("export", "run", "-o", "without.exr", "--multilayer").stderr
+        said = glint("export", "run", "-o", "without.exr", "--multilayer").stderr
         with open("run/run.json", "w", encoding="utf-8") as file:
             file.write(text)
         assert "does not have the whole camera" in said and "worldTo" not in oiiotool("--info", "-v", "without.exr"), said

@@ -2,24 +2,16 @@
 import json
 import os
 import re
-import subprocess
 import sys
 
 from browser import run_tests
+from tap import PLAIN, glint
 
-GLINT = sys.argv[1]
-PLAIN = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "plain.json")
 NAME = "<img src=x onerror=alert(1)>.exr"
 # A section's table as lists of texts, without intervals and units.
 TABLE = """(title => [...[...document.querySelectorAll('main > section')].find(s => s.querySelector('h2')?.textContent === title)
     .querySelectorAll('table')].map(t => [...t.rows].map(r => [...r.cells].filter(c => !c.classList.contains('interval'))
     .map(c => (c.querySelector('button') || c).textContent))))"""
-
-
-def glint(*arguments, status=0):
-    run = subprocess.run([GLINT, *arguments], capture_output=True, text=True)
-    assert run.returncode == status, (arguments, run.returncode, run.stderr)
-    return run.stderr
 
 
 class Tests:
@@ -187,7 +179,7 @@ class Tests:
         assert "Not all frames have a truth" in text and "s.0001.exr" in text, text[:600]
         assert len(self.table("Error and flicker", 0)) == 2
         self.browser.quiet()
-        assert "report it separately" in glint("report", self.path("a"), self.path("shot"), "-o", self.path("x.html"), status=2)
+        assert "report it separately" in glint("report", self.path("a"), self.path("shot"), "-o", self.path("x.html"), status=2).stderr
 
     def test_errors_are_those_of_the_comparison(self):
         with open(os.path.join(self.path("a"), "errors.json"), encoding="utf-8") as file:
@@ -309,13 +301,13 @@ class Tests:
         self.browser.quiet()
 
     def test_what_cannot_be_reported_is_named(self):
-        assert "nowhere" in glint("report", self.path("nowhere"), "-o", self.path("x.html"), status=1)
-        assert "x.txt" in glint("report", self.path("a"), "-o", self.path("x.txt"), status=2)
+        assert "nowhere" in glint("report", self.path("nowhere"), "-o", self.path("x.html"), status=1).stderr
+        assert "x.txt" in glint("report", self.path("a"), "-o", self.path("x.txt"), status=2).stderr
         os.makedirs(self.path("study"), exist_ok=True)
         with open(self.path("study/page.json"), "w", encoding="utf-8") as file:
             file.write('{"format": 2}')
-        assert "format" in glint("report", self.path("study"), "-o", self.path("x.html"), status=1)
-        assert "report it separately" in glint("report", self.path("a"), self.path("study"), "-o", self.path("x.html"), status=2)
+        assert "format" in glint("report", self.path("study"), "-o", self.path("x.html"), status=1).stderr
+        assert "report it separately" in glint("report", self.path("a"), self.path("study"), "-o", self.path("x.html"), status=2).stderr
         assert not os.path.exists(self.path("x.html"))
 
 

@@ -10,17 +10,11 @@ import zlib
 
 from browser import run_tests
 from pictures import read_png
+from tap import glint
 
-GLINT = sys.argv[1]
 SIZE = (48, 27)
 STAGE = "document.querySelector('.stage')"  # of the final image
 FRAME = STAGE + ".querySelector('.frame')"
-
-
-def glint(*words, status=0):
-    run = subprocess.run([GLINT, *words], capture_output=True, text=True)
-    assert run.returncode == status, (words, run.returncode, run.stdout[-2000:], run.stderr)
-    return run.stdout
 
 
 class Tests:
@@ -31,7 +25,7 @@ class Tests:
         glint("replay", capture, "-o", self.path("one"), "--diagnostics")
         glint("replay", capture, "-o", self.path("two"), "--diagnostics", "--set=cubemap_trace.steps_hq=3", "--set=resolve.fog=false")
         self.page = self.path("page.html")
-        self.report = json.loads(glint("diff", self.path("one"), self.path("two"), "--json", "--html", self.page, status=2))
+        self.report = json.loads(glint("diff", self.path("one"), self.path("two"), "--json", "--html", self.page, status=2).stdout)
         self.composed = next(i for i in self.report["images"] if i["name"] == "composed")
 
     def path(self, name):
@@ -170,7 +164,7 @@ class Tests:
         self.ask(f"{fold}.open = true")
         self.ask(f"new Promise(done => {{ const wait = () => {fold}.querySelector('table') ? done() : setTimeout(wait, 10); wait(); }})")
         rows = self.ask(f"[...{fold}.querySelectorAll('tbody tr')].map(r => [...r.cells].map(c => c.textContent.replace('\u2212', '-')))")
-        printed = [(run, c) for run in ("one", "two") for c in json.loads(glint("view", f"{self.path(run)}:composed", "--stats", "--json"))["channels"]]
+        printed = [(run, c) for run in ("one", "two") for c in json.loads(glint("view", f"{self.path(run)}:composed", "--stats", "--json").stdout)["channels"]]
         assert len(rows) == len(printed), rows
         for row, (run, channel) in zip(rows, printed):
             assert row[:2] == [run, channel["channel"]], row

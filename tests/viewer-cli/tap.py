@@ -2,11 +2,21 @@
 import fnmatch
 import os
 import resource
+import subprocess
 import sys
 import traceback
 
 sys.path.append(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 import programs  # noqa: E402
+
+PLAIN = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "plain.json")  # a preset of few passes
+
+
+def glint(*words, status=0, folder=None):
+    """Runs the program, the script's first argument, which has to end with this status: `stdout` and `stderr` of what returns have what it printed."""
+    run = subprocess.run([sys.argv[1], *words], capture_output=True, text=True, cwd=folder)
+    assert run.returncode == status, (words, run.returncode, run.stdout[-2000:], run.stderr[-2000:])
+    return run
 
 
 def explained(error):

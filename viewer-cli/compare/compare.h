@@ -8,8 +8,10 @@
 #include "io/progress.h"
 #include "draw/view/sheet.h"
 
+enum { LABEL_SIZE = 160 };
 struct contestant {
-    char label[160]; /* the preset's name, or its file's without folder and .json; "a = b" of several that are one */
+    /* The preset's name, or its file's without folder and .json; "a = b" of several that are one. */
+    char label[LABEL_SIZE];
     struct glint_pipeline *pipeline;
 };
 

@@ -128,12 +128,12 @@ static void print_ends(const struct contest_table *t) {
     const char *tracers[16];
     size_t presets = t->contest->count, count = list_tracers(t, tracers, sizeof tracers / sizeof *tracers);
     const char **titles = calloc(presets + 4, sizeof *titles);
-    char(*names)[161] = calloc(presets + 1, sizeof *names);
+    char(*names)[LABEL_SIZE + 1] = calloc(presets + 1, sizeof *names);
     if (count && titles && names) {
         static const char *const first[] = {"<capture", "<tracer", "<end reason"};
         memcpy(titles, first, sizeof first);
         for (size_t p = 0; p < presets; p++) {
-            snprintf(names[p], sizeof names[p], ">%.159s", t->contest->contestants[p].label);
+            snprintf(names[p], sizeof names[p], ">%s", t->contest->contestants[p].label);
             titles[3 + p] = names[p];
         }
         struct table *table = table_create(titles);

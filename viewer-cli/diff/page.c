@@ -269,11 +269,11 @@ static void add_place(const struct diff *diff, const char *name, size_t first[FI
 /* What one looks at first: the final image, and the results of effects that it is composed of. */
 static size_t find_first_images(const struct diff *diff, size_t first[FIRST_IMAGES]) {
     size_t count = 0, effects, last = find_final_image(diff);
-    const struct glint_effect *effect = glint_effects(&effects);
+    const struct glint_effect *effect = glint_effects_by_default(&effects);
     if (last < diff->count) first[count++] = last;
     for (size_t e = 0; diff->sides[0].run && e < effects; e++) {
         const struct glint_run_image *result = glint_study_run_result_image(diff->sides[0].run, &effect[e]);
-        if (result && !effect[e].of_all) add_place(diff, result->name, first, &count);
+        if (result) add_place(diff, result->name, first, &count);
     }
     for (size_t k = GLINT_EFFECT_RESULTS; k-- > 0 && count < 3;)
         if (effect->results[k]) return add_place(diff, effect->results[k], first, &count), count;

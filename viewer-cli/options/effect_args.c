@@ -49,7 +49,7 @@ size_t effects_find(const struct effect_search *search, const struct glint_effec
                     struct glint_error *err) {
     size_t all, made = 0, kept = 0;
     bool judged[EFFECTS_MAX];
-    const struct glint_effect *effects = glint_effects(&all);
+    const struct glint_effect *effects = glint_effects_by_default(&all);
     if (search->name) {
         if (!(found[0] = named(search->name, err))) return 0;
         return is_made(search, found[0]) ||
@@ -57,7 +57,7 @@ size_t effects_find(const struct effect_search *search, const struct glint_effec
                           found[0]->noun);
     }
     for (size_t e = 0; e < all && made < EFFECTS_MAX; e++)
-        if (!effects[e].of_all && is_made(search, &effects[e])) found[made++] = &effects[e];
+        if (is_made(search, &effects[e])) found[made++] = &effects[e];
     if (made == 0) found[made++] = effects;
     if (made == 1) return made;
     struct glint_pipeline *reference = search->reference ? glint_pipeline_create("reference", err) : NULL;
@@ -89,9 +89,9 @@ const struct glint_effect *effect_find(const struct command *command, const char
 
 const struct glint_effect *effect_of_run(const char *name, const struct glint_run *run, struct glint_error *err) {
     size_t count;
-    const struct glint_effect *effects = glint_effects(&count);
+    const struct glint_effect *effects = glint_effects_by_default(&count);
     if (name) return named(name, err);
     for (size_t e = 0; e < count; e++)
-        if (!effects[e].of_all && glint_study_run_result_image(run, &effects[e])) return &effects[e];
+        if (glint_study_run_result_image(run, &effects[e])) return &effects[e];
     return effects;
 }

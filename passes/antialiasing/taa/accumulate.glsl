@@ -1,5 +1,5 @@
 // The picture of this frame averaged with the history. Next include of a variant; it defines picture(pixel) before.
-#include "prepare/disocclusion/earlier.glsl"
+#include "previous_frame/earlier.glsl"
 #include "shared/stable.glsl"
 #include "luminance.glsl"
 #include "neighbourhood.glsl"

@@ -196,10 +196,12 @@ struct glint_effect {
         double most;                 /* the highest value of the class */
     } classes[GLINT_EFFECT_CLASSES]; /* name: NULL behind the last */
     const char *term;                /* how the composed picture changes by it */
-    bool of_all; /* the passes of all effects count as its own; it is judged only where it is asked for by name */
+    bool of_all;                     /* the passes of all effects count as its own */
 };
-/* All effects, by the place that each declares. */
+/* All effects, by the place that each declares, those made of all last. */
 const struct glint_effect *glint_effects(size_t *count);
+/* Of these the first, which are judged where none is asked for by name: all but those made of all. */
+const struct glint_effect *glint_effects_by_default(size_t *count);
 /* Whether passes of the pass's effect count as the effect's own. */
 static inline bool glint_effect_has(const struct glint_effect *effect, const struct glint_pass *pass) {
     return effect->of_all || strcmp(pass->effect, effect->name) == 0;

@@ -1,4 +1,4 @@
-// Writes the light of a pixel. Next include of a variant, after occlusion/ao_apply/corners.glsl, that defines
+// Writes the light of a pixel. Next include of a variant, after filtering/corners.glsl, that defines
 // float weight_of(ivec2 pixel, float depth_m, vec3 normal, ivec2 texel, float texel_m), of a texel for a pixel.
 #include "source.glsl"
 

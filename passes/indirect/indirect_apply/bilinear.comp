@@ -7,7 +7,7 @@
 #include "bilinear.pass.h"
 };
 #include "shared/camera.glsl"
-#include "occlusion/ao_apply/corners.glsl"
+#include "filtering/corners.glsl"
 
 float weight_of(ivec2 pixel, float depth_m, vec3 normal, ivec2 texel, float texel_m) { return 1.0; }
 #include "apply.glsl"

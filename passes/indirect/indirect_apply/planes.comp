@@ -7,8 +7,8 @@
 #include "planes.pass.h"
 };
 #include "shared/camera.glsl"
-#include "occlusion/ao_apply/corners.glsl"
-#include "occlusion/ao_apply/same_surface.glsl"
+#include "filtering/corners.glsl"
+#include "filtering/same_surface.glsl"
 
 float weight_of(ivec2 pixel, float depth_m, vec3 normal, ivec2 texel, float texel_m) {
     vec3 position = view_position((vec2(pixel) + 0.5) / vec2(frame.size.xy), depth_m, frame.view_from_uv, frame.depth_range.z);

@@ -18,7 +18,7 @@ float agreement(vec4 own, vec4 other) {
     vec3 apart = own.xyz - other.xyz;
     return 0.5 * dot(apart, apart) <= normal_part ? 1.0 : 0.0;
 }
-#include "reflection/blur/level_filter.glsl"
+#include "filtering/level_filter.glsl"
 
 vec4 blurred(ivec2 texel, int level) {
     bool rows = dispatch_phase == ALONG_ROWS;

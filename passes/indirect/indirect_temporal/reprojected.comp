@@ -11,7 +11,7 @@ const int reprojection = 0, reprojection_surface = 0, reprojection_reflection = 
 const float divergence = 1e6;
 #include "shared/surface_at.glsl"
 #include "shared/reuse.glsl"
-#include "reflection/temporal/history.glsl"
+#include "previous_frame/history.glsl"
 #include "indirect/indirect_apply/source.glsl"
 
 void main() {

@@ -6,8 +6,8 @@
 #include "shared/push_begin.glsl"
 #include "dda.pass.h"
 };
-#include "reflection/screen_trace/dda.glsl"
-#include "reflection/screen_trace/along.glsl"
+#include "screen_rays/dda.glsl"
+#include "screen_rays/along.glsl"
 
 Result trace_from(vec2 start, vec3 position, vec3 direction, ivec2 texel, uint number) {
     return trace_along(start, position, direction, texel);

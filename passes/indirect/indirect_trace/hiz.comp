@@ -6,10 +6,10 @@
 #include "shared/push_begin.glsl"
 #include "hiz.pass.h"
 };
-#include "reflection/screen_trace/hiz.glsl"
+#include "screen_rays/hiz.glsl"
 
 Result march(ScreenRay ray, ivec2 texel) { return march(ray, texel, cells); }
-#include "reflection/screen_trace/along.glsl"
+#include "screen_rays/along.glsl"
 
 Result trace_from(vec2 start, vec3 position, vec3 direction, ivec2 texel, uint number) {
     return trace_along(start, position, direction, texel);

@@ -1,8 +1,8 @@
 /* Rays through the pyramid of the nearest depth, as in the slot screen_trace. */
 PASS("Pyramid of the nearest depth", "glint; KF2 article, HZB Optimization")
 #include "slot.h"
-#include "reflection/screen_trace/cell_rows.h"
-#include "reflection/resolve/previous_rows.h"
+#include "screen_rays/cell_rows.h"
+#include "previous_frame/picture_rows.h"
 #line 402
 READ(texture2D, hiz)
 READ(texture2D, depth_slopes)

@@ -1,7 +1,7 @@
 // The light that arrives along a ray: from the picture where the ray ends on screen, or else from a volume of light or a cube map. Next include
-// of a pass with the rows of slot.h and previous_rows.h, after a screen tracer.
+// of a pass with the rows of slot.h and picture_rows.h, after a screen tracer.
 const bool filter_color = true;
-#include "reflection/resolve/previous_picture.glsl"
+#include "previous_frame/picture.glsl"
 #include "shared/active.glsl"
 #include "shared/cube_filter.glsl"
 #include "shared/cubemap.glsl"

@@ -6,7 +6,7 @@
 #include "shared/push_begin.glsl"
 #include "linear.pass.h"
 };
-#include "reflection/screen_trace/linear_along.glsl"
+#include "screen_rays/linear_along.glsl"
 #include "shared/random.glsl"
 
 Result trace_from(vec2 start, vec3 position, vec3 direction, ivec2 texel, uint number) {

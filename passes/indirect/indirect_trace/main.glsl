@@ -2,7 +2,7 @@
 // vec3 direction, ivec2 texel, uint number), a ray on screen; number: a different one for each ray and frame.
 #include "shared/blue_noise.glsl"
 #include "shared/hemisphere.glsl"
-#include "occlusion/ao_trace/receiver_normal.glsl"
+#include "screen_rays/receiver_normal.glsl"
 #include "shared/luminance.glsl"
 #include "shared/sampling.glsl"
 #include "light.glsl"

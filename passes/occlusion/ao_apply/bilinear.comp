@@ -8,4 +8,4 @@
 };
 #include "shared/camera.glsl"
 #include "apply.glsl"
-#include "bilinear.glsl"
+#include "filtering/bilinear.glsl"

@@ -8,4 +8,4 @@
 };
 #include "shared/camera.glsl"
 #include "apply.glsl"
-#include "planes.glsl"
+#include "filtering/planes.glsl"

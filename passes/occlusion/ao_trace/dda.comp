@@ -12,7 +12,7 @@
 #include "shared/sampling.glsl"
 
 float length_m; // of a ray: the receiver's radius
-#include "reflection/screen_trace/dda.glsl"
+#include "screen_rays/dda.glsl"
 
 Estimate estimate(ivec2 texel, Receiver r) {
     Estimate result = Estimate(1.0, INFINITE, 0u, 0u);

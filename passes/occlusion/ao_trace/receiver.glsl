@@ -1,6 +1,6 @@
 // The surface that occlusion is estimated for. Next include of a pass with the rows of slot.h.
 #include "shared/camera.glsl"
-#include "receiver_normal.glsl"
+#include "screen_rays/receiver_normal.glsl"
 
 struct Receiver {
     vec3 position, normal; // in view space

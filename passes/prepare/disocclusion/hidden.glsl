@@ -1,5 +1,5 @@
 // Which of a surface's history texels show another surface. Next include of a variant; it defines is_other(texel, pixel) before.
-#include "earlier.glsl"
+#include "previous_frame/earlier.glsl"
 
 // The capture's own depth of the previous frame is preferred to what this pipeline kept.
 float shown_depth(ivec2 texel) {

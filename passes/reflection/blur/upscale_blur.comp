@@ -31,7 +31,7 @@ vec4 across_texel(ivec2 texel, int level, float weight) {
 
 vec4 surface_of(ivec2 texel, int level) { return texelFetch(normal_levels, texel, level); }
 float agreement(vec4 own, vec4 other) { return lobe_agreement(own, other, roughness_part); }
-#include "level_filter.glsl"
+#include "filtering/level_filter.glsl"
 
 vec4 finest(ivec2 pixel) {
     vec4 color = texelFetch(reflection_half, pixel, 0);

@@ -1,6 +1,6 @@
 // Colour at the end of a screen ray, from the previous frame. Next include of a pass with the rows of before_rows.h.
 #include "color.glsl"
-#include "previous_picture.glsl"
+#include "previous_frame/picture.glsl"
 
 // The colour of a hit that was not visible in the previous frame, sampled from a cube map by its position.
 Found not_shown(Ray ray) {

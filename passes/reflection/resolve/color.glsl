@@ -5,7 +5,7 @@
 #include "shared/cone.glsl"
 #include "shared/cube_filter.glsl"
 #include "shared/fog.glsl"
-#include "joint.glsl"
+#include "filtering/joint.glsl"
 #include "shared/paraboloid.glsl"
 #include "shared/probe/record.glsl"
 

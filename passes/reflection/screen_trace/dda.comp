@@ -6,5 +6,5 @@
 #include "shared/push_begin.glsl"
 #include "dda.pass.h"
 };
-#include "dda.glsl"
+#include "screen_rays/dda.glsl"
 #include "trace.glsl"

@@ -1,7 +1,7 @@
 /* Visits every texel that a ray crosses, one after the other: nothing is skipped. */
 PASS("DDA over every texel", "KF2 article (mentioned only); McGuire and Mara 2014")
 #include "slot.h"
-#include "cell_rows.h"
+#include "screen_rays/cell_rows.h"
 #line 302
 SPEC(int,   cells,       4096,  1,   65536, "texels", "McGuire and Mara 2014", "max texels visited")
 REFERENCE

@@ -6,7 +6,7 @@
 #include "shared/push_begin.glsl"
 #include "hiz.pass.h"
 };
-#include "hiz.glsl"
+#include "screen_rays/hiz.glsl"
 
 Result march(ScreenRay ray, ivec2 texel) {
     int most = cells;

@@ -6,7 +6,7 @@
 #include "shared/push_begin.glsl"
 #include "linear.pass.h"
 };
-#include "linear_along.glsl"
+#include "screen_rays/linear_along.glsl"
 #include "shared/random.glsl"
 
 Result trace(ivec2 pixel, float depth_m, vec3 normal) {

@@ -6,5 +6,5 @@
 #include "shared/push_begin.glsl"
 #include "linear_binary.pass.h"
 };
-#include "linear_binary.glsl"
+#include "screen_rays/linear_binary.glsl"
 #include "trace.glsl"

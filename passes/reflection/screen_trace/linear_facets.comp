@@ -6,5 +6,5 @@
 #include "shared/push_begin.glsl"
 #include "linear_facets.pass.h"
 };
-#include "linear_facets.glsl"
+#include "screen_rays/linear_facets.glsl"
 #include "trace.glsl"

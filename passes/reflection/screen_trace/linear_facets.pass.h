@@ -2,7 +2,7 @@
    skipped the rays end as in dda. */
 PASS("Linear march over facets", "KF2 article, Linear ray march; hits are decided as in dda")
 #include "slot.h"
-#include "cell_rows.h"
+#include "screen_rays/cell_rows.h"
 #line 302
 SPEC(int,   steps,       32,    1,   4096, "samples", "KF2 article, Linear ray march", "samples along the ray; several in one texel count as one step")
 SPEC(int,   refinements, 4,     0,   32,    "halvings", "KF2 article, Binary Search", "bisections of a step in which the ray went behind a surface that it did not cross; 0: none")

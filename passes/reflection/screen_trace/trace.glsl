@@ -1,6 +1,6 @@
 // Traces the mirror ray of a texel. Next include of a variant that defines Result march(ScreenRay ray, ivec2 texel) and has the parameters
 // length_m, viewer_limit and sky.
-#include "along.glsl"
+#include "screen_rays/along.glsl"
 
 Result trace(ivec2 pixel, float depth_m, vec3 normal) {
     vec2 start = picked_position(pixel, texelFetch(pick, pixel, 0).x, frame.size);

@@ -8,7 +8,7 @@
 };
 #include "shared/luminance.glsl"
 #include "shared/neighbour.glsl"
-#include "history.glsl"
+#include "previous_frame/history.glsl"
 #include "shared/work_list.glsl"
 
 const ivec2 BESIDE[4] = ivec2[](ivec2(-1, 0), ivec2(1, 0), ivec2(0, -1), ivec2(0, 1));

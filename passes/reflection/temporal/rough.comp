@@ -8,7 +8,7 @@
 };
 #include "shared/neighbour.glsl"
 #include "shared/plus.glsl"
-#include "history.glsl"
+#include "previous_frame/history.glsl"
 #include "shared/work_list.glsl"
 
 vec4 current_color(ivec2 texel) {

@@ -1,5 +1,5 @@
 // Writes the sun's shadow of a pixel. Next include of a variant that defines float upscaled(ivec2 pixel, float depth_m, vec3 normal).
-#include "occlusion/ao_trace/receiver_normal.glsl"
+#include "screen_rays/receiver_normal.glsl"
 
 float half_visibility(ivec2 texel) { return texelFetch(contact_half, texel, 0).x; }
 

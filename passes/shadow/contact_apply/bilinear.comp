@@ -8,4 +8,4 @@
 };
 #include "shared/camera.glsl"
 #include "apply.glsl"
-#include "occlusion/ao_apply/bilinear.glsl"
+#include "filtering/bilinear.glsl"

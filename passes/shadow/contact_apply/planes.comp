@@ -8,4 +8,4 @@
 };
 #include "shared/camera.glsl"
 #include "apply.glsl"
-#include "occlusion/ao_apply/planes.glsl"
+#include "filtering/planes.glsl"

@@ -1,4 +1,4 @@
-/* The variants that walk through cells (reflection/screen_trace/cells.glsl). */
+/* The variants that walk through cells (screen_rays/cells.glsl). */
 #line 302
 READ(texture2D, inverse_half)
 SPEC(bool,  pass_behind, true, 0,   1,   "1", "glint", "rays continue behind objects; off: they end there")

@@ -6,7 +6,7 @@
 #include "shared/push_begin.glsl"
 #include "dda.pass.h"
 };
-#include "reflection/screen_trace/dda.glsl"
+#include "screen_rays/dda.glsl"
 #include "cell_hides.glsl"
 
 Result sun_ray(ScreenRay ray, ivec2 texel) { return march(ray, texel); }

@@ -6,7 +6,7 @@
 #include "shared/push_begin.glsl"
 #include "hiz.pass.h"
 };
-#include "reflection/screen_trace/hiz.glsl"
+#include "screen_rays/hiz.glsl"
 #include "cell_hides.glsl"
 
 Result sun_ray(ScreenRay ray, ivec2 texel) { return march(ray, texel, cells); }

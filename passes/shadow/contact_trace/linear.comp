@@ -6,7 +6,7 @@
 #include "shared/push_begin.glsl"
 #include "linear.pass.h"
 };
-#include "reflection/screen_trace/linear.glsl"
+#include "screen_rays/linear.glsl"
 #include "shared/random.glsl"
 
 Result sun_ray(ScreenRay ray, ivec2 texel) {

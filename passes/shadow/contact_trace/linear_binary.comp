@@ -6,7 +6,7 @@
 #include "shared/push_begin.glsl"
 #include "linear_binary.pass.h"
 };
-#include "reflection/screen_trace/linear_binary.glsl"
+#include "screen_rays/linear_binary.glsl"
 
 Result sun_ray(ScreenRay ray, ivec2 texel) { return march(ray, texel); }
 bool hides(Result traced) { return traced.end == END_hit; }

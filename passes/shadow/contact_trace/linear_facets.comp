@@ -6,7 +6,7 @@
 #include "shared/push_begin.glsl"
 #include "linear_facets.pass.h"
 };
-#include "reflection/screen_trace/linear_facets.glsl"
+#include "screen_rays/linear_facets.glsl"
 #include "cell_hides.glsl"
 
 Result sun_ray(ScreenRay ray, ivec2 texel) { return march(ray, texel); }

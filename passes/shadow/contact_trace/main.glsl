@@ -1,6 +1,6 @@
 // Traces the rays of every texel that may see the sun. Next include of a variant that defines Result sun_ray(ScreenRay ray, ivec2 texel) and
 // bool hides(Result traced): whether a ray that ended so does not reach the sun.
-#include "occlusion/ao_trace/receiver_normal.glsl"
+#include "screen_rays/receiver_normal.glsl"
 #include "shared/blue_noise.glsl"
 #include "shared/sun.glsl"
 
@@ -9,7 +9,7 @@ struct Estimate {
     uint end, steps, fetches;
 };
 
-// Whether the sun may light a pixel that the texel is interpolated for (ao_apply/corners.glsl).
+// Whether the sun may light a pixel that the texel is interpolated for (filtering/corners.glsl).
 bool may_be_lit(ivec2 texel) {
     if (!has_shadow_mask || !skip) return true;
     ivec2 last = ivec2(frame.size.xy) - 1;

@@ -27,6 +27,10 @@ const struct glint_pass *glint_pass_with_role(enum glint_pass_role role, const c
 size_t glint_row_reads(const struct glint_row *row, const char *names[2]);
 /* Whether pass `later` reads an image that pass `earlier` writes. */
 bool glint_pass_depends(const struct glint_pass *later, const struct glint_pass *earlier);
+/* Whether number `later` of a caller's passes depends on number `earlier` directly. */
+typedef bool (*glint_depends)(const void *user, size_t later, size_t earlier);
+/* Marks those of `count` passes that the marked ones depend on, directly or through others. */
+void glint_passes_mark_needed(bool *marked, size_t count, glint_depends depends, const void *user);
 /* True if any pass declares it. Otherwise each fails with a message that suggests the nearest known name, or lists all of them. */
 bool glint_slot_check(const char *slot, struct glint_error *err);
 bool glint_variant_check(const char *slot, const char *variant, struct glint_error *err);

@@ -1,4 +1,4 @@
-// Interpolates the four nearest texels. Next include of a pass that defines float half_visibility(ivec2 texel).
+// Interpolates the visibility of the four nearest texels. Next include of a pass that defines float half_visibility(ivec2 texel).
 #include "corners.glsl"
 
 float upscaled(ivec2 pixel, float depth_m, vec3 normal) {

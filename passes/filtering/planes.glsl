@@ -1,4 +1,4 @@
-// Interpolates those of the four nearest texels that lie in the pixel's plane and face its way. Next include of a pass with the parameters
+// Interpolates the visibility of those of the four nearest texels that lie in the pixel's plane and face its way. Next include of a pass with the parameters
 // depth_part and normal_part that defines float half_visibility(ivec2 texel).
 #include "same_surface.glsl"
 #include "corners.glsl"

@@ -1,6 +1,6 @@
-// A point of this frame in the previous frame's picture. Next include of a pass with the rows of previous_rows.h and the parameters joint and
+// A point of this frame in the previous frame's picture. Next include of a pass with the rows of picture_rows.h and the parameters joint and
 // filter_color.
-#include "joint.glsl"
+#include "filtering/joint.glsl"
 
 const uint SHOWN = 1u, OUTSIDE = 2u, HIDDEN = 3u;
 

@@ -1,4 +1,4 @@
-// The four texels around a pixel, with their bilinear shares; 0 for those without a surface. Next include of a pass with the rows of slot.h.
+// The four texels around a pixel, with their bilinear shares; 0 for those without a surface. Next include of a pass that reads depth_half.
 struct Corners {
     ivec2 first;
     vec4 share, depth_m; // by x + 2y
