@@ -6,6 +6,9 @@
 
 #include "unit.h"
 
+/* A preset of few passes: the linear march, the cube maps, one resolve. */
+#define PLAIN "-p", GLINT_TEST_PRESET
+
 struct outcome {
     int status; /* exit status, or 128 + the number of the signal */
     char *out, *err;

@@ -7,7 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define PLAIN "-p", GLINT_TEST_PRESET
 #define CAPTURE in_folder("box.exr")
 #define RAIN in_folder("rain.exr")
 
@@ -61,8 +60,8 @@ static void classes_part_the_pixels(UNUSED void **state) {
 }
 
 static void metrics_are_chosen(UNUSED void **state) {
-    char *text =
-        glint_ok("replay", CAPTURE, PLAIN, "--against=truth", "--json", "--metrics=psnr,hdr_flip", "--ppd=20", "--peak=2");
+    char *text = glint_ok("replay", CAPTURE, PLAIN, "--against=truth", "--json", "--metrics=psnr,hdr_flip", "--ppd=20",
+                          "--peak=2");
     json_t *json = parse_json(text);
     const json_t *image = image_of(json), *all = named(json_object_get(image, "surfaces"), "surfaces", "all");
     const json_t *exposures = json_object_get(image, "hdr_flip");

@@ -8,7 +8,7 @@
 #include <string.h>
 
 /* A small pipeline: the linear march, the cube maps, one resolve. The tests hold for any number of rays, so there are few. */
-#define SMALL "-p", GLINT_TEST_PRESET, "--rays=4", "--player-rays=2"
+#define SMALL PLAIN, "--rays=4", "--player-rays=2"
 
 static const json_t *errors_of(const json_t *sum, const char *answer, const char *class) {
     return json_object_get(json_object_get(json_object_get(sum, "errors"), answer), class);
@@ -37,8 +37,8 @@ static void assert_sums(const json_t *sum, size_t answers) {
 
 /* The errors of pipelines by `glint sweep`, which is independent of players. */
 static void sweep_upscale(double errors[2]) {
-    free(glint_ok("sweep", in_folder("room.exr"), "-o", in_folder("swept"), "-p", GLINT_TEST_PRESET, "--rays=4",
-                  "--repeat=0", "--no-pictures", "--set=resolve.fog=false", "--vary=upscale=best_match,bilinear"));
+    free(glint_ok("sweep", in_folder("room.exr"), "-o", in_folder("swept"), PLAIN, "--rays=4", "--repeat=0",
+                  "--no-pictures", "--set=resolve.fog=false", "--vary=upscale=best_match,bilinear"));
     json_t *json = load_json("swept/points.json");
     for (size_t i = 0; i < 2; i++) {
         const json_t *row =

@@ -10,7 +10,6 @@
 
 #include "glint/exr.h"
 
-#define PLAIN "-p", GLINT_TEST_PRESET
 enum { WIDTH = 40, HEIGHT = 30, PIXELS = WIDTH * HEIGHT };
 
 static void write_image(const char *name, const char *part, uint32_t width, size_t channels, const float *values) {
@@ -187,8 +186,10 @@ static void alpha_does_not_hide_colors(UNUSED void **state) {
 
 static void runs_name_what_differs_first(UNUSED void **state) {
     free(glint_ok("sample", "mirror_box", "-o", in_folder("box.exr"), "--size=48x27", "--cube-size=16"));
-    free(glint_ok("replay", in_folder("box.exr"), PLAIN, "--use=temporal=rough", "-o", in_folder("one"), "--diagnostics"));
-    free(glint_ok("replay", in_folder("box.exr"), PLAIN, "--use=temporal=rough", "-o", in_folder("same"), "--diagnostics"));
+    free(glint_ok("replay", in_folder("box.exr"), PLAIN, "--use=temporal=rough", "-o", in_folder("one"),
+                  "--diagnostics"));
+    free(glint_ok("replay", in_folder("box.exr"), PLAIN, "--use=temporal=rough", "-o", in_folder("same"),
+                  "--diagnostics"));
     free(glint_ok("replay", in_folder("box.exr"), PLAIN, "-o", in_folder("other"), "--diagnostics",
                   "--set=cubemap_trace.steps_hq=5"));
     json_t *json = diff_of(0, "one", "same");

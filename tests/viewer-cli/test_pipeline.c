@@ -12,7 +12,6 @@
 #include <time.h>
 #include <unistd.h>
 
-#define PLAIN "-p", GLINT_TEST_PRESET
 /* Those of the plain preset. */
 static const char *const slots[] = {"downsample",    "screen_trace", "cubemap_active", "cubemap_select",
                                     "cubemap_trace", "resolve",      "upscale",        "compose"};
@@ -141,8 +140,9 @@ static void replay_finds_cube_map_work_of_an_earlier_call(UNUSED void **state) {
     snprintf(option, sizeof option, "--cache=%s", in_folder("cache"));
     snprintf(again, sizeof again, "%s", in_folder("again"));
     for (int call = 0; call < 4; call++) {
-        char *text = glint_ok("replay", capture, PLAIN, "--use=cubemap_mips=prefilter", "-o", again, "--force=cubemap_mips", "--json",
-                              call == 2 ? "--cache=none" : option, call == 3 ? "--no-cache" : "--json");
+        char *text =
+            glint_ok("replay", capture, PLAIN, "--use=cubemap_mips=prefilter", "-o", again, "--force=cubemap_mips",
+                     "--json", call == 2 ? "--cache=none" : option, call == 3 ? "--no-cache" : "--json");
         json_t *json = parse_json(text);
         const json_t *passes = json_object_get(json_array_get(json_object_get(json, "runs"), 0), "passes");
         const json_t *mips = named(passes, "slot", "cubemap_mips");

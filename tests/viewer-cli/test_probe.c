@@ -9,7 +9,6 @@
 
 #include "glint/exr.h"
 
-#define PLAIN "-p", GLINT_TEST_PRESET
 #define CAPTURE in_folder("street.exr")
 
 static void make_capture(void) {
@@ -102,7 +101,8 @@ static char *read_text(const char *path) {
 /* A mark for each step with a position, a legend of decisions, and the hit of the reference. */
 static void a_drawing_has_every_step(UNUSED void **state) {
     make_capture();
-    char *text = glint_ok("probe", CAPTURE, "40,45", PLAIN, "--use=screen_trace=dda", "-o", in_folder("ray.svg"), "--json");
+    char *text =
+        glint_ok("probe", CAPTURE, "40,45", PLAIN, "--use=screen_trace=dda", "-o", in_folder("ray.svg"), "--json");
     json_t *json = parse_json(text);
     size_t drawn = 0, i, p;
     const json_t *pass, *step;

@@ -9,8 +9,6 @@
 
 #include "glint/exr.h"
 
-#define PLAIN "-p", GLINT_TEST_PRESET
-
 static double largest_of(const char *file, const char *part, const char *channel) {
     struct glint_error err = {0};
     struct glint_exr *exr = glint_exr_open(file, NULL, &err);
@@ -32,8 +30,8 @@ static double largest_of(const char *file, const char *part, const char *channel
 /* Catches: layers of one image under the name of another, a forecast that differs from the image's values. */
 static void layers_match_the_figures(UNUSED void **state) {
     free(glint_ok("sample", "room", "--light=4", "-o", in_folder("room.exr"), "--size=64x36", "--cube-size=16"));
-    char *text =
-        glint_ok("stability", in_folder("room.exr"), PLAIN, "--seeds=2", "-o", in_folder("stable"), "--json", "--bound=5");
+    char *text = glint_ok("stability", in_folder("room.exr"), PLAIN, "--seeds=2", "-o", in_folder("stable"), "--json",
+                          "--bound=5");
     json_t *json = parse_json(text), *kept = json_load_file(in_folder("stable/stability.json"), 0, NULL);
     const json_t *images = json_object_get(json, "images"), *passes = json_object_get(json, "passes");
     assert_true(json_array_size(json_object_get(kept, "images")) == json_array_size(images));

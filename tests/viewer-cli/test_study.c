@@ -66,7 +66,7 @@ static bool newer(const char *path, const struct stat *before) {
 }
 
 /* A preset that accumulates, in few passes. */
-#define FRAMES in_folder("s.0001.exr"), in_folder("s.0002.exr"), in_folder("s.0003.exr"), "-p", GLINT_TEST_PRESET, "--use=temporal=rough"
+#define FRAMES in_folder("s.0001.exr"), in_folder("s.0002.exr"), in_folder("s.0003.exr"), PLAIN, "--use=temporal=rough"
 #define SHOT FRAMES, "-o", in_folder("shot")
 
 static void an_interrupted_shot_is_completed(UNUSED void **state) {

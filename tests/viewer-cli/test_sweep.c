@@ -7,9 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A small pipeline: the linear march, the cube maps, one resolve. */
-#define PLAIN "-p", GLINT_TEST_PRESET
-
 static const json_t *point(const json_t *swept, size_t i) {
     return json_array_get(json_object_get(swept, "points"), i);
 }

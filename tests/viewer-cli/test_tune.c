@@ -7,7 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define PLAIN "-p", GLINT_TEST_PRESET
 #define AXES "--vary=screen_trace.steps=2..64", "--vary=cubemap_trace.steps_hq=4..64", "--vary=cubemap_trace.secant"
 
 static int make_captures(void **state) {
