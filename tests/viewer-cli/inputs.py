@@ -66,7 +66,7 @@ class Tests:
 
     def test_only_what_costs_something_is_warned_of(self):
         """A probe takes the place of a sky or of cube maps; a capture that has these lacks nothing without one."""
-        said = ok("replay s.exr").stderr
+        said = ok("replay s.exr -p kf2").stderr
         assert "probe" not in said and "fallback" not in said, said
         ok("strip s.exr --drop cubemap,sky -o bare.exr")
         said = ok("replay bare.exr").stderr

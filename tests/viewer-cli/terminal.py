@@ -13,7 +13,7 @@ import tap
 
 GLINT = os.path.abspath(sys.argv[1])
 ESCAPE = re.compile(r"\x1b\[[0-9;]*[A-Za-z]")
-VIEWS = ["plan s.exr", "info s.exr", "lint s.exr", "replay s.exr --against truth", "diff run other", "passes", "passes screen_trace", "devices",
+VIEWS = ["plan s.exr", "info s.exr", "lint s.exr", "replay s.exr -p kf2 --against truth", "diff run other", "passes", "passes screen_trace", "devices",
          "set --list", "sample --list", "help", "replay --help"]
 
 # Wrong words, and what is meant.
@@ -69,7 +69,7 @@ def words_of(text):
 class Tests:
     def __init__(self, folder):
         os.chdir(folder)
-        for words in ("sample room --size 48x27 --cube-size 8 --truth 1 -o s.exr", "replay s.exr -p kf2 -o run",
+        for words in ("sample room --light 4 --size 48x27 --cube-size 8 --truth 1 -o s.exr", "replay s.exr -p kf2 -o run",
                       "replay s.exr -p kf2 -o other --set screen_trace.cells=8"):
             assert piped(words).returncode == 0, words
 
@@ -106,7 +106,7 @@ class Tests:
             assert done.returncode != 0 and f"did you mean {meant}?" in done.stderr, (words, done.stderr)
 
     def test_options_that_are_right_are_not_taken_for_wrong(self):
-        for words in ("replay s.exr --rep 1", "diff run run -fail 1", "diff run run --metrics rmse", "probe s.exr -- 5,5", "plan s.exr --color=never"):
+        for words in ("replay s.exr -p kf2 --rep 1", "diff run run -fail 1", "diff run run --metrics rmse", "probe s.exr -p kf2 --alone -- 5,5", "plan s.exr --color=never"):
             assert piped(words).returncode == 0, (words, piped(words).stderr)
 
     def test_files_that_are_no_captures_are_named(self):
