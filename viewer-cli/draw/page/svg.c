@@ -20,13 +20,34 @@ static void evaluate_script(duk_context *js, const char *name, const unsigned ch
     duk_pop(js);
 }
 
+/* Bytecode fits only the version of Duktape that wrote it. */
+static bool fits_bytecode(duk_context *js) {
+    duk_get_global_string(js, "Duktape");
+    duk_get_prop_string(js, -1, "version");
+    const bool fits = duk_get_uint(js, -1) == DUK_VERSION;
+    duk_pop_2(js);
+    return fits;
+}
+
+static void load_echarts(duk_context *js) {
+    if (!fits_bytecode(js)) {
+        evaluate_script(js, "echarts.min.js", blob_echarts, blob_echarts_end);
+        return;
+    }
+    const size_t size = (size_t)(blob_echarts_code_end - blob_echarts_code);
+    memcpy(duk_push_fixed_buffer(js, size), blob_echarts_code, size);
+    duk_load_function(js);
+    duk_call(js, 0);
+    duk_pop(js);
+}
+
 /* ECharts requests timers while it loads, but needs none here. */
 static const char timers[] = "function setTimeout() { return 0; } function clearTimeout() {}";
 
 static duk_ret_t load_scripts(duk_context *js, void *user) {
     (void)user;
     duk_eval_string_noresult(js, timers);
-    evaluate_script(js, "echarts.min.js", blob_echarts, blob_echarts_end);
+    load_echarts(js);
     evaluate_script(js, "chart.js", blob_chart, blob_chart_end);
     return 0;
 }
