@@ -346,8 +346,12 @@ static void frames_take_other_directions(void **state) {
         plain.frame = 7 + f;
         indirect_load(gpu, &plain);
         for (int t = 0; t < 2; t++) {
-            const char *const words[] = {"downsample=mips", "surface_levels=picked", "indirect_apply=bilinear",
-                                         tracers[t][0],     tracers[t][1],           NULL};
+            const char *const words[] = {"downsample=none",
+                                         "indirect_trace.level=0",
+                                         "indirect_apply=bilinear",
+                                         tracers[t][0],
+                                         tracers[t][1],
+                                         NULL};
             indirect_arrange(gpu, words);
             gpu_run(gpu);
             found[f][t] = gpu_floats(gpu, "indirect", NULL, NULL);
