@@ -135,10 +135,6 @@ MISSING = {
      "if (has_composed_transparent) return texelFetch(composed_transparent, pixel, 0).rgb;",
      "if (false) return texelFetch(composed_transparent, pixel, 0).rgb;"):
         "antialiasing of a picture with transparent surfaces",
-    ("antialiasing/taa/neighbourhood.glsl",
-     "return space == space_rgb ? c : vec3(dot(c, vec3(0.25, 0.5, 0.25)), dot(c, vec3(0.5, 0.0, -0.5)), dot(c, vec3(-0.25, 0.5, -0.25)));",
-     "return  vec3(dot(c, vec3(0.25, 0.5, 0.25)), dot(c, vec3(0.5, 0.0, -0.5)), dot(c, vec3(-0.25, 0.5, -0.25)));"):
-        "coloured neighbours, clamped in RGB",
     ("antialiasing/taa/scene.comp",
      "vec3 picture(ivec2 pixel) { return texelFetch(scene, min(pixel, textureSize(scene, 0) - 1), 0).rgb; }",
      "vec3 picture(ivec2 pixel) { return texelFetch(scene, (pixel), 0).rgb; }"):
