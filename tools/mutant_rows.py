@@ -9,6 +9,8 @@ ARGUED_S = 60
 
 OUTSIDE = "invocations outside of the picture have no effect: stores outside of an image are discarded, and no workgroup waits for them"
 COUNT = "a count of fetches for diagnostics; no other bit depends on it"
+ANOTHER_NUMBER = "another one of four random numbers of the same distribution, used for nothing else"
+LENGTH = "only the length of the normal is used, which does not depend on the order"
 
 # (file, original line, mutated line): reason.
 HARMLESS = {
@@ -31,7 +33,7 @@ HARMLESS = {
         "two lines below, every value that is not below `coarse` becomes the border of the face",
     ("reflection/cubemap_trace/march.glsl", "float part = random_scale ? random4(pixel, random_frame(), RANDOM_STEP_SCALE).x : 0.5;",
      "float part = random_scale ? random4(pixel, random_frame(), RANDOM_STEP_SCALE).y : 0.5;"):
-        "another one of four random numbers of the same distribution, used for nothing else",
+        ANOTHER_NUMBER,
     ("reflection/cubemap_trace/march.glsl", "if (skip_volume && fact_volumes) now.t = skipped(now.t, step_m, result.place, origin, direction);",
      "if (skip_volume ) now.t = skipped(now.t, step_m, result.place, origin, direction);"):
         "an empty table of volumes is read and gives the same result: the fact saves the reads",
@@ -72,7 +74,7 @@ HARMLESS = {
     ("reflection/temporal_sharp/clamped.comp",
      "bool steadied = tile_works && roughness <= sharp_roughness && reflects(depth_m, surface.xyz) && is_shown(pixel);",
      "bool steadied = tile_works && roughness <= sharp_roughness && reflects(depth_m, surface.zyx) && is_shown(pixel);"):
-        "only the length of the normal is used, which does not depend on the order",
+        LENGTH,
     ("reflection/temporal_sharp/clamped.comp", "if (count == 0.0) return past;", "if (false) return past;"):
         "the bounds are then NaN, 0/0, and min and max return the operand that is a number (on this device; GLSL leaves it undefined, hence the guard)",
     ("shared/facet.glsl", "float fall(float depth_m, float other_m) { return depth_m == other_m ? 0.0 : 1.0 - depth_m / other_m; }",
@@ -91,7 +93,126 @@ HARMLESS = {
     ("reflection/transparent_resolve/main.glsl", "vec4 color = tile_works && reflects(depth_m, normal) ? resolved(texel, depth_m, normal) : vec4(0.0);",
      "vec4 color = tile_works  ? resolved(texel, depth_m, normal) : vec4(0.0);"):
         "texels without a surface have a travelled distance of 0 and no source, so that they are black, too: the guard saves work",
+    ("indirect/indirect_apply/bilinear.comp",
+     "float weight_of(ivec2 pixel, float depth_m, vec3 normal, ivec2 texel, float texel_m) { return 1.0; }",
+     "float weight_of(ivec2 pixel, float depth_m, vec3 normal, ivec2 texel, float texel_m) { return 2.0; }"):
+        "the sum is divided by the sum of the weights",
+    ("indirect/indirect_temporal/reprojected.comp",
+     "if (reflects(center.depth_m, center.normal.xyz)) color = joined(past_of(texel, center, 0.0), color, age);",
+     "if (reflects(center.depth_m, center.normal.zyx)) color = joined(past_of(texel, center, 0.0), color, age);"): LENGTH,
+    ("indirect/indirect_trace/light.glsl", "fetches += joint ? 5u : 1u;", "fetches +=  1u;"): COUNT,
+    ("indirect/indirect_trace/linear.comp", "float shift = dither ? random4(uvec2(start), number, RANDOM_SCREEN_START).x : 0.0;",
+     "float shift = dither ? random4(uvec2(start), number, RANDOM_SCREEN_START).y : 0.0;"): ANOTHER_NUMBER,
+    ("indirect/volume_make/gather.comp", "if (any(greaterThanEqual(at, size))) return;", "if (false) return;"): OUTSIDE,
+    ("occlusion/ao_apply/apply.glsl", "if (any(greaterThanEqual(pixel, imageSize(occlusion)))) return;", "if (false) return;"): OUTSIDE,
+    ("occlusion/ao_bounds/boxes.comp", "ivec2 end = min(first + 1 + ivec2(equal(cell, size - 1)), last);",
+     "ivec2 end = min(first + 2 + ivec2(equal(cell, size - 1)), last);"):
+        "boxes that hold neighbours as well: fewer tiles are skipped, and those that are skipped would have been visible",
+    ("occlusion/ao_trace/dda.comp", "precise vec3 direction = normalize(local.x * tangent + local.y * bitangent + local.z * r.normal);",
+     "precise vec3 direction = normalize(local.x * tangent - local.y * bitangent + local.z * r.normal);"):
+        "the directions of the hemisphere are as frequent on one side of the tangent as on the other",
+    ("occlusion/ao_trace/horizon.comp", "float one = reduction(frame.size) / max(max(abs(side.across.x), abs(side.across.y)), 1e-20);",
+     "float one = reduction(frame.size) / max(max(abs(side.across.x), abs(side.across.y)), 0.0);"):
+        "a slice's direction is perpendicular to the view vector, so that it always moves across the picture",
+    ("prepare/cocoon/max.comp", "int cocoon_level() { return int(ceil(log2(max(float(face_size(faces, 0)) / float(size), 1.0)) - 1e-4)); }",
+     "int cocoon_level() { return int(ceil(log2(max(float(face_size(faces, 0)) / float(size), 1.0)) - 0.0)); }"):
+        "on this device the logarithm of a power of two is exact; on others it may be off, hence the margin",
+    ("prepare/cubemap_mips/prefilter.comp", "int size = imageSize(cubemap_color_mips).x, level = int(dispatch_level);",
+     "int size = imageSize(cubemap_color_mips).y, level = int(dispatch_level);"): "faces are square",
+    ("prepare/downsample/bilinear.comp", "ivec2 source = min(2 * pixel + ivec2(i & 1, i >> 1), last);", "ivec2 source = (2 * pixel + ivec2(i & 1, i >> 1));"):
+        "pixels beyond the border repeat those at it with the same proportions; without the clamp they have no depth and do not enter the mean",
+    ("reflection/cubemap_select/score.comp", "sum += direction * (0.5 + 0.5 * dot(offset, ray) / max(distance_m, 1e-6));",
+     "sum += direction * (1.0 + 0.5 * dot(offset, ray) / max(distance_m, 1e-6));"):
+        "every cube map's score grows by the same, so that the best remains the best",
+    ("reflection/screen_trace/linear_facets.glsl", "fetches += 2u;", "fetches -= 2u;"): COUNT,
+    ("shadow/contact_trace/linear.comp", "return march(ray, grid, dither ? random4(uvec2(texel), random_frame(), RANDOM_CONTACT).x : 0.0);",
+     "return march(ray, grid, dither ? random4(uvec2(texel), random_frame(), RANDOM_CONTACT).y : 0.0);"): ANOTHER_NUMBER,
 }
 
 # {(file, line, line): missing case}: neither harmless nor noticed yet. A new one fails the test.
-MISSING = {}
+MISSING = {
+    ("antialiasing/taa/composed.comp",
+     "if (has_composed_transparent) return texelFetch(composed_transparent, pixel, 0).rgb;",
+     "if (false) return texelFetch(composed_transparent, pixel, 0).rgb;"):
+        "antialiasing of a picture with transparent surfaces",
+    ("antialiasing/taa/scene.comp",
+     "vec3 picture(ivec2 pixel) { return texelFetch(scene, min(pixel, textureSize(scene, 0) - 1), 0).rgb; }",
+     "vec3 picture(ivec2 pixel) { return texelFetch(scene, (pixel), 0).rgb; }"):
+        "a picture of a capture without `scene`",
+    ("indirect/indirect_blur/edges.comp",
+     "sum += texelFetch(levels, at, level + 1);",
+     "sum += texelFetch(levels, at, level - 1);"):
+        "a bar that no texel of the coarser level shows",
+    ("indirect/indirect_trace/light.glsl",
+     "at = from + max(sqrt(max(inside2, 0.0)) - along, 0.0) * direction;",
+     "at = from + (sqrt(max(inside2, 0.0)) - along) * direction;"):
+        "a ray that begins outside the sphere about the cube map and points away from it",
+    ("indirect/volume_make/gather.comp",
+     "if (frame.counts.w > 0u && color.a < 1.0)",
+     "if (frame.counts.w > 0u && color.a > 1.0)"):
+        "a volume made of cube maps that show the sky",
+    ("occlusion/ao_apply/same_surface.glsl",
+     "return depth_part >= 10.0 || in_plane(way, mat3(frame.view_from_world) * normal, depth_m, depth_part);",
+     "return depth_part >= 20.0 || in_plane(way, mat3(frame.view_from_world) * normal, depth_m, depth_part);"):
+        "depth_part=10, which is no test",
+    ("occlusion/ao_trace/bounds.glsl",
+     "return !(up.x + up.y + up.z - t.lowest + rounding <= lift * t.least_m);",
+     "return !(up.x + up.y - up.z - t.lowest + rounding <= lift * t.least_m);"):
+        "tiles that are skipped, of planes in every direction",
+    ("occlusion/ao_trace/horizon.comp",
+     "side.end = min(at_most > 0.0 ? most / at_most : LARGEST, min(leaves(r.start.x, side.across.x, float(frame.size.x)),",
+     "side.end = min(at_most > 0.0 ? most / at_most : LARGEST, min(leaves(r.start.x, side.across.y, float(frame.size.x)),"):
+        "slices that leave the picture at one side",
+    ("occlusion/ao_trace/receiver_normal.glsl",
+     "vec3 vertex = texelFetch(vertex_normal_full, min(ivec2(start), size - 1), 0).xyz;",
+     "vec3 vertex = texelFetch(vertex_normal_full, min(ivec2(start), size ), 0).xyz;"):
+        "vertex normals in a picture of odd size",
+    ("picture/compose/brdf.comp",
+     "float rise = fact_fresnel ? texelFetch(fresnel_full, min(pixel, textureSize(fresnel_full, 0) - 1), 0).x : 1.0;",
+     "float rise = fact_fresnel ? texelFetch(fresnel_full, (pixel), 0).x : 1.0;"):
+        "Fresnel factors of a picture of odd size",
+    ("picture/compose/contribution.comp",
+     "return environment_reflectance(f0, surface.w > 0.0 ? min(surface.w, 1.0) : 0.0, cosine, rise); // NaN becomes 0",
+     "return environment_reflectance(f0, surface.w > 0.0 ? (surface.w) : 0.0, cosine, rise); // NaN becomes 0"):
+        "a roughness above 1 with the variant contribution",
+    ("prepare/downsample/mips.comp",
+     "vec3 vertex = has_vertex ? texelFetch(vertex_normal_full, source, 0).xyz : surface.xyz;",
+     "vec3 vertex = has_vertex ? texelFetch(vertex_normal_full, source, 0).zyx : surface.xyz;"):
+        "vertex normals that are not the shading ones, in three resolutions",
+    ("prepare/downsample/mips.comp",
+     "vec4(used && reflects(1.0, vertex) ? normalize(vertex) : vec3(0.0), (chosen & 1u) + 8u * (chosen >> 1u)));",
+     "vec4( vec3(0.0), (chosen & 1u) + 8u * (chosen >> 1u)));"):
+        "vertex normals that are not the shading ones, in three resolutions",
+    ("prepare/surface_levels/picked.comp",
+     "ivec2 within = width_of(0) == 1 || picked > 3u ? ivec2(0) : ivec2(picked & 1u, picked >> 1u);",
+     "ivec2 within = width_of(1) == 1 || picked > 3u ? ivec2(0) : ivec2(picked & 1u, picked >> 1u);"):
+        "the finest level at full resolution, where a texel has no other pixel",
+    ("reflection/blur/level_filter.glsl",
+     "float weight = ((i & 1) == 0 ? 3.0 : 1.0) * (i < 2 ? 3.0 : 1.0) * agreement(own, other);",
+     "float weight = ((i & 1) == 0 ? 3.0 : 1.0) * (i > 2 ? 3.0 : 1.0) * agreement(own, other);"):
+        "the weights of the surrounding texels on a thin bar",
+    ("reflection/blur/mips.comp",
+     "level = clamp(level, 0.0, float(textureQueryLevels(chain) - 1));",
+     "level = clamp(level, 0.0, float(textureQueryLevels(chain) + 1));"):
+        "recorded taps of a cone as wide as the coarsest level",
+    ("reflection/blur/upscale_blur.comp",
+     "vec4 open = open_in_block(edges_in_block(min(block, max(last - 1, ivec2(0))), finer), picked_from(texel, level));",
+     "vec4 open = open_in_block(edges_in_block(min(block, (last - 1)), finer), picked_from(texel, level));"):
+        "a picture whose coarser level is one texel wide",
+    ("reflection/cubemap_trace/box.comp",
+     "if (planes == 0 && head.y > 0.0) {",
+     "if (planes == 0 ) {"):
+        "a cube map without a volume beside one with a volume",
+    ("reflection/cubemap_trace/proxy.glsl",
+     "return root < 0.0 ? -ALWAYS : along + vec2(-sqrt(root), sqrt(root));",
+     "return root < 0.0 ? -ALWAYS : along + vec2(sqrt(root), sqrt(root));"):
+        "a recorded interval of a ray within a sphere",
+    ("reflection/resolve/before.glsl",
+     "if (source == SHOWN) found = found_color(record_picture(image, place.xy, 0.0, picture_before(place)));",
+     "if (source == SHOWN) found = found_color(record_picture(image, place.yx, 0.0, picture_before(place)));"):
+        "a recorded colour of the previous picture",
+    ("reflection/resolve/blurred.comp",
+     "ivec2 at = min(ivec2(uv * vec2(frame.size.xy)), ivec2(frame.size.xy) - 1);",
+     "ivec2 at = min(ivec2(uv * vec2(frame.size.xy)), ivec2(frame.size.yx) - 1);"):
+        "hits in the right part of a wide picture, judged by their back faces",
+}

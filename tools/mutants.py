@@ -51,8 +51,8 @@ class Program:
         program.failing = self.failing
         return program
 
-    def run(self, passes, limit_s):
-        """A list of failed cases, the number of cases, and seconds of processor time."""
+    def run(self, passes, limit_s, to_end=False):
+        """A list of failed cases (the first, unless to_end), the number of cases, and seconds of processor time."""
         with tempfile.TemporaryDirectory(prefix="gm") as folder:
             environment = {**os.environ, **ENVIRONMENT, "GLINT_PASSES": str(passes), "TMPDIR": folder}
             limits = ["prlimit", f"--cpu={math.ceil(limit_s)}", "stdbuf", "-oL"]
@@ -60,8 +60,8 @@ class Program:
                                        env=environment, start_new_session=True, errors="replace")
             late = threading.Timer(HANGS * limit_s, self.stop, [process])  # a device that hangs uses no processor time
             late.start()
-            failed, cases = (self.read_json if self.selftest else self.read_tap)(process)
-            if failed:
+            failed, cases = (self.read_json if self.selftest else self.read_tap)(process, to_end)
+            if failed and not to_end:
                 self.stop(process)
             _, status, used = os.wait4(process.pid, 0)
             process.returncode = os.waitstatus_to_exitcode(status)
@@ -70,7 +70,7 @@ class Program:
             process.stdout.close()
         if over or process.returncode == -signal.SIGXCPU:
             failed = [f"no end in {limit_s:.0f} s"]
-        elif not failed and process.returncode not in ((0, 1) if self.selftest else (0,)):
+        elif not failed and process.returncode not in (range(2 if self.selftest else len(self.failing) + 1)):
             failed = [f"exit status {process.returncode}"]
         return failed, cases, used.ru_utime + used.ru_stime
 
@@ -82,18 +82,18 @@ class Program:
         except ProcessLookupError:
             pass
 
-    @staticmethod
-    def read_tap(process):
-        cases, planned = 0, None
+    def read_tap(self, process, to_end):
+        failed, cases, planned = [], 0, None
         for line in process.stdout:
             if line.startswith("not ok"):
-                return [re.sub(r"^not ok \d+ - ", "", line).strip().replace("_", " ")], cases
-            if re.match(r"ok \d+", line) and "# SKIP" not in line:
-                cases += 1
+                failed.append(re.sub(r"^not ok \d+ - ", "", line).strip().replace("_", " "))
+                if failed[-1] not in self.failing and not to_end:
+                    return failed[-1:], cases
+            cases += bool(re.match(r"(not )?ok \d+", line)) and "# SKIP" not in line
             planned = int(line[3:]) if re.fullmatch(r"1\.\.\d+\n", line) else planned
-        return ([] if cases == planned else [f"{cases} of {planned} cases"]), cases
+        return [f for f in failed if f not in self.failing] or ([] if cases == planned else [f"{cases} of {planned} cases"]), cases
 
-    def read_json(self, process):
+    def read_json(self, process, _):
         text = process.stdout.read()
         cases = json.loads(text)["cases"] if text.startswith("{") else []
         return ([c["name"] for c in cases if not c["pass"] and c["name"] not in self.failing] if cases else ["no answer"]), len(cases)
@@ -133,7 +133,7 @@ def control_of(program):
         shutil.copytree(ROOT / "passes", passes)
         for path in passes.rglob("*.*"):
             os.utime(path, (1, time.time()))
-        failed, cases, seconds = program.run(passes, 600)
+        failed, cases, seconds = program.run(passes, 600, to_end=True)
         files = opened(passes)
     return {"seconds": round(seconds, 2), "cases": cases, "failing": failed or ([] if cases else ["no cases"]),
             "files": sorted(f for f in files if f.endswith((".glsl", ".comp")))}
@@ -183,7 +183,7 @@ def try_host(row, folder, build):
     """Host code is linked into its test again."""
     program = f"{folder}/{HOST_TEST}"
     archives = sorted(str(p) for p in (build / "passes").glob("*.a")) + sorted(str(p) for p in (build / "capture-format").glob("*.so"))
-    subprocess.run(["cc", "-std=c11", "-D_POSIX_C_SOURCE=200809L", "-D_DEFAULT_SOURCE", "-g", "-I", ROOT / "passes/include", "-I", build / "passes/include", "-I",
+    subprocess.run(["cc", "-std=c11", "-D_POSIX_C_SOURCE=200809L", "-D_DEFAULT_SOURCE", "-g", "-I", ROOT / "passes/include", "-I", build / "passes/include", "-I", ROOT / "tests", "-I",
                     ROOT / "capture-format/include", "-o", program, ROOT / f"tests/passes/{HOST_TEST}.c", write_mutant(row, folder), *archives,
                     f"-Wl,-rpath,{build / 'capture-format'}", "-lcmocka", "-lm"], check=True)
     return Program(HOST_TEST, [program]).run(folder, AT_LEAST_S)
@@ -312,8 +312,7 @@ def run(build, path, jobs):
     build, path = pathlib.Path(build).resolve(), pathlib.Path(path)
     programs = list(programs_of(build))
     record = begun(build, path, programs, jobs)
-    # Failures with unchanged sources on this device are ignored: cases of the self-test, and whole test programs.
-    programs = [p for p in programs if p.selftest or not record["control"][p.name]["failing"]]
+    # Cases that fail with unchanged sources on this device are ignored.
     for program in programs:
         program.failing = record["control"][program.name]["failing"]
     for m in record["mutants"]:

@@ -71,7 +71,8 @@ def parted(before, after):
 
 
 def of_record(record):
-    mutants = record["mutants"]
+    mutants = [m for m in record["mutants"] if "verdict" in m]
+    untried, later = len(record["mutants"]) - len(mutants), [m for m in mutants if "on" in m]
     survivors = [m for m in mutants if m.get("verdict") != "killed"]
     late = sum(m.get("failed", [""])[0].startswith("no end") for m in mutants)
     rejected = ", ".join(f"{n} {what}" for what, n in sorted(record["rejected"].items()))
@@ -83,6 +84,8 @@ def of_record(record):
              f"{late} were noticed because they took {mutant_rows.SLOWER} times as long as unchanged sources and at least half a minute. In total "
              f"{sum(m.get('seconds', 0) for m in mutants) / 60:.0f} minutes of processor time, after {sum(c['seconds'] for c in record['control'].values()) / 60:.0f} "
              f"for unchanged sources; sources {record['sources']}.\n",
+             *([f"{untried} more were made and are **not tried** yet.\n"] if untried else []),
+             *([f"{len(later)} of those noticed were tried after this run, on {later[0]['on']}, with the cases written since.\n"] if later else []),
              table(["slot", "mutants", "noticed", "noticed, %"], grouped(mutants, lambda m: {p.split("/")[-2] for p in m["passes"]} if not m["file"].startswith("shared/")
                                                               else {"shared"})),
              table(["what was changed", "mutants", "noticed", "noticed, %"], grouped(mutants, lambda m: [m["operator"]])),

@@ -18,7 +18,7 @@ static void sphere(uint32_t number, UNUSED const double d[3], float out[5]) {
 }
 
 struct weights {
-    double visibility, distance, direction, fade, ahead;
+    double visibility, distance, direction, fade, ahead, length;
 };
 
 static double score(const struct weights *w, uint32_t map, const double at[3], const double ray[3]) {
@@ -38,24 +38,30 @@ static void check_selection(struct gpu *gpu, const struct weights *w, const char
     char setting[64];
     gpu_reset(gpu);
     gpu_use(gpu, "cubemap_select=score");
-    gpu_set(gpu, "screen_trace.length_m=0");
     gpu_set(gpu, "downsample.jitter=false");
-    const double values[] = {w->visibility, w->distance, w->direction, w->fade, w->ahead};
-    static const char *const names[] = {"visibility", "distance", "direction", "fade", "ahead_m"};
-    for (int k = 0; k < 5; ++k) {
-        snprintf(setting, sizeof setting, "cubemap_select.%s=%g", names[k], values[k]);
+    const double values[] = {w->visibility, w->distance, w->direction, w->fade, w->ahead, w->length};
+    static const char *const names[] = {"cubemap_select.visibility", "cubemap_select.distance",
+                                        "cubemap_select.direction",  "cubemap_select.fade",
+                                        "cubemap_select.ahead_m",    "screen_trace.length_m"};
+    for (int k = 0; k < 6; ++k) {
+        snprintf(setting, sizeof setting, "%s=%g", names[k], values[k]);
         gpu_set(gpu, setting);
     }
     gpu_run(gpu);
     uint32_t width, height, *best = gpu_uints(gpu, "cubemap_best", &width, &height);
+    float *travelled = gpu_floats(gpu, "screen_travelled", NULL, NULL);
+    double farthest = 0;
     uint32_t *pick = gpu_uints(gpu, "pick", NULL, NULL), *index = gpu_uints(gpu, "active_index", NULL, NULL);
     size_t checked = 0, taken[MAPS] = {0};
     for (uint32_t i = 0; i < width * height; ++i) {
-        /* A wall at z = -5 m, seen from the origin with a field of view of 60° and 64 × 36 pixels; the mirror ray starts there. */
+        /* A wall at z = -5 m, seen from the origin with a field of view of 60° and 64 × 36 pixels; the mirror ray starts there, and is
+           continued where its screen trace ended. */
         double scale = 5 * tan(3.14159265358979323846 / 6) / 18;
         double at[3] = {scale * (2 * (i % width) + (pick[i] & 1) + 0.5 - 32),
                         -scale * (2 * (i / width) + (pick[i] >> 1) + 0.5 - 18), -5};
         double length = sqrt(at[0] * at[0] + at[1] * at[1] + 25), ray[3] = {at[0] / length, at[1] / length, 5 / length};
+        for (int k = 0; k < 3; ++k) at[k] += ray[k] * (double)travelled[i];
+        farthest = fmax(farthest, (double)travelled[i]);
         double first = -1, second = -1;
         uint32_t expected = 0;
         for (uint32_t map = 0; map < MAPS; ++map) {
@@ -73,6 +79,8 @@ static void check_selection(struct gpu *gpu, const struct weights *w, const char
     print_message("# %s: %zu pixels; cube maps taken %zu, %zu, %zu, %zu\n", what, checked, taken[0], taken[1], taken[2],
                   taken[3]);
     assert_true(checked > width * height / 2);
+    assert_true(w->length > 0 ? farthest > 0.5 * w->length : farthest == 0);
+    free(travelled);
     free(index);
     free(pick);
     free(best);
@@ -89,12 +97,13 @@ static void each_term_alone_and_together_decides(void **state) {
     }
     plain_capture(gpu_path(gpu, "spheres", path), &plain);
     gpu_load(gpu, "spheres");
-    check_selection(gpu, &(struct weights){0, 1, 0, 0, 0}, "distance");
-    check_selection(gpu, &(struct weights){0, 0, 1, 0, 0}, "direction");
-    check_selection(gpu, &(struct weights){1, 0.2, 0, 0, 0}, "visibility, then distance");
-    check_selection(gpu, &(struct weights){0, 0.5, 0, 1, 0}, "fade, then distance");
-    check_selection(gpu, &(struct weights){1, 0.2, 0, 0, 1.5}, "visibility farther along the ray, then distance");
-    check_selection(gpu, &(struct weights){0.3, 1, 0.5, 0.2, 0.5}, "all");
+    check_selection(gpu, &(struct weights){0, 1, 0, 0, 0, 0}, "distance");
+    check_selection(gpu, &(struct weights){0, 0, 1, 0, 0, 0}, "direction");
+    check_selection(gpu, &(struct weights){1, 0.2, 0, 0, 0, 0}, "visibility, then distance");
+    check_selection(gpu, &(struct weights){0, 0.5, 0, 1, 0, 0}, "fade, then distance");
+    check_selection(gpu, &(struct weights){1, 0.2, 0, 0, 1.5, 0}, "visibility farther along the ray, then distance");
+    check_selection(gpu, &(struct weights){0.3, 1, 0.5, 0.2, 0.5, 0}, "all");
+    check_selection(gpu, &(struct weights){0, 1, 0, 0, 0, 2}, "distance from the end of a screen trace of 2 m");
 }
 
 static void a_start_in_a_centre_has_a_score(void **state) {

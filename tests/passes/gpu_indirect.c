@@ -335,6 +335,38 @@ static void where_nothing_shines_nothing_is_traced(void **state) {
     }
 }
 
+/* Each frame takes other directions and, where these stay, other starts of the linear march. */
+static void frames_take_other_directions(void **state) {
+    static const char *const tracers[2][2] = {{"indirect_trace=dda"},
+                                              {"indirect_trace=linear", "indirect_trace.shuffle=false"}};
+    struct gpu *gpu = *state;
+    float *found[2][2];
+    for (uint32_t f = 0; f < 2; f++) {
+        struct plain plain = frame_of(&all_floor, 60);
+        plain.frame = 7 + f;
+        indirect_load(gpu, &plain);
+        for (int t = 0; t < 2; t++) {
+            const char *const words[] = {"downsample=none",
+                                         "indirect_trace.level=0",
+                                         "indirect_apply=bilinear",
+                                         tracers[t][0],
+                                         tracers[t][1],
+                                         NULL};
+            indirect_arrange(gpu, words);
+            gpu_run(gpu);
+            found[f][t] = gpu_floats(gpu, "indirect", NULL, NULL);
+        }
+    }
+    for (int t = 0; t < 2; t++) {
+        int lit = 0, other = 0;
+        for (uint32_t i = 0; i < WIDE * HIGH; i++)
+            if (found[0][t][4 * i] > 0) lit++, other += found[0][t][4 * i] != found[1][t][4 * i];
+        print_message("# %s: %d of %d lit pixels differ\n", tracers[t][0], other, lit);
+        assert_true(lit > 1000 && other > lit / 2);
+        free(found[0][t]), free(found[1][t]);
+    }
+}
+
 /* ---- three resolutions ---- */
 
 /* Each level's mean is nearly that of full resolution, blurred and upscaled; without the blur the noise is larger. */
@@ -424,6 +456,7 @@ int main(void) {
         cmocka_unit_test(radiance_stays_in_a_furnace),
         cmocka_unit_test(light_that_no_ray_finds_is_the_captured_one),
         cmocka_unit_test(where_nothing_shines_nothing_is_traced),
+        cmocka_unit_test(frames_take_other_directions),
         cmocka_unit_test(levels_share_what_they_find),
         cmocka_unit_test(invalid_pixels_spoil_no_others),
     };

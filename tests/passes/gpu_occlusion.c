@@ -269,6 +269,28 @@ static void noise_is_mean_free(void **state) {
     }
 }
 
+/* Texels of the floor with numbers of their own differ from the mean each on its own; with one number for all they differ alike. */
+static void every_texel_has_its_own_numbers(void **state) {
+    static const char *const patterns[] = {"ao_trace.pattern=white", "ao_trace.pattern=grid", "ao_trace.pattern=blue"};
+    struct gpu *gpu = *state;
+    const struct plain plain = occlusion_frame(&corner, 60);
+    occlusion_load(gpu, &plain);
+    for (int p = 0; p < 3; p++) {
+        const char *const words[] = {"downsample=none",   "ao_trace=horizon", patterns[p],
+                                     "ao_trace.slices=1", "ao_trace.steps=4", NULL};
+        occlusion_arrange(gpu, words);
+        gpu_run(gpu);
+        float *found = gpu_floats(gpu, "occlusion_half", NULL, NULL);
+        double across = 0;
+        for (int i = WIDE * HIGH * 3 / 5; i < WIDE * HIGH - 1; i++)
+            across += fabs((double)found[i + 1] - (double)found[i]);
+        across /= WIDE * HIGH * 2 / 5;
+        print_message("# %s: neighbours differ by %.5f\n", patterns[p], across);
+        assert_true(across > 0.01);
+        free(found);
+    }
+}
+
 /* ---- what is not a surface ---- */
 
 static void invalid_pixels_are_visible_and_spoil_no_others(void **state) {
@@ -309,6 +331,7 @@ int main(void) {
         cmocka_unit_test(a_ball_hides_the_floor_that_it_lies_on),
         cmocka_unit_test(an_open_plain_is_fully_visible),
         cmocka_unit_test(noise_is_mean_free),
+        cmocka_unit_test(every_texel_has_its_own_numbers),
         cmocka_unit_test(invalid_pixels_are_visible_and_spoil_no_others),
     };
     return cmocka_run_group_tests_name("gpu_occlusion", tests, gpu_set_up, gpu_tear_down);

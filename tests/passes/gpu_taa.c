@@ -19,7 +19,7 @@ struct shot {
     double step_px[2]; /* by which the wall and the object move to the right in a frame */
     double bad;        /* the light of the pixel BAD_X, BAD_Y if it is not 0 */
     float specular;
-    bool cut;
+    bool cut, red, striped; /* instead of color: red, or columns of green and blue */
 };
 enum { BAD_X = 13, BAD_Y = 9 };
 
@@ -31,7 +31,9 @@ static void paint(const struct plain *plain, float *values) {
         values[PLAIN_SPECULAR * W * H + i] = shot->specular;
         values[PLAIN_DEPTH * W * H + i] = near ? OBJECT_M : WALL_M;
         values[PLAIN_MOTION_X * W * H + i] -= (float)(shot->step_px[near] / W);
-        for (size_t c = 0; c < 3; c++)
+        for (size_t c = 0; c < 3 && (shot->red || shot->striped); c++)
+            values[(PLAIN_LIT_R + c) * W * H + i] = c == (shot->red ? 0 : 1 + i % 2);
+        for (size_t c = 0; c < 3 && shot->color; c++)
             values[(PLAIN_LIT_R + c) * W * H + i] =
                 shot->bad != 0 && i == BAD_Y * W + BAD_X ? (float)shot->bad : (float)shot->color(shot, x, y);
     }
@@ -225,6 +227,28 @@ static void what_an_object_uncovers_keeps_no_trail(void **state) {
     }
 }
 
+/* A red history over neighbours in green (1/2, 0, 1/2 in YCoCg) and blue (1/4, -1/2, -1/4): in RGB nothing of the red lies between them; in YCoCg
+   (1/4, 1/2, -1/4) becomes (1/4, 0, -1/4), which is 1/2 red and 1/2 blue. The history counts half. Catches: a clamp along other axes. */
+static void a_history_is_clamped_along_its_axes(void **state) {
+    struct gpu *gpu = *state;
+    for (int rgb = 0; rgb < 2; rgb++) {
+        struct shot shot = {.number = 800, .red = true};
+        RESET(gpu, rgb ? "taa.space=rgb" : "taa.space=ycocg", "taa.neighbourhood=minmax", "taa.clamp_still=true",
+              "taa.outlier=1e6");
+        gpu->float_precision = true;
+        run(gpu, &shot, 0);
+        shot = (struct shot){.number = 801, .striped = true};
+        run(gpu, &shot, 0);
+        float *found = gpu_floats(gpu, "antialiased", NULL, NULL);
+        for (size_t i = 0; i < W * H; i++) {
+            const float past[3] = {rgb ? 0 : 0.5F, 0, rgb ? 0 : 0.5F};
+            for (size_t c = 0; c < 3; c++)
+                assert_true(fabsf(found[4 * i + c] - (past[c] + (c == 1 + i % 2)) / 2) < 1e-5F);
+        }
+        free(found);
+    }
+}
+
 static double even(const struct shot *shot, double x, double y) {
     (void)shot, (void)x, (void)y;
     return 0.5;
@@ -336,6 +360,7 @@ int main(void) {
         cmocka_unit_test(a_still_picture_becomes_the_mean_over_the_pixel),
         cmocka_unit_test(a_hard_edge_is_as_wide_as_the_filter),
         cmocka_unit_test(what_an_object_uncovers_keeps_no_trail),
+        cmocka_unit_test(a_history_is_clamped_along_its_axes),
         cmocka_unit_test(one_bright_sample_does_not_last),
         cmocka_unit_test(what_is_not_finite_does_not_spread),
         cmocka_unit_test(a_picture_like_its_history_stays_as_it_is),
