@@ -124,7 +124,7 @@ HARMLESS = {
     ("reflection/cubemap_select/score.comp", "sum += direction * (0.5 + 0.5 * dot(offset, ray) / max(distance_m, 1e-6));",
      "sum += direction * (1.0 + 0.5 * dot(offset, ray) / max(distance_m, 1e-6));"):
         "every cube map's score grows by the same, so that the best remains the best",
-    ("reflection/screen_trace/linear_facets.glsl", "fetches += 2u;", "fetches -= 2u;"): COUNT,
+    ("screen_rays/linear_facets.glsl", "fetches += 2u;", "fetches -= 2u;"): COUNT,
     ("shadow/contact_trace/linear.comp", "return march(ray, grid, dither ? random4(uvec2(texel), random_frame(), RANDOM_CONTACT).x : 0.0);",
      "return march(ray, grid, dither ? random4(uvec2(texel), random_frame(), RANDOM_CONTACT).y : 0.0);"): ANOTHER_NUMBER,
 }
@@ -151,7 +151,7 @@ MISSING = {
      "if (frame.counts.w > 0u && color.a < 1.0)",
      "if (frame.counts.w > 0u && color.a > 1.0)"):
         "a volume made of cube maps that show the sky",
-    ("occlusion/ao_apply/same_surface.glsl",
+    ("filtering/same_surface.glsl",
      "return depth_part >= 10.0 || in_plane(way, mat3(frame.view_from_world) * normal, depth_m, depth_part);",
      "return depth_part >= 20.0 || in_plane(way, mat3(frame.view_from_world) * normal, depth_m, depth_part);"):
         "depth_part=10, which is no test",
@@ -163,7 +163,7 @@ MISSING = {
      "side.end = min(at_most > 0.0 ? most / at_most : LARGEST, min(leaves(r.start.x, side.across.x, float(frame.size.x)),",
      "side.end = min(at_most > 0.0 ? most / at_most : LARGEST, min(leaves(r.start.x, side.across.y, float(frame.size.x)),"):
         "slices that leave the picture at one side",
-    ("occlusion/ao_trace/receiver_normal.glsl",
+    ("screen_rays/receiver_normal.glsl",
      "vec3 vertex = texelFetch(vertex_normal_full, min(ivec2(start), size - 1), 0).xyz;",
      "vec3 vertex = texelFetch(vertex_normal_full, min(ivec2(start), size ), 0).xyz;"):
         "vertex normals in a picture of odd size",
@@ -187,7 +187,7 @@ MISSING = {
      "ivec2 within = width_of(0) == 1 || picked > 3u ? ivec2(0) : ivec2(picked & 1u, picked >> 1u);",
      "ivec2 within = width_of(1) == 1 || picked > 3u ? ivec2(0) : ivec2(picked & 1u, picked >> 1u);"):
         "the finest level at full resolution, where a texel has no other pixel",
-    ("reflection/blur/level_filter.glsl",
+    ("filtering/level_filter.glsl",
      "float weight = ((i & 1) == 0 ? 3.0 : 1.0) * (i < 2 ? 3.0 : 1.0) * agreement(own, other);",
      "float weight = ((i & 1) == 0 ? 3.0 : 1.0) * (i > 2 ? 3.0 : 1.0) * agreement(own, other);"):
         "the weights of the surrounding texels on a thin bar",
