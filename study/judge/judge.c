@@ -197,8 +197,11 @@ static bool get_targets(struct glint_judge *judge, const struct glint_pipeline *
 
 bool glint_judge_evaluate(struct glint_judge *judge, const struct glint_pipeline *pipeline, uint32_t lineage,
                           struct glint_verdict *verdict, glint_progress progress, void *user, struct glint_error *err) {
-    const struct glint_replay_options options = {
-        .diagnostics = true, .all = judge->options.all, .keep_bytes = judge->options.keep_bytes, .lineage = lineage};
+    const struct glint_replay_options options = {.results = judge->options.effect->results,
+                                                 .diagnostics = true,
+                                                 .all = judge->options.all,
+                                                 .keep_bytes = judge->options.keep_bytes,
+                                                 .lineage = lineage};
     const struct target *targets[GLINT_TARGET_COUNT] = {NULL};
     *verdict = (struct glint_verdict){0};
     if (!judge->capture) return glint_fail(err, GLINT_ERROR_USAGE, "no capture is loaded");
@@ -255,7 +258,8 @@ static bool add_cost(struct glint_judge *judge, const struct glint_pass_result *
 
 bool glint_judge_time(struct glint_judge *judge, const struct glint_pipeline *pipeline, uint32_t lineage, bool whole,
                       struct glint_cost *cost, glint_progress progress, void *user, struct glint_error *err) {
-    const struct glint_replay_options options = {.all = judge->options.all,
+    const struct glint_replay_options options = {.results = judge->options.effect->results,
+                                                 .all = judge->options.all,
                                                  .repeat = 1,
                                                  .warmup = 1,
                                                  .no_cache = whole,
