@@ -209,6 +209,34 @@ static void an_effect_is_judged_by_its_own_rows(void **state) {
     fixture_check_messages(fixture);
 }
 
+/* Catches: a picture that counts as black because nothing changes it, and one that no slot makes. */
+static void a_picture_that_nothing_changes_is_the_captured_one(void **state) {
+    struct fixture *fixture = fixture_need_device(state);
+    struct glint_error err = {0};
+    struct glint_verdict verdict;
+    char path[128];
+    snprintf(path, sizeof path, "%s/unchanged.exr", fixture->folder);
+    assert_true(fixture_write_capture(path, &(struct fixture_options){.matte = true}, &err));
+    struct glint_capture *capture = glint_capture_open(path, NULL, &err);
+    const struct glint_judge_options options = {.effect = &made, .truth = true};
+    struct glint_judge *judge = glint_judge_create(fixture->device, &options, &err);
+    struct glint_pipeline *pipeline = glint_pipeline_copy(fixture->pipeline, &err);
+    assert_true(capture && judge && pipeline && glint_judge_load(judge, capture, &err));
+    if (!glint_judge_evaluate(judge, pipeline, 0, &verdict, NULL, NULL, &err)) fail_msg("%s", err.message);
+    for (size_t i = 0; i < verdict.pass_count; i++)
+        assert_false(verdict.passes[i].ran && !strcmp(verdict.passes[i].pass->slot, "compose"));
+    const struct glint_metric_row *row = &verdict.errors[GLINT_TARGET_TRUTH].rows[0];
+    assert_true(row->pixels > 100 && row->of[GLINT_METRIC_RMSE].value < 0x1p-11); /* stored as half, values below 2 */
+    glint_verdict_finish(&verdict);
+    assert_true(glint_pipeline_use(pipeline, "compose=none", &err));
+    assert_false(glint_judge_evaluate(judge, pipeline, 0, &verdict, NULL, NULL, &err));
+    fixture_says(&err, "no slot of the pipeline makes the made picture");
+    glint_pipeline_destroy(&pipeline);
+    glint_judge_destroy(&judge);
+    glint_capture_close(&capture);
+    fixture_check_messages(fixture);
+}
+
 static double sum_of(struct glint_replay *replay, const char *name) {
     struct glint_error err = {0};
     const struct glint_image *image = glint_replay_find_image(replay, name);
@@ -262,6 +290,7 @@ static void rays_of_coarser_levels_count_per_pixel(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_effect_is_judged_by_its_own_rows),
+        cmocka_unit_test(a_picture_that_nothing_changes_is_the_captured_one),
         cmocka_unit_test(rays_of_coarser_levels_count_per_pixel),
         cmocka_unit_test(errors_are_those_of_the_reflection),
         cmocka_unit_test(rays_of_surfaces_that_reflect_nothing_are_not_counted),
