@@ -403,12 +403,11 @@ static void what_another_image_takes_the_place_of_is_left_out(void **state) {
     static const char why[] = "the light replaces it", *const images[] = {"f", NULL};
     DEFINE_PASS(estimate, "v", READS("lit"), WRITES("e"));
     DEFINE_PASS(finish, "v", READS("e"), WRITES("f"));
-    DEFINE_PASS(light, "v", READS("lit"), WRITES("l"));
     DEFINE_PASS(
-        picture, "v", MAY_READ("f"), MAY_READ("l"), WRITES("p"),
+        picture, "v", MAY_READ("f"), MAY_READ("z"), WRITES("p"),
         {.kind = GLINT_ROW_SPEC, .name = "on", .type = GLINT_VALUE_BOOL},
         {.kind = GLINT_ROW_SPEC, .name = "off", .type = GLINT_VALUE_BOOL},
-        {.kind = GLINT_ROW_IN_PLACE_OF, .name = "l", .image = "f", .assigned = "on", .source = "off", .help = why});
+        {.kind = GLINT_ROW_IN_PLACE_OF, .name = "z", .image = "f", .assigned = "on", .source = "off", .help = why});
     const struct {
         double on, off;
         bool alone, shader, runs;
@@ -424,7 +423,7 @@ static void what_another_image_takes_the_place_of_is_left_out(void **state) {
         struct pipeline made;
         struct graph graph;
         struct glint_error err;
-        MAKE(&made, &estimate, &finish, &picture, &light);
+        MAKE(&made, &estimate, &finish, &picture, &zeta);
         made.pipeline.count -= cases[c].alone;
         made.passes[2].values = (double[]){0, 0, 0, cases[c].on, cases[c].off, 0}; /* beside its rows */
         made.passes[2].shader = cases[c].shader ? (char *)"own.comp" : NULL;
