@@ -33,7 +33,15 @@ MADE = ['linear', 'linear leaks=false', 'linear volume_make.moved=false', 'linea
 INDIRECT_SLOTS = {'downsample': 'mips', 'hiz': 'nearest', 'cubemap_active': 'nearest', 'surface_levels': 'picked', 'volume_make': 'gather',
                   'indirect_trace': 'linear', 'indirect_blur': 'edges', 'indirect_apply': 'planes'}
 INDIRECT_SAMPLE = ['--cube-size', '128', '--truth', '128', '--truth-of', 'indirect']
+OCCLUSION = [
+    'horizon', 'horizon ao_blur=none', 'hemisphere', 'horizon slices=16 steps=32 downsample=none ao_blur=none ao_apply=bilinear',
+    'dda directions=32 downsample=none ao_blur=none ao_apply=bilinear',
+    'dda directions=32 inside=false thickness_m=0.5 downsample=none ao_blur=none ao_apply=bilinear']
 EFFECTS = {
+    'occlusion': {
+        'scenes': ['street', 'room'], 'sample': ['--truth', '256', '--truth-of', 'occlusion'],
+        'slots': {'downsample': 'pick', 'ao_trace': 'horizon', 'ao_blur': 'separable', 'ao_apply': 'planes'},
+        'trace': 'ao_trace', 'fetches': 'occlusion_fetches', 'tables': {'ao_trace': (OCCLUSION, [])}},
     'indirect': {
         'scenes': ['street', 'room', 'hotel', 'courtyard'], 'sample': [*INDIRECT_SAMPLE, '--also', 'volume'], 'slots': INDIRECT_SLOTS,
         'trace': 'indirect_trace', 'fetches': 'indirect_fetches', 'levels': 3, 'tables': {'indirect_trace': (INDIRECT, [])}},

@@ -44,6 +44,19 @@ MOVING = [
     ('occluded points accepted: `resolve.reject=false`', 'resolve.reject=false'),
     ('occluded points black: `resolve.hidden=black`', 'resolve.hidden=black'),
 ]
+# Rays at three resolutions: name, settings of mafia_de. The last column of a scene is the cost of tracing.
+SPARSE = 'downsample=mips_sparse classify=tiles classify_unfinished=tiles'
+TRACED_SCENES = ('street', 'room', 'hotel', 'courtyard')
+TRACED = [
+    ('every texel of MIP 1: `mafia_de`', ''),
+    ('the same at one resolution: `blur=plus`', 'blur=plus'),
+    ('MIP 1 and 2: `downsample.mip2_roughness=1`', f'{SPARSE} downsample.mip2_roughness=1'),
+    ('MIP 1, 2 and 3: `mafia_de_levels`', SPARSE),
+    ('fewer: `downsample.mip1_roughness=0.1`', f'{SPARSE} downsample.mip1_roughness=0.1'),
+    ('only MIP 3: `downsample.mip1_roughness=0`, `downsample.mip2_roughness=0`', f'{SPARSE} downsample.mip1_roughness=0 downsample.mip2_roughness=0'),
+    ('MIP 1, 2 and 3, 4 rays: `mafia_de_levels`, `pipeline.rays=4`', f'{SPARSE} pipeline.rays=4'),
+]
+SHOT_SCENES, SHOT_FRAMES = ('street', 'room'), 8
 GLASS = [
     ('all', ''),
     ('no screen: `transparent_screen_trace.length_m=0`', 'transparent_screen_trace.length_m=0'),
@@ -68,6 +81,23 @@ def glass(glint, folder, times):
     heads, timed = times.timed_columns('glasshouse', [words for _, words in GLASS])
     rows = [[name, f"{found[words]['over'][0]['symmetric']:.4f}", *timed[words]] for name, words in GLASS]
     return table(['settings', 'error of the panes', *heads], rows)
+
+
+def judged(glint, captures, words):
+    """Of the last frame: RMSE of all reflecting surfaces, and fetches of the tracers per pixel of the picture."""
+    report = json.loads(run(glint, 'replay', *captures, '--preset', 'mafia_de', '--json', '--diagnostics', '--against', 'truth', *FOG, *options(words)))
+    against = report['runs'][-1]['against_truth']
+    error, rays = against['image']['surfaces'][0], against['distances'][0]
+    width, height = map(int, SIZE.split('x'))
+    return error['rmse'], rays['rays'] * rays['fetches'] * (4 if 'rays=4' in words else 1) / (width * height)
+
+
+def traced(glint, captures, shots):
+    rows = []
+    for name, words in TRACED:
+        found = [judged(glint, [capture], words) for capture in captures]
+        rows.append([name, *(f'{error:.3f}, {fetches:.2f}' for error, fetches in found), *(f'{judged(glint, shot, words)[0]:.3f}' for shot in shots)])
+    return table(['traced', *(f'{scene}: RMSE, fetches' for scene in TRACED_SCENES), *(f'{scene}, {SHOT_FRAMES} frames: RMSE' for scene in SHOT_SCENES)], rows)
 
 
 def replayed(glint, capture, folder, name, words):
@@ -113,6 +143,12 @@ def main():
         still = captures(SCENES)
         text = text.replace('@COLOUR@\n', colour(args.glint, still, SCENES, COLOUR, times))
         levels(args.glint, still[1], folder, args.docs)
+        still += captures(TRACED_SCENES[len(still):])
+        shots = []
+        for scene in SHOT_SCENES:
+            run(args.glint, 'sample', scene, '-o', folder / f'{scene}-shot.exr', '--size', SIZE, '--cube-size', CUBE, '--truth', '16', '--frames', SHOT_FRAMES)
+            shots.append(sorted(folder.glob(f'{scene}-shot.0*.exr')))
+        text = text.replace('@TRACED@\n', traced(args.glint, still, shots))
         moved = captures(MOVED_SCENES, *MOVED)
         text = text.replace('@MOVING@\n', colour(args.glint, moved, MOVED_SCENES, MOVING, Times()))
         previous(args.glint, moved[1], folder, args.docs)

@@ -298,10 +298,12 @@ static void note_gap(struct job *job, const struct glint_capture *capture, const
 static bool replay_one(struct job *job, const char *path, const char *folder, const char *history,
                        struct glint_error *err) {
     struct glint_replay_options options = pipeline_args_options(&job->a->pipeline);
+    const size_t effects = job->against->effect_count; /* 0: nothing is compared */
+    const char *results[EFFECTS_MAX * GLINT_EFFECT_RESULTS + 1];
     options.history = history;
+    options.results = against_results(job->against, results);
     struct progress progress;
     struct pipe pipe;
-    const size_t effects = job->against->effect_count; /* 0: nothing is compared */
     struct comparison compared[EFFECTS_MAX] = {{.several = false}};
     const char *file = pipe_input(&pipe, path, err);
     struct glint_capture *capture = file ? glint_capture_open(file, NULL, err) : NULL;

@@ -31,6 +31,11 @@ static void expect(bool holds, const struct glint_pass *pass, const char *what, 
                    expected);
 }
 
+static bool is_switch(const struct glint_pass *pass, const char *parameter) {
+    const struct glint_row *row = glint_pass_row(pass, GLINT_ROW_SPEC, parameter);
+    return row && row->type == GLINT_VALUE_BOOL;
+}
+
 /* Rows that refer to another row of the same pass. `own`: the row with which the pass writes the image, or NULL. */
 static void check_row(const struct glint_pass *pass, const struct glint_row *row, const struct glint_row *own,
                       bool after_dispatch, struct faults *faults) {
@@ -52,6 +57,11 @@ static void check_row(const struct glint_pass *pass, const struct glint_row *row
     else if (row->kind == GLINT_ROW_CALLED_BY) {
         const struct glint_row *read = glint_pass_row(pass, GLINT_ROW_READ, row->image);
         expect(read && read->optional, pass, "CALLED_BY", row->image, "an optional image that the pass reads", faults);
+    } else if (row->kind == GLINT_ROW_IN_PLACE_OF) {
+        const struct glint_row *read = glint_pass_row(pass, GLINT_ROW_READ, row->image);
+        expect(read && read->optional && is_switch(pass, row->assigned) && is_switch(pass, row->source), pass,
+               "IN_PLACE_OF", row->image,
+               "an optional image that the pass reads, and two of its parameters that are true or false", faults);
     } else if (row->kind == GLINT_ROW_READ_OWN) {
         expect(own, pass, "READ_OWN", row->image, "an image that the pass writes", faults);
         if (own) graph_check_kind(pass, row, own, faults);

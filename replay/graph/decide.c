@@ -122,6 +122,26 @@ static void run_for_reader(const struct graph *graph, struct graph_pass *pass, c
     }
 }
 
+/* Why none of the passes that read a pass's images uses one, or NULL: one does, there are none, or the caller looks at an image. */
+static const char *find_unused(const struct graph *graph, const struct graph_pass *pass,
+                               const struct glint_replay_options *options) {
+    const char *why = NULL;
+    for (size_t r = 0; r < pass->pass->row_count; r++) {
+        const struct glint_row *row = &pass->pass->rows[r];
+        if (!glint_row_is_output(row)) continue;
+        if (list_has(options->outputs, row->name) || list_has(options->results, row->name)) return NULL;
+        for (size_t i = 0; i < graph->pass_count; i++) {
+            const struct graph_pass *reader = &graph->passes[i];
+            if (pass_reads_history(reader->pass, pass->pass)) return NULL;
+            if (!glint_pass_row(reader->pass, GLINT_ROW_READ, row->name)) continue;
+            const struct glint_row *replaced = graph_replaced(graph, reader, row->name);
+            if (!replaced && !reader->unused) return NULL;
+            why = replaced ? replaced->help : reader->unused;
+        }
+    }
+    return why;
+}
+
 /* Decides by its rows NEEDS, CALLED_BY and FACT whether the pass runs and which facts are false. The reason states the figures. */
 static bool decide_by_facts(const struct graph *graph, struct graph_pass *pass, const struct graph_inputs *inputs,
                             struct faults *faults, struct glint_error *err) {
@@ -187,6 +207,7 @@ static bool decide_passes(struct graph *graph, const struct graph_inputs *inputs
         else if (options->all && !has_no_cubemaps(pass->pass, &inputs->facts))
             why = "all passes were requested", pass->runs = true;
         else if (options->all) why = "the capture has no cube maps";
+        else if (!options->passes && (pass->unused = find_unused(graph, pass, options))) why = pass->unused;
         else if (!decide_by_facts(graph, pass, inputs, faults, err)) return false;
         if (why) snprintf(pass->reason, sizeof pass->reason, "%s", why);
     }

@@ -41,6 +41,7 @@ struct graph_pass {
     const struct glint_pass *pass;
     enum rank rank;
     bool runs;
+    const char *unused; /* why no pass uses its images, or NULL */
     const struct glint_row
         *alias;           /* its row ALIAS, if the pass was dropped and its image is one of the capture's; or NULL */
     uint32_t false_facts; /* a bit for each row FACT in order, set if the fact does not hold */
@@ -107,6 +108,8 @@ const struct glint_row *graph_row(const struct graph *graph, const char *name, c
 size_t graph_maker(const struct graph *graph, const char *image);
 /* Whether the pass has a row CALLED_BY of the image that counts in this pipeline. */
 bool graph_calls(const struct graph *graph, const struct glint_pass *pass, const char *image);
+/* The row IN_PLACE_OF by which the pass does without an image that it reads in this pipeline, or NULL. A user's shader may use it. */
+const struct glint_row *graph_replaced(const struct graph *graph, const struct graph_pass *pass, const char *image);
 /* Whether pass `later` reads as history an image that pass `earlier` writes. */
 bool pass_reads_history(const struct glint_pass *later, const struct glint_pass *earlier);
 /* The number of rays that a pass runs for in each frame. */

@@ -73,6 +73,14 @@ bool graph_calls(const struct graph *graph, const struct glint_pass *pass, const
     return any ? is_made(graph, image) : strcmp(first->image, image) == 0;
 }
 
+const struct glint_row *graph_replaced(const struct graph *graph, const struct graph_pass *pass, const char *image) {
+    const struct glint_row *row = pass->entry->shader ? NULL : glint_pass_row(pass->pass, GLINT_ROW_IN_PLACE_OF, image);
+    if (!row || !is_made(graph, row->name)) return NULL;
+    const double *on = parameter_value(pass->pass, pass->entry->values, row->assigned),
+                 *off = parameter_value(pass->pass, pass->entry->values, row->source);
+    return on && *on != 0 && off && *off == 0 ? row : NULL;
+}
+
 /* Whether the pipeline makes one of the images of a row READ_BESIDE. */
 static bool is_beside(const struct graph *graph, const char *others) {
     char name[64];
@@ -86,10 +94,11 @@ static bool is_beside(const struct graph *graph, const char *others) {
 }
 
 /* The row itself if its image need not exist in this pipeline; NULL: it has to. */
-static const struct glint_row *optional_row(const struct graph *graph, const struct glint_pass *pass,
+static const struct glint_row *optional_row(const struct graph *graph, const struct graph_pass *pass,
                                             const struct glint_row *row) {
-    const bool required =
-        !row->optional || (row->beside ? is_beside(graph, row->beside) : graph_calls(graph, pass, row->name));
+    const bool required = !row->optional || (row->beside ? is_beside(graph, row->beside)
+                                                         : graph_calls(graph, pass->pass, row->name) &&
+                                                               !graph_replaced(graph, pass, row->name));
     return required ? NULL : row;
 }
 
@@ -217,7 +226,7 @@ static void link_images(struct graph *graph, const struct graph_inputs *inputs, 
             const struct glint_row *row = &pass->pass->rows[r];
             const char *names[2];
             for (size_t n = glint_row_reads(row, names); n-- > 0;)
-                link_read(graph, i, names[n], n == 0 ? optional_row(graph, pass->pass, row) : NULL, inputs, faults);
+                link_read(graph, i, names[n], n == 0 ? optional_row(graph, pass, row) : NULL, inputs, faults);
             const struct graph_image *read = row->kind == GLINT_ROW_READ ? graph_find(graph, row->name) : NULL;
             if (read && read->source == SOURCE_RUN && size_is_array(read->row->size))
                 link_read(graph, i, cubemap_order_image(), NULL, inputs, faults); /* contains the number of cube maps */

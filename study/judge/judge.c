@@ -114,7 +114,7 @@ void glint_verdict_finish(struct glint_verdict *verdict) {
     *verdict = (struct glint_verdict){0};
 }
 
-/* Reads the result and its coverage. If the passes that make it were dropped, it is 0 with no coverage. */
+/* Reads the result and its coverage. Where the plan dropped the passes that make it, it is 0 with no coverage. */
 static bool read_result(struct glint_judge *judge, struct glint_verdict *verdict, struct glint_error *err) {
     const struct glint_part_info *gbuffer = glint_capture_find(judge->capture, GLINT_PART_GBUFFER);
     struct glint_error own = {0};
@@ -197,11 +197,16 @@ static bool get_targets(struct glint_judge *judge, const struct glint_pipeline *
 
 bool glint_judge_evaluate(struct glint_judge *judge, const struct glint_pipeline *pipeline, uint32_t lineage,
                           struct glint_verdict *verdict, glint_progress progress, void *user, struct glint_error *err) {
-    const struct glint_replay_options options = {
-        .diagnostics = true, .all = judge->options.all, .keep_bytes = judge->options.keep_bytes, .lineage = lineage};
+    const struct glint_replay_options options = {.results = judge->options.effect->results,
+                                                 .diagnostics = true,
+                                                 .all = judge->options.all,
+                                                 .keep_bytes = judge->options.keep_bytes,
+                                                 .lineage = lineage};
     const struct target *targets[GLINT_TARGET_COUNT] = {NULL};
     *verdict = (struct glint_verdict){0};
     if (!judge->capture) return glint_fail(err, GLINT_ERROR_USAGE, "no capture is loaded");
+    if (!glint_study_made(pipeline, judge->options.effect))
+        return glint_fail(err, GLINT_ERROR_USAGE, "no slot of the pipeline makes the %s", judge->options.effect->noun);
     bool ok = get_targets(judge, pipeline, verdict, targets, progress, user, err);
     const double start = glint_now_seconds();
     ok = ok && glint_replay_run(judge->replay, pipeline, &options, progress, user, err) &&
@@ -255,7 +260,8 @@ static bool add_cost(struct glint_judge *judge, const struct glint_pass_result *
 
 bool glint_judge_time(struct glint_judge *judge, const struct glint_pipeline *pipeline, uint32_t lineage, bool whole,
                       struct glint_cost *cost, glint_progress progress, void *user, struct glint_error *err) {
-    const struct glint_replay_options options = {.all = judge->options.all,
+    const struct glint_replay_options options = {.results = judge->options.effect->results,
+                                                 .all = judge->options.all,
                                                  .repeat = 1,
                                                  .warmup = 1,
                                                  .no_cache = whole,

@@ -156,23 +156,32 @@ static void fill_end_rows(const struct tracer *tracers, size_t count, const stru
     }
 }
 
-/* Sums what passes of the effect that trace no rays count in a unit. */
+/* Adds what a pass counts in a unit in all levels of its diagnostic image. */
+static bool add_levels(struct glint_replay *replay, const struct glint_pass *pass, const char *unit, double *sum,
+                       struct glint_error *err) {
+    for (size_t i = 0; i < glint_replay_image_count(replay); i++) {
+        const struct glint_image *image = glint_replay_image(replay, i);
+        if (image->pass != pass || image->row->kind != GLINT_ROW_DIAGNOSTIC || strcmp(image->row->unit, unit) != 0)
+            continue;
+        uint32_t *values = study_values(replay, image, GLINT_U32, err);
+        if (!values) return false;
+        for (size_t k = 0; k < (size_t)image->width * image->height; k++) *sum += (double)values[k * image->components];
+        free(values);
+    }
+    return true;
+}
+
+/* Sums what passes of the effect count in a unit that have no row TRACER, such as those that trace a coarser level. */
 static bool sum_without_rays(struct glint_replay *replay, const struct glint_effect *effect, const char *unit,
                              double sums[2], struct glint_error *err) {
     size_t count = 0;
     const struct glint_pass_result *results = glint_replay_results(replay, &count);
     for (size_t p = 0; p < count; p++) {
-        const struct tracer counts = {.pass = results[p].pass};
-        if (!results[p].ran || !glint_effect_has(effect, counts.pass) ||
-            glint_pass_row(counts.pass, GLINT_ROW_TRACER, NULL))
-            continue;
-        const struct glint_image *image = diagnostic_image(replay, &counts, unit);
-        uint32_t *values = image ? study_values(replay, image, GLINT_U32, err) : NULL;
-        if (image && !values) return false;
-        double *sum = &sums[glint_pass_row(counts.pass, GLINT_ROW_PER_RAY, NULL) != NULL];
-        for (size_t i = 0; image && i < (size_t)image->width * image->height; i++)
-            *sum += (double)values[i * image->components];
-        free(values);
+        const struct glint_pass *pass = results[p].pass;
+        const bool counts =
+            results[p].ran && glint_effect_has(effect, pass) && !glint_pass_row(pass, GLINT_ROW_TRACER, NULL);
+        double *sum = &sums[glint_pass_row(pass, GLINT_ROW_PER_RAY, NULL) != NULL];
+        if (counts && !add_levels(replay, pass, unit, sum, err)) return false;
     }
     return true;
 }

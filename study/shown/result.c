@@ -77,7 +77,7 @@ const struct glint_image *glint_study_result_image(struct glint_replay *replay, 
     for (size_t k = 0; k < GLINT_EFFECT_RESULTS && effect->results[k]; k++)
         for (size_t i = 0; i < count; i++) {
             const struct glint_row *row =
-                results[i].ran ? glint_pass_output(results[i].pass, effect->results[k]) : NULL;
+                results[i].shown ? glint_pass_output(results[i].pass, effect->results[k]) : NULL;
             const struct glint_image *image =
                 row && row->size == GLINT_SIZE_FULL ? glint_replay_find_image(replay, row->name) : NULL;
             if (image) return image;

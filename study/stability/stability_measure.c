@@ -32,7 +32,8 @@ static void measuring_finish(struct measuring *m) {
 
 static bool run_frame(const struct measuring *m, const struct glint_pipeline *pipeline, uint32_t seed,
                       struct glint_progress_part *part, struct glint_error *err) {
-    const struct glint_replay_options options = {.captured = true,
+    const struct glint_replay_options options = {.results = m->options->effect ? m->options->effect->results : NULL,
+                                                 .captured = true,
                                                  .diagnostics = true,
                                                  .float_precision = !m->options->half,
                                                  .all = m->options->all,

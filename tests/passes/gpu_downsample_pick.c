@@ -1,4 +1,4 @@
-/* downsample/pick: the distribution of its normals, and the pixel that it chooses. */
+/* downsample/pick: the distribution of its normals, and the pixel that it chooses; downsample/mips_sparse: which texels have a ray. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -248,6 +248,52 @@ static void odd_borders_are_worth_what_their_pixels_are(void **state) {
     free(pick);
 }
 
+/* The colours are the normals that rays are drawn about, which texels without a ray do not have: each has the colour of a coarser texel that shows
+   its surface. On a wall every texel of one level has a ray; where wall and floor meet, coarser texels show only one of them. */
+static void rough_surfaces_are_traced_at_coarser_levels(void **state) {
+    struct gpu *gpu = *state;
+    enum { WIDE = 128, N = WIDE / 2, HEIGHT = WIDE - 4 }; /* the corner crosses blocks */
+    char path[256];
+    static const struct {
+        float roughness;
+        bool floor;
+        int least, most;
+    } cases[] = {{0.2f, false, N * N, N * N},
+                 {0.5f, false, N * N / 4, N * N / 4},
+                 {0.8f, false, N * N / 16, N * N / 16},
+                 {0.8f, true, N * N / 16, N * N / 8}};
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; ++c) {
+        plain_capture(gpu_path(gpu, "levels", path), &(struct plain){.width = WIDE,
+                                                                     .height = cases[c].floor ? HEIGHT : WIDE,
+                                                                     .roughness = cases[c].roughness,
+                                                                     .fov_y_degrees = 60,
+                                                                     .floor = cases[c].floor});
+        gpu_load(gpu, "levels");
+        gpu_reset(gpu);
+        gpu->float_precision = true;
+        gpu_use(gpu, "downsample=mips_sparse");
+        gpu_use(gpu, "blur=upscale_blur");
+        gpu_set(gpu, "downsample.jitter=false");
+        gpu_set(gpu, "blur.width=0");
+        gpu_shader(gpu, "resolve", "stand_in.comp");
+        gpu_set(gpu, "resolve.texel_scale=4");
+        gpu_run(gpu);
+        uint32_t width, height, *untraced = gpu_uints(gpu, "untraced", &width, &height);
+        float *color = gpu_floats(gpu, "reflection_blurred", NULL, NULL),
+              *normal = gpu_floats(gpu, "normal_half", NULL, NULL);
+        int rays = 0;
+        for (uint32_t i = 0; i < width * height; ++i) {
+            rays += !untraced[i];
+            for (uint32_t k = 0; k < 3; ++k) assert_true(fabsf(color[4 * i + k] - normal[4 * i + k]) < 1e-5f);
+            assert_true(color[4 * i + 3] == 1);
+        }
+        print_message("# roughness %.1f%s: %d rays of %u texels\n", (double)cases[c].roughness,
+                      cases[c].floor ? ", a floor" : "", rays, width * height);
+        assert_in_range(rays, cases[c].least, cases[c].most);
+        free(untraced), free(color), free(normal);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(blinn_phong_is_the_slides),
@@ -259,6 +305,7 @@ int main(void) {
         cmocka_unit_test(the_minority_of_an_edge_is_discarded),
         cmocka_unit_test(odd_sizes_pick_inside),
         cmocka_unit_test(odd_borders_are_worth_what_their_pixels_are),
+        cmocka_unit_test(rough_surfaces_are_traced_at_coarser_levels),
     };
     return cmocka_run_group_tests_name("gpu_downsample_pick", tests, gpu_set_up, gpu_tear_down);
 }

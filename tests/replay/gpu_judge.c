@@ -209,9 +209,89 @@ static void an_effect_is_judged_by_its_own_rows(void **state) {
     fixture_check_messages(fixture);
 }
 
+/* Catches: a picture that counts as black because nothing changes it, and one that no slot makes. */
+static void a_picture_that_nothing_changes_is_the_captured_one(void **state) {
+    struct fixture *fixture = fixture_need_device(state);
+    struct glint_error err = {0};
+    struct glint_verdict verdict;
+    char path[128];
+    snprintf(path, sizeof path, "%s/unchanged.exr", fixture->folder);
+    assert_true(fixture_write_capture(path, &(struct fixture_options){.matte = true}, &err));
+    struct glint_capture *capture = glint_capture_open(path, NULL, &err);
+    const struct glint_judge_options options = {.effect = &made, .truth = true};
+    struct glint_judge *judge = glint_judge_create(fixture->device, &options, &err);
+    struct glint_pipeline *pipeline = glint_pipeline_copy(fixture->pipeline, &err);
+    assert_true(capture && judge && pipeline && glint_judge_load(judge, capture, &err));
+    if (!glint_judge_evaluate(judge, pipeline, 0, &verdict, NULL, NULL, &err)) fail_msg("%s", err.message);
+    for (size_t i = 0; i < verdict.pass_count; i++)
+        assert_false(verdict.passes[i].ran && !strcmp(verdict.passes[i].pass->slot, "compose"));
+    const struct glint_metric_row *row = &verdict.errors[GLINT_TARGET_TRUTH].rows[0];
+    assert_true(row->pixels > 100 && row->of[GLINT_METRIC_RMSE].value < 0x1p-11); /* stored as half, values below 2 */
+    glint_verdict_finish(&verdict);
+    assert_true(glint_pipeline_use(pipeline, "compose=none", &err));
+    assert_false(glint_judge_evaluate(judge, pipeline, 0, &verdict, NULL, NULL, &err));
+    fixture_says(&err, "no slot of the pipeline makes the made picture");
+    glint_pipeline_destroy(&pipeline);
+    glint_judge_destroy(&judge);
+    glint_capture_close(&capture);
+    fixture_check_messages(fixture);
+}
+
+static double sum_of(struct glint_replay *replay, const char *name) {
+    struct glint_error err = {0};
+    const struct glint_image *image = glint_replay_find_image(replay, name);
+    assert_non_null(image);
+    const size_t texels = (size_t)image->width * image->height;
+    uint32_t *values = malloc(texels * sizeof *values);
+    double sum = 0;
+    assert_true(values && glint_replay_read_image(replay, image, GLINT_U32, values, &err));
+    for (size_t i = 0; i < texels; i++) sum += (double)values[i];
+    free(values);
+    return sum;
+}
+
+/* Catches: steps and fetches of an effect whose rays start at a coarser level, which are not counted or counted per texel of that level. */
+static void rays_of_coarser_levels_count_per_pixel(void **state) {
+    static const char *const levels[] = {"", ".level1", ".level2"}, *const settings[] = {"0", "1", "2"};
+    struct fixture *fixture = fixture_need_device(state);
+    struct glint_error err = {0};
+    const struct glint_judge_options options = {.effect = glint_effect_find("indirect"), .truth = true};
+    struct glint_judge *judge = glint_judge_create(fixture->device, &options, &err);
+    struct glint_pipeline *pipeline = glint_pipeline_copy(fixture->pipeline, &err);
+    assert_true(judge && pipeline && glint_judge_load(judge, fixture->capture, &err));
+    assert_true(glint_pipeline_use(pipeline, "surface_levels=picked", &err) &&
+                glint_pipeline_use(pipeline, "indirect_trace=linear", &err) &&
+                glint_pipeline_use(pipeline, "indirect_blur=edges", &err) &&
+                glint_pipeline_use(pipeline, "indirect_apply=planes", &err));
+    double fetches[3];
+    for (int k = 0; k < 3; k++) {
+        struct glint_verdict verdict;
+        char name[64];
+        snprintf(name, sizeof name, "indirect_trace.level=%s", settings[k]);
+        if (!glint_pipeline_set(pipeline, name, &err) ||
+            !glint_judge_evaluate(judge, pipeline, 0, &verdict, NULL, NULL, &err))
+            fail_msg("%s", err.message);
+        for (int l = 0; l < 3; l++) {
+            snprintf(name, sizeof name, "indirect_fetches%s", levels[l]);
+            const double sum = sum_of(glint_judge_replay(judge), name);
+            assert_true(l == k ? sum > 0 : sum == 0);
+            if (l == k) fetches[k] = sum / (FIXTURE_WIDTH * FIXTURE_HEIGHT);
+        }
+        assert_true(fabs(verdict.fetches_px - fetches[k]) < 1e-9 * fetches[k] && verdict.steps_px > 0);
+        glint_verdict_finish(&verdict);
+    }
+    assert_true(fetches[0] > 2 * fetches[1] &&
+                fetches[1] > 2 * fetches[2]); /* a quarter of the texels, but for the borders */
+    glint_pipeline_destroy(&pipeline);
+    glint_judge_destroy(&judge);
+    fixture_check_messages(fixture);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_effect_is_judged_by_its_own_rows),
+        cmocka_unit_test(a_picture_that_nothing_changes_is_the_captured_one),
+        cmocka_unit_test(rays_of_coarser_levels_count_per_pixel),
         cmocka_unit_test(errors_are_those_of_the_reflection),
         cmocka_unit_test(rays_of_surfaces_that_reflect_nothing_are_not_counted),
         cmocka_unit_test(what_the_truth_does_not_know_counts_nowhere),

@@ -18,6 +18,8 @@
     { .kind = GLINT_ROW_DIAGNOSTIC, .name = image, .glsl = "image2D", .format = GLINT_FORMAT_R32F, .channels = "Z" }
 #define NEEDED(fact)                                                                                                   \
     { .kind = GLINT_ROW_NEEDS, .name = fact }
+#define MAY_READ(image)                                                                                                \
+    { .kind = GLINT_ROW_READ, .name = image, .glsl = "texture2D", .format = GLINT_FORMAT_R32F, .optional = true }
 #define DEFINE_PASS(name_, variant_, ...)                                                                              \
     static const struct glint_row name_##_rows[] = {__VA_ARGS__};                                                      \
     static const struct glint_pass name_ = {.slot = #name_,                                                            \
@@ -357,18 +359,15 @@ static void passes_for_each_ray_stand_together(void **state) {
 static void one_image_of_several_calls_for_a_pass(void **state) {
     DEFINE_PASS(a_maker, "v", READS("lit"), WRITES("a"));
     DEFINE_PASS(b_maker, "v", READS("lit"), WRITES("b"));
-    DEFINE_PASS(
-        picture, "v",
-        {.kind = GLINT_ROW_READ, .name = "a", .glsl = "texture2D", .format = GLINT_FORMAT_R32F, .optional = true},
-        {.kind = GLINT_ROW_READ, .name = "b", .glsl = "texture2D", .format = GLINT_FORMAT_R32F, .optional = true},
-        {.kind = GLINT_ROW_READ,
-         .name = "stencil_full",
-         .glsl = "utexture2D",
-         .optional = true,
-         .beside = "c b",
-         .format = GLINT_FORMAT_R8UI},
-        WRITES("p"), {.kind = GLINT_ROW_CALLED_BY, .name = "yes", .image = "a"},
-        {.kind = GLINT_ROW_CALLED_BY, .name = "no", .image = "b"});
+    DEFINE_PASS(picture, "v", MAY_READ("a"), MAY_READ("b"),
+                {.kind = GLINT_ROW_READ,
+                 .name = "stencil_full",
+                 .glsl = "utexture2D",
+                 .optional = true,
+                 .beside = "c b",
+                 .format = GLINT_FORMAT_R8UI},
+                WRITES("p"), {.kind = GLINT_ROW_CALLED_BY, .name = "yes", .image = "a"},
+                {.kind = GLINT_ROW_CALLED_BY, .name = "no", .image = "b"});
     static const char *const only[] = {"picture", NULL};
     struct pipeline made;
     struct graph graph;
@@ -397,6 +396,44 @@ static void one_image_of_several_calls_for_a_pass(void **state) {
     MAKE(&made, &picture);
     assert_false(build(state, &graph, &made, (struct glint_replay_options){0}, &err));
     fixture_says(&err, "picture/v reads a, which no known pass writes");
+}
+
+/* Catches: passes that run although the picture does without their images, and ones left out that a parameter, a shader or the caller uses. */
+static void what_another_image_takes_the_place_of_is_left_out(void **state) {
+    static const char why[] = "the light replaces it", *const images[] = {"f", NULL};
+    DEFINE_PASS(estimate, "v", READS("lit"), WRITES("e"));
+    DEFINE_PASS(finish, "v", READS("e"), WRITES("f"));
+    DEFINE_PASS(
+        picture, "v", MAY_READ("f"), MAY_READ("z"), WRITES("p"),
+        {.kind = GLINT_ROW_SPEC, .name = "on", .type = GLINT_VALUE_BOOL},
+        {.kind = GLINT_ROW_SPEC, .name = "off", .type = GLINT_VALUE_BOOL},
+        {.kind = GLINT_ROW_IN_PLACE_OF, .name = "z", .image = "f", .assigned = "on", .source = "off", .help = why});
+    const struct {
+        double on, off;
+        bool alone, shader, runs;
+        struct glint_replay_options options;
+    } cases[] = {{.on = 1},
+                 {.runs = true},
+                 {.on = 1, .off = 1, .runs = true},
+                 {.on = 1, .runs = true, .alone = true},
+                 {.on = 1, .runs = true, .shader = true},
+                 {.on = 1, .runs = true, .options = {.results = images}},
+                 {.on = 1, .runs = true, .options = {.all = true}}};
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        struct pipeline made;
+        struct graph graph;
+        struct glint_error err;
+        MAKE(&made, &estimate, &finish, &picture, &zeta);
+        made.pipeline.count -= cases[c].alone;
+        made.passes[2].values = (double[]){0, 0, 0, cases[c].on, cases[c].off, 0}; /* beside its rows */
+        made.passes[2].shader = cases[c].shader ? (char *)"own.comp" : NULL;
+        if (!build(state, &graph, &made, cases[c].options, &err)) fail_msg("%zu: %s", c, err.message);
+        for (size_t i = 0; i < 2; i++) { /* estimate and finish */
+            assert_int_equal(graph.passes[i].runs, cases[c].runs);
+            if (!cases[c].runs) assert_string_equal(graph.passes[i].reason, why);
+        }
+        graph_finish(&graph);
+    }
 }
 
 /* Full is 7 x 5 here, and half of it 4 x 3, or 7 x 5 where every pixel is traced. */
@@ -440,6 +477,7 @@ static void pictures_are_divided_by_powers_of_two(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_image_of_several_calls_for_a_pass),
+        cmocka_unit_test(what_another_image_takes_the_place_of_is_left_out),
         cmocka_unit_test(pictures_are_divided_by_powers_of_two),
         cmocka_unit_test(smooth_and_rough_pixels_are_facts),
         cmocka_unit_test(passes_for_each_ray_stand_together),

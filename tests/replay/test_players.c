@@ -36,7 +36,7 @@ static struct glint_pipeline *exchanged(const struct glint_players *players, uin
     return pipeline;
 }
 
-static const char *const presets[] = {"mafia3", "mafia3_shipped", "mafia_de", "kf2", "gtav"};
+static const char *const presets[] = {"mafia3", "mafia3_shipped", "mafia_de", "mafia_de_levels", "kf2", "gtav"};
 enum { PRESETS = sizeof presets / sizeof *presets };
 
 /* The references that passes declare equal those of the preset. */

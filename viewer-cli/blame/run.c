@@ -61,7 +61,8 @@ static json_t *look_json(const struct blame *blame, const struct glint_verdict *
 /* Runs the earlier frames of a shot, so that the pipeline has its own history. */
 static bool run_before(struct work *work, const struct glint_pipeline *pipeline, struct glint_error *err) {
     struct glint_replay *replay = glint_judge_replay(work->judge);
-    const struct glint_replay_options options = {.all = work->blame->all};
+    const struct glint_replay_options options = {.results = glint_judge_effect(work->judge)->results,
+                                                 .all = work->blame->all};
     const size_t count = work->blame->before.count;
     for (size_t i = 0; i < count; i++)
         if (!glint_replay_load(replay, work->before[i], err) ||

@@ -39,6 +39,7 @@ struct showing {
         struct glint_image_error error;
     } over[CONTEST_OVER];
     struct glint_ends ends;
+    double steps_px, fetches_px;         /* of all rays of a frame, per pixel of the picture */
     struct contest_time frame, cubemaps; /* cubemaps: work that is only done when a cube map changes */
     double *frame_ms, *cubemaps_ms;      /* one for each round; malloc'd */
     json_t *passes;                      /* {slot, variant, ran, reason} */

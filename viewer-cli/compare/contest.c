@@ -183,6 +183,8 @@ static bool measure_contestant(const struct contest *contest, size_t i, struct s
     missing_add(contest->missing, glint_judge_replay(contest->judge));
     if (!note_passes(s, &a->verdict, err) || !read_picture(contest->judge, s, a, err)) return false;
     s->ends = a->verdict.ends;
+    s->steps_px = a->verdict.steps_px;
+    s->fetches_px = a->verdict.fetches_px;
     count_given(s, a->verdict.coverage, labels, (size_t)a->verdict.result.width * a->verdict.result.height);
     s->compared = a->verdict.no_truth.code == GLINT_OK;
     snprintf(s->failure, sizeof s->failure, "%s", a->verdict.no_truth.message);

@@ -74,8 +74,8 @@ static json_t *values_of(const struct glint_effect *effect, const struct showing
                               json_pack("[o, o, s]", json_sprintf("error, %s", glint_effect_class_name(effect, k)),
                                         error_json(s, k), ""));
     json_array_append_new(values, json_pack("[s, o, s]", "coverage", share_json(s, 0), "%"));
-    json_array_append_new(values, json_pack("[s, o, s]", "steps", json_number(s->ends.steps), "a ray"));
-    json_array_append_new(values, json_pack("[s, o, s]", "fetches", json_number(s->ends.fetches), "a ray"));
+    json_array_append_new(values, json_pack("[s, o, s]", "steps", json_number(s->steps_px), "per pixel"));
+    json_array_append_new(values, json_pack("[s, o, s]", "fetches", json_number(s->fetches_px), "per pixel"));
     json_array_append_new(values, json_pack("[s, o, s]", "when a cube map changes", time_json(&s->cubemaps), "ms"));
     return values;
 }
@@ -126,8 +126,8 @@ static void add_table(const struct contest_table *t, size_t capture, json_t *blo
     const size_t classes = glint_effect_class_count(t->contest->effect);
     for (size_t k = 1; k <= classes + 1; k++)
         page_column(table, glint_effect_class_name(t->contest->effect, k % (classes + 1)), "error");
-    page_column(table, "steps", "a ray");
-    page_column(table, "fetches", "a ray");
+    page_column(table, "steps", "per pixel");
+    page_column(table, "fetches", "per pixel");
     page_column(table, "frame", "ms");
     page_column(table, "cube maps", "ms");
     page_column(table, "notes", "");
@@ -135,8 +135,8 @@ static void add_table(const struct contest_table *t, size_t capture, json_t *blo
         const struct showing *s = showing_of(t, capture, p);
         json_t *row = json_pack("[s, o]", label_of(t, p), share_json(s, 0));
         for (size_t k = 1; k <= classes + 1; k++) json_array_append_new(row, error_json(s, k % (classes + 1)));
-        json_array_append_new(row, s->ends.rays ? json_number(s->ends.steps) : json_null());
-        json_array_append_new(row, s->ends.rays ? json_number(s->ends.fetches) : json_null());
+        json_array_append_new(row, s->steps_px > 0 ? json_number(s->steps_px) : json_null());
+        json_array_append_new(row, s->fetches_px > 0 ? json_number(s->fetches_px) : json_null());
         json_array_append_new(row, time_json(&s->frame));
         json_array_append_new(row, time_json(&s->cubemaps));
         json_array_append_new(row, json_string(s->failure[0] ? s->failure : s->notes ? s->notes : ""));

@@ -34,11 +34,9 @@ static void print_showing(struct table *table, const struct showing *s, size_t c
     if (isfinite(shared_error(s))) table_cell(table, "%.3f", shared_error(s));
     else table_cell(table, "–");
     if (isfinite(best) && shared_error(s) <= best) table_mark(table, MARK_GOOD);
-    if (s->ends.rays) {
-        table_cell(table, "%.1f", s->ends.steps);
-        table_cell(table, "%.1f", s->ends.fetches);
-    } else
-        for (int k = 0; k < 2; k++) table_cell(table, "–");
+    for (int k = 0; k < 2; k++)
+        if (s->ran && s->steps_px > 0) table_cell(table, "%.1f", k ? s->fetches_px : s->steps_px);
+        else table_cell(table, "–");
     time_cell(table, &s->frame);
     time_cell(table, &s->cubemaps);
 }
@@ -48,7 +46,7 @@ static const struct showing *showing_of(const struct contest_table *t, size_t ca
 }
 
 static void print_errors(const struct contest_table *t) {
-    static const char *const costs[] = {">all", ">shared", ">steps", ">fetches", ">ms", ">cube maps, ms", NULL};
+    static const char *const costs[] = {">all", ">shared", ">steps/px", ">fetches/px", ">ms", ">cube maps, ms", NULL};
     const struct glint_effect *effect = t->contest->effect;
     const size_t classes = glint_effect_class_count(effect);
     const char *titles[2 + GLINT_EFFECT_CLASSES + sizeof costs / sizeof *costs] = {"<capture", "<preset"};
@@ -70,7 +68,8 @@ static void print_errors(const struct contest_table *t) {
     }
     printf("Error of the %s against the truth (mean of |found - truth| / (found + truth), 0 to 1) over the covered "
            "pixels, with the coverage in parentheses: the share of the judged pixels for which the preset finds one. "
-           "shared: error over the pixels that all presets cover; steps and fetches per ray:\n\n",
+           "shared: error over the pixels that all presets cover; steps and fetches of all rays per pixel of the "
+           "picture:\n\n",
            effect->noun);
     table_print(table, stdout);
     table_destroy(&table);
@@ -249,11 +248,11 @@ static json_t *showing_json(const struct glint_effect *effect, const struct cont
     json_t *json = json_pack("{s:s, s:b, s:s}", "preset", c->label, "ran", s->ran, "notes", s->notes ? s->notes : "");
     if (s->failure[0]) json_object_set_new(json, s->ran ? "not_compared" : "failure", json_string(s->failure));
     if (!s->ran) return json;
-    json_object_update_new(json, json_pack("{s:o, s:o, s:o, s:I, s:f, s:f, s:o, s:o, s:O}", "surfaces",
-                                           surfaces_json(effect, s), "over", over_json(s), "ends", ends_json(s), "rays",
-                                           (json_int_t)s->ends.rays, "steps", s->ends.steps, "fetches", s->ends.fetches,
-                                           "frame_ms", time_json(&s->frame), "cubemaps_ms", time_json(&s->cubemaps),
-                                           "passes", s->passes));
+    json_object_update_new(
+        json, json_pack("{s:o, s:o, s:o, s:I, s:f, s:f, s:f, s:f, s:o, s:o, s:O}", "surfaces", surfaces_json(effect, s),
+                        "over", over_json(s), "ends", ends_json(s), "rays", (json_int_t)s->ends.rays, "steps",
+                        s->ends.steps, "fetches", s->ends.fetches, "steps_px", s->steps_px, "fetches_px", s->fetches_px,
+                        "frame_ms", time_json(&s->frame), "cubemaps_ms", time_json(&s->cubemaps), "passes", s->passes));
     return json;
 }
 
@@ -290,6 +289,8 @@ static void put_showing(FILE *out, const struct showing *s, size_t classes) {
         put_number(out, s->ran && s->over[k].error.pixels, s->over[k].error.symmetric);
     put_number(out, s->ends.rays > 0, s->ends.steps);
     put_number(out, s->ends.rays > 0, s->ends.fetches);
+    put_number(out, s->steps_px > 0, s->steps_px);
+    put_number(out, s->fetches_px > 0, s->fetches_px);
     put_number(out, s->frame.n > 0, s->frame.median);
     put_number(out, s->cubemaps.n > 0, s->cubemaps.median);
 }
@@ -305,7 +306,9 @@ char *contest_csv(const struct contest_table *t) {
         const char *name = glint_effect_class_name(t->contest->effect, k % (classes + 1));
         fprintf(out, ",%s coverage,%s error,%s RMSE", name, name, name);
     }
-    fputs(",shared error,water error,transparent error,steps,fetches,frame ms,cube maps ms,notes\n", out);
+    fputs(",shared error,water error,transparent error,steps,fetches,steps per pixel,fetches per pixel,frame ms,cube "
+          "maps ms,notes\n",
+          out);
     for (size_t c = 0; c < t->capture_count; c++)
         for (size_t p = 0; p < t->contest->count; p++) {
             const struct showing *s = showing_of(t, c, p);

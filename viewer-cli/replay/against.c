@@ -92,6 +92,14 @@ static bool run_answer(const char *folder, struct glint_capture *capture, const 
     return ok;
 }
 
+const char *const *against_results(const struct against *against, const char *names[]) {
+    size_t count = 0;
+    for (size_t e = 0; e < against->effect_count; e++)
+        for (size_t k = 0; against->effects[e]->results[k]; k++) names[count++] = against->effects[e]->results[k];
+    names[count] = NULL;
+    return names;
+}
+
 /* The reference's result of this capture. */
 static bool reference_answer(struct against *against, struct glint_capture *capture, const struct glint_effect *effect,
                              struct answer *answer, bool *other, struct glint_error *err) {
@@ -114,7 +122,8 @@ static bool reference_answer(struct against *against, struct glint_capture *capt
 static bool cross_sources(struct against *against, struct glint_capture *capture, const uint8_t *labels,
                           struct comparison *c, struct glint_error *err) {
     const struct glint_part_info *gbuffer = glint_capture_find(capture, "gbuffer");
-    const struct glint_replay_options options = {.all = against->all, .diagnostics = true};
+    const struct glint_replay_options options = {
+        .results = c->effect->results, .all = against->all, .diagnostics = true};
     const size_t pixels = (size_t)gbuffer->width * gbuffer->height;
     if (!c->found_source.labels) return true;
     struct glint_pipeline *reference = glint_study_reference(against->pipeline, err);

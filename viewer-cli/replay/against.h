@@ -29,6 +29,8 @@ struct against {
 void against_parse(struct against *against, char *text, struct argp_state *state);
 /* Opens the run that holds the reference, if there is one, before any work. *without_fog: what is compared with has no fog, as the truth. */
 bool against_prepare(const struct against *against, bool *without_fog, struct glint_error *err);
+/* The images that are compared, NULL-terminated, in `names`, which has room for those of all effects. */
+const char *const *against_results(const struct against *against, const char *names[]);
 /* Finds the effects, and makes ready for runs of `pipeline`; does nothing when there is nothing to compare with. */
 bool against_begin(struct against *against, struct glint_device *device, const struct glint_pipeline *pipeline,
                    const struct list *captures, struct glint_error *err);

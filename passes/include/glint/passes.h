@@ -123,8 +123,8 @@ struct glint_row {
     const char
         *beside;       /* READ of an image of the capture: made images beside which it is read, or NULL (READ_BESIDE) */
     const char *image; /* READ_OWN, HISTORY: the image; NULL: `name` */
-    const char
-        *assigned; /* REFERENCE_SET: an assignment for glint_pipeline_set. DISPATCH_LEVELS: a parameter, or NULL */
+    const char *
+        assigned; /* REFERENCE_SET: an assignment for glint_pipeline_set. DISPATCH_LEVELS, IN_PLACE_OF: a parameter, or NULL */
     /* DISPATCH_LEVELS: first and last level, both included; a negative number counts from the coarsest level, which is -1. With a
        parameter they count from the finest level that is no wider than the parameter's value. */
     int first, last;
@@ -179,11 +179,11 @@ enum { GLINT_EFFECT_RESULTS = 4, GLINT_EFFECT_CLASSES = 3 };
 struct glint_effect {
     const char *name; /* of its folder: "reflection" */
     const char *title, *noun, *about;
-    const char
-        *results[GLINT_EFFECT_RESULTS]; /* images that may be its result, the preferred first; NULL behind the last */
-    const char *channels;               /* of the truth, and as many of the result: "R G B" */
-    const char *truth;                  /* the part, or with truth_has_choices its name before ".CHOICE" */
-    enum glint_pass_role truth_by;      /* the parameter whose choice that is */
+    const char *results[GLINT_EFFECT_RESULTS +
+                        1];        /* images that may be its result, the preferred first; NULL behind the last */
+    const char *channels;          /* of the truth, and as many of the result: "R G B" */
+    const char *truth;             /* the part, or with truth_has_choices its name before ".CHOICE" */
+    enum glint_pass_role truth_by; /* the parameter whose choice that is */
     bool truth_has_choices;
     enum glint_pass_role channel_by; /* the parameter whose choice is the place of the channel among channel_choices */
     const char *channel_choices;     /* NULL: the channel is no choice */

@@ -171,6 +171,8 @@ struct glint_replay_options {
     /* Images that the caller will read or write, NULL-terminated; NULL: all. Other images then share memory, so that every run
        computes them again. */
     const char *const *outputs;
+    /* Images that are looked at for themselves, NULL-terminated, or NULL: what makes them runs even where the picture does without them. */
+    const char *const *results;
     /* A run folder, or NULL. Images that a pass reads and no pass of this run makes are taken from there, or else from the
        capture's parts engine.SLOT.IMAGE, whose channels have the names that the image's declaration states. */
     const char *inputs;
