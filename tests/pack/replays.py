@@ -128,8 +128,12 @@ class Tests:
         for scene, fmt in chosen:
             try:
                 found.append((fmt, self.compare(scene, fmt)))
+                said = "as the original" if found[-1][1] else "as its control"
             except AssertionError as error:
                 different.append((scene, fmt, str(error)))
+                said = "different"
+            if PART:
+                print(f"# {scene}, {fmt}: {said}", flush=True)
         assert not different, f"{len(different)} of {len(chosen)}: {different}"
         assert all(kept for fmt, kept in found if fmt in lossless), found
         print(f"# {sum(kept is not None for _, kept in found)} replayed, {sum(bool(kept) for _, kept in found)} of them as the original")
