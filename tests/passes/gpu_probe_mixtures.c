@@ -293,6 +293,7 @@ static const struct way {
     {"street", check_kf2, {"downsample.share=0", "screen_trace=dda", "resolve=blurred", "compose=contribution"}},
     {"street", check_mips, {"downsample.share=0", "screen_trace=dda", "blur=mips"}},
     {"street", check_levels, {"downsample=mips", "screen_trace=dda", "blur=upscale_blur", "blur.width=4"}},
+    {"street", check_levels, {"downsample=mips_sparse", "screen_trace=dda", "blur=upscale_blur"}},
     {"lake", check_lake, {"planar=lookup", "water=combine"}},
     {"glasshouse",
      check_transparency,
@@ -338,16 +339,19 @@ static void test_mips(void **state) {
 static void test_levels(void **state) {
     mixtures(*state, &ways[2]);
 }
-static void test_lake(void **state) {
+static void test_sparse_levels(void **state) {
     mixtures(*state, &ways[3]);
 }
-static void test_transparency(void **state) {
+static void test_lake(void **state) {
     mixtures(*state, &ways[4]);
+}
+static void test_transparency(void **state) {
+    mixtures(*state, &ways[5]);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_blurred), cmocka_unit_test(test_mips),
-                                       cmocka_unit_test(test_levels), cmocka_unit_test(test_lake),
-                                       cmocka_unit_test(test_transparency)};
+                                       cmocka_unit_test(test_levels),  cmocka_unit_test(test_sparse_levels),
+                                       cmocka_unit_test(test_lake),    cmocka_unit_test(test_transparency)};
     return cmocka_run_group_tests_name("gpu_probe_mixtures", tests, gpu_set_up, gpu_tear_down);
 }
