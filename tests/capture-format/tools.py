@@ -13,7 +13,7 @@ import programs  # noqa: E402
 
 def run(*command):
     programs.find(command[0])
-    done = subprocess.run(command, capture_output=True, text=True)
+    done = subprocess.run(command, capture_output=True, text=True, env=programs.ENVIRONMENT)
     text = done.stdout + done.stderr
     status = 0 if command[0] == "exrinfo" else done.returncode  # exrinfo 3.1.5 never sets its status: its messages tell
     # A channel may be named "error".

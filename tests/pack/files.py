@@ -34,7 +34,7 @@ class Tests:
         return os.path.join(self.base.folder, name)
 
     def oiiotool(self, *words):
-        subprocess.run([programs.find("oiiotool"), *words], check=True, capture_output=True)
+        subprocess.run([programs.find("oiiotool"), *words], check=True, capture_output=True, env=programs.ENVIRONMENT)
 
     def manifest(self, texture, channels):
         return self.base.write("frame", self.base.changed({}, {"other": texture}, {PART: channels}))

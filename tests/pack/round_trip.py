@@ -200,7 +200,7 @@ class Tests:
         listings = [subprocess.run([programs.find("exrheader"), p], capture_output=True, text=True, check=True).stdout.split("\n", 4)[-1]
                     for p in (path, again)]
         assert listings[0] == listings[1], "headers differ"
-        subprocess.run([programs.find("idiff"), "-q", "-a", path, again], check=True)
+        subprocess.run([programs.find("idiff"), "-q", "-a", path, again], check=True, env=programs.ENVIRONMENT)
         self.check_bytes(again)
 
     def test_z_manifests_follow_the_schema(self):

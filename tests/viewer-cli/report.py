@@ -217,7 +217,7 @@ class Tests:
     def test_a_point_of_a_sweep_shows_its_parameters_and_its_picture(self):
         swept = self.path("swept")
         glint("sweep", self.capture, "-o", swept, "--vary=cubemap_trace.steps_hq=8,24", "--vary=resolve.fog=false,true",
-              "--reference=truth", "--repeat=1")
+              "--reference=truth", "--repeat=1", "-p", PLAIN)
         with open(os.path.join(swept, "points.json"), encoding="utf-8") as file:
             points = {f"point {p['point']}": p for p in json.load(file)["points"]}
         assert len(points) == 4

@@ -230,13 +230,13 @@ class Tests:
         assert lines[-1].endswith("1 cases, 1 failed"), lines[-1]
 
     def test_groups_that_get_no_device_beside_others_run_after_them(self):
-        only = ("--json", "--quick", "--only", "versine", "--only", "roughness 0", "--only", "10^3 m", "--only", "inches")
+        only = ("--json", "--quick", "--only", "versine", "--only", "roughness 0", "--only", "inches")
         wanted = json.loads(selftest(*only).stdout)
         for what, refused in (("open", "refused a device"), ("memory", "refused memory")):
             run = selftest(*only, LD_PRELOAD=FEW_DEVICES, FEW_DEVICES=what, ASAN_OPTIONS="verify_asan_link_order=0")
             found = json.loads(run.stdout)
             assert refused in run.stderr or os.cpu_count() == 1, (what, run.stderr)
-            assert found["cases"] == wanted["cases"] and [g["name"] for g in found["groups"]] == ["functions", "geometry", "numbers", "invariance"], found
+            assert found["cases"] == wanted["cases"] and [g["name"] for g in found["groups"]] == ["functions", "geometry", "invariance"], found
 
     def test_every_shared_function_has_a_case(self):
         evaluated = " ".join(case.get("evaluated", "") for case in cases("--list"))

@@ -10,7 +10,7 @@ import zlib
 
 from browser import run_tests
 from pictures import read_png
-from tap import glint
+from tap import glint, programs
 
 SIZE = (48, 27)
 STAGE = "document.querySelector('.stage')"  # of the final image
@@ -174,7 +174,7 @@ class Tests:
 
     def test_what_is_no_number_is_said_in_words(self):
         for name, add in (("root.exr", "-1"), ("number.exr", "0.25")):  # the root of a negative number is not one
-            subprocess.run(["oiiotool", "--create", "12x8", "3", "--addc", add, "--powc", "0.5", "-d", "float", "-o", self.path(name)], check=True)
+            subprocess.run(["oiiotool", "--create", "12x8", "3", "--addc", add, "--powc", "0.5", "-d", "float", "-o", self.path(name)], check=True, env=programs.ENVIRONMENT)
         out = self.path("root.html")
         glint("diff", self.path("root.exr"), self.path("number.exr"), "--html", out, status=2)
         self.browser.show(out)
@@ -223,7 +223,7 @@ class Tests:
 
     def test_two_files_make_a_page_too(self):
         for name, what in (("a.exr", "1,0.5,0"), ("b.exr", "1,0.5,0.25")):
-            subprocess.run(["oiiotool", "--create", "12x8", "3", f"--fill:color={what}", "12x8", "-d", "float", "-o", self.path(name)], check=True)
+            subprocess.run(["oiiotool", "--create", "12x8", "3", f"--fill:color={what}", "12x8", "-d", "float", "-o", self.path(name)], check=True, env=programs.ENVIRONMENT)
         out = self.path("files.html")
         glint("diff", self.path("a.exr"), self.path("b.exr"), "--html", out, status=2)
         self.browser.show(out)

@@ -62,7 +62,7 @@ def piped(words, **environment):
 
 def words_of(text):
     """Times differ from run to run, and long words are broken."""
-    text = re.sub(r"\d(\S*) m?s\b", r"\1", text)
+    text = re.sub(r"\d(\S*) [mµ]?s\b", r"\1", text)
     return {word for word in text.split() if not re.search(r"\d", word) and len(word) < 16}
 
 

@@ -132,7 +132,7 @@ static void assert_same_findings(const char *a, const char *b) {
 static void a_killed_sweep_goes_on(UNUSED void **state) {
     char command[1024];
     static const char arguments[] =
-        "--repeat=2 --reference=truth --no-pictures --sample=lhs:8 --seed=3 --vary=screen_trace.thickness=0.01..0.1 "
+        "--repeat=2 --reference=truth --no-pictures --sample=lhs:6 --seed=3 --vary=screen_trace.thickness=0.01..0.1 "
         "--vary=cubemap_trace.steps_hq+cubemap_trace.steps_lq=4..64:log";
     snprintf(command, sizeof command,
              "cd %s && \"$GLINT\" sweep room.exr -o killed -p %s %s & pid=$!; "
@@ -153,8 +153,8 @@ static void a_killed_sweep_goes_on(UNUSED void **state) {
                  i ? "whole" : "killed", GLINT_TEST_PRESET, arguments);
         free(checked(run_program("sh", "-c", command, NULL), 0, __FILE__, __LINE__));
     }
-    assert_int_equal(count_lines("killed/log.jsonl"), 8 * (1 + 2));
-    assert_int_equal(count_lines("whole/log.jsonl"), 8 * (1 + 2));
+    assert_int_equal(count_lines("killed/log.jsonl"), 6 * (1 + 2));
+    assert_int_equal(count_lines("whole/log.jsonl"), 6 * (1 + 2));
     assert_same_findings("killed/points.json", "whole/points.json");
 }
 

@@ -17,6 +17,7 @@ GLINT = sys.argv[1]
 
 
 def call(*words, **more):
+    more = {"env": tap.programs.ENVIRONMENT, **more} if words[0] == "oiiotool" else more
     run = subprocess.run(words, capture_output=True, **more)
     assert run.returncode == 0, (words, run.stdout[-2000:], run.stderr)
     return run.stdout

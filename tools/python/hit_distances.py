@@ -7,8 +7,6 @@ import os
 import sys
 from typing import Any
 
-import matplotlib
-import matplotlib.figure
 import numpy as np
 from numpy.typing import NDArray
 
@@ -50,6 +48,9 @@ def groups(run: glint.Run) -> list[Group]:
 
 def draw(run: glint.Run) -> Any:
     """The matplotlib figure. Bars on a logarithmic scale; what is nearer than NEAREST_M, and what has no distance, stands apart."""
+    import matplotlib.figure  # takes a second, which an error should not
+
+    matplotlib.rcParams["svg.hashsalt"] = "glint"  # the same run gives the same file
     rays = groups(run)
     total = sum(group.count for group in rays)
     farthest_m = max((group.finite_m.max() for group in rays if len(group.finite_m)), default=0.0)
@@ -81,7 +82,6 @@ def main() -> int:
     given = parser.parse_args()
     if not given.output.endswith((".png", ".svg")):
         parser.error(f"{given.output}: expected a name that ends in .png or .svg")
-    matplotlib.rcParams["svg.hashsalt"] = "glint"  # the same run gives the same file
     try:
         draw(glint.Run(given.run)).savefig(given.output, dpi=120, metadata={"Date": None} if given.output.endswith(".svg") else None)
     except (glint.Error, OSError) as error:
