@@ -19,7 +19,7 @@ enum { KEY_QUICK = 256, KEY_ONLY, KEY_LIST, KEY_PASSES };
 
 /* clang-format off */
 static const struct argp_option options[] = {
-    {"quick",  KEY_QUICK,  NULL,         0, "Test fewer points in each table: under 20 s on two cores", 0},
+    {"quick",  KEY_QUICK,  NULL,         0, "Test fewer points in each table: half a minute on two cores, two where no shader is compiled yet", 0},
     {"only",   KEY_ONLY,   "TEXT",       0, "Run only cases whose name, group or description contains TEXT; may be repeated", 0},
     {"list",   KEY_LIST,   NULL,         0, "List the cases with their bounds and reasons without running them", 0},
     {"passes", KEY_PASSES, "FOLDER",     0, "Use the shaders in FOLDER, such as the passes/ folder of a source tree, instead of the built-in ones (default: "
