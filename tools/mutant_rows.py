@@ -175,11 +175,11 @@ MISSING = {
      "return environment_reflectance(f0, surface.w > 0.0 ? min(surface.w, 1.0) : 0.0, cosine, rise); // NaN becomes 0",
      "return environment_reflectance(f0, surface.w > 0.0 ? (surface.w) : 0.0, cosine, rise); // NaN becomes 0"):
         "a roughness above 1 with the variant contribution",
-    ("prepare/downsample/mips.comp",
+    ("prepare/downsample/mips.glsl",
      "vec3 vertex = has_vertex ? texelFetch(vertex_normal_full, source, 0).xyz : surface.xyz;",
      "vec3 vertex = has_vertex ? texelFetch(vertex_normal_full, source, 0).zyx : surface.xyz;"):
         "vertex normals that are not the shading ones, in three resolutions",
-    ("prepare/downsample/mips.comp",
+    ("prepare/downsample/mips.glsl",
      "vec4(used && reflects(1.0, vertex) ? normalize(vertex) : vec3(0.0), (chosen & 1u) + 8u * (chosen >> 1u)));",
      "vec4( vec3(0.0), (chosen & 1u) + 8u * (chosen >> 1u)));"):
         "vertex normals that are not the shading ones, in three resolutions",
