@@ -18,11 +18,7 @@ uvec4 edges_in_block(ivec2 block, int level) {
     return all;
 }
 
-// The texel of its 2x2 block, x + 2y, that a texel of a coarser level was picked from.
-uint picked_from(ivec2 texel, int level) {
-    uint place = uint(texelFetch(vertex_normal_levels, texel, level).w);
-    return (place >> level & 1u) | (place >> 3 + level & 1u) << 1;
-}
+uint picked_from(ivec2 texel, int level) { return picked_in_block(uint(texelFetch(vertex_normal_levels, texel, level).w), level); }
 
 // A Gaussian along rows or columns that ends where the surface ends.
 vec4 along(ivec2 texel, int level, ivec2 step, uint back, uint forth) {

@@ -22,4 +22,7 @@ vec4 open_in_block(uvec4 edges, uint from) {
     open[from ^ 3u] = max(across[y] * down[x ^ 1u], down[x] * across[y ^ 1u]);
     return open;
 }
+
+// The texel of its 2x2 block, x + 2y, that a texel of a coarser level was picked from. place: of its pixel within the texel, x + 8y.
+uint picked_in_block(uint place, int level) { return (place >> level & 1u) | (place >> 3 + level & 1u) << 1; }
 #endif

@@ -77,6 +77,7 @@ MUTANTS = [
     ("levels", "<= reach * reach", "< reach * reach", ["taps of a lattice"]),
     ("edges", "* 3.0 + 0.5", "* 3.0", ["packed edges"]),
     ("edges", "max(across[y] * down[x ^ 1u]", "min(across[y] * down[x ^ 1u]", ["edges of a block"]),
+    ("edges", "place >> 3 + level", "place >> 2 + level", ["picked texel of a block"]),
     ("levels", "+ 3.0) * log1p(r2)", "+ 2.0) * log1p(r2)", ["taps of a pre-filter"]),
     ("sampling", "log(0.5) * 0.5 * power", "log(0.5) * power", ["cone of a cut lobe"]),
     ("paraboloid", "d.z < 0.0 ? 1.0 : 0.0", "d.z < 0.0 ? 0.0 : 1.0", ["place on a paraboloid"]),

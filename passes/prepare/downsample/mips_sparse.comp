@@ -22,8 +22,8 @@ bool stands_for(ivec2 texel, int level, out bool itself) {
     itself = false;
     if (level + 1 >= textureQueryLevels(normals)) return false;
     if (any(greaterThanEqual(home, level_size(level + 1))) || !reflects(1.0, texelFetch(normals, home, level + 1).xyz)) return false;
-    uint place = uint(texelFetch(vertex_normals, home, level + 1).w), own = uint(texel.x & 1) | uint(texel.y & 1) << 1;
-    uint from = (place >> level + 1 & 1u) | (place >> level + 4 & 1u) << 1; // as picked_from() of blur/level_filter.glsl
+    uint own = uint(texel.x & 1) | uint(texel.y & 1) << 1;
+    uint from = picked_in_block(uint(texelFetch(vertex_normals, home, level + 1).w), level + 1);
     itself = from == own;
     return open_in_block(sides_in_block(2 * home, level), from)[own] > 0.0;
 }

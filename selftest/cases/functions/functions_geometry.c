@@ -196,6 +196,11 @@ static void expect_block(const double *x, double *y) {
         else y[k] = fmax(across[row] * down[c], down[column] * across[r]);
     }
 }
+/* Half of a texel of this level, along x and y, is the texel of the finer one. */
+static void expect_picked_texel(const double *x, double *y) {
+    const double wide = exp2(x[2]);
+    y[0] = fmod(floor(x[0] / wide), 2) + 2 * fmod(floor(x[1] / wide), 2);
+}
 /* A tap seen from the centre of a face: cosⁿ⁺³ of the angle to it, and the level whose texels are half as wide as taps are apart;
    a texel off the face's centre is seen smaller. */
 static void expect_tap(const double *x, double *y) {
@@ -304,6 +309,8 @@ static const struct function list[] = {
     {"edges of a block", "which texels of a block are on one surface; diagonal ones by the better of both connections", "open_in_block(uvec4(packed_side(a.x / 3.0, SIDE_RIGHT) | packed_side(a.z / 3.0, SIDE_DOWN), packed_side(a.w / 3.0, SIDE_DOWN), "
      "packed_side(a.y / 3.0, SIDE_RIGHT), 0u), uint(b.x))", "upper lower left right from", {{WHOLE, 0, 3, 0}, {WHOLE, 0, 3, 0}, {WHOLE, 0, 3, 0}, {WHOLE, 0, 3, 0}, {WHOLE, 0, 3, 0}}, NULL,
      expect_block, 4, ABSOLUTE, 4.5e-7, "a product of two thirds, 2.5 ULP each (Vulkan), and a rounding"},
+    {"picked texel of a block", "the texel of a finer level that a pixel within a coarser texel belongs to", "picked_in_block(uint(a.x) + 8u * uint(a.y), int(a.z))", "x y level",
+     {{WHOLE, 0, 7, 0}, {WHOLE, 0, 7, 0}, {WHOLE, 1, 2, 0}}, NULL, expect_picked_texel, 1, ABSOLUTE, 0, "integers"},
     {"taps of a pre-filter", "weight and level, narrow cones to wide ones", "cube_tap(ivec2(a.xy), vec3(0.0, 0.0, 1.0), vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), a.z, a.w, 3, 3.5, 0.1).weight, "
      "cube_tap(ivec2(a.xy), vec3(0.0, 0.0, 1.0), vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), a.z, a.w, 3, 3.5, 0.1).lod, 0.0, 0.0", "x y level size", {{WHOLE, -3, 3, 0}, {WHOLE, -3, 3, 0}, {WHOLE, 1, 8, 0}, {LOG, 16, 2048, 0}}, NULL,
      expect_tap, 2, ABSOLUTE, 6e-6, "log2 is 3 ULP off (Vulkan), 1.5e-6 of 8; the weight's exponent carries two logarithms, 16 ULP each"},
