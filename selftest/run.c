@@ -29,14 +29,17 @@ static void remove_folder(const char *folder) {
     if (folder[0]) rmdir(folder);
 }
 
-/* Each worker has its own device and folder. A worker that gets no device, or whose device has not enough memory beside the others,
-   leaves its group to the remaining workers; the last one has the device to itself. */
+/* Each worker has its own device and folder. A worker whose device has not enough memory beside the others leaves its group to the
+   remaining workers; what none of them could run is run again with one device. Devices are opened before the workers start and closed
+   when all are done: releases of the loader and of the validation layer up to 2023 race where one thread opens or closes a device while
+   another one uses its own (Vulkan-Loader issue 200, Vulkan-ValidationLayers issue 4391). */
 struct work {
     struct glint_selftest *selftest;
     const struct glint_selftest_options *options;
     glint_progress progress;
     void *user;
-    pthread_mutex_t lock; /* of the following members, and of calls of progress */
+    struct glint_device *devices[SELFTEST_GROUPS]; /* of each worker */
+    pthread_mutex_t lock;                          /* of the following members, and of calls of progress */
     bool waits[SELFTEST_GROUPS], alone;
     size_t ready[SELFTEST_GROUPS]; /* number of cases of each group */
     struct glint_error error;      /* of the first group that failed */
@@ -119,48 +122,47 @@ static void leave_group(struct work *work, size_t g, bool starved, const struct 
     pthread_mutex_unlock(&work->lock);
 }
 
-static struct glint_device *open_device(struct work *work, struct glint_error *err) {
-    const struct glint_device_options options = {.select = work->options->device, .passes = work->options->passes};
-    struct glint_device *device = glint_device_create(&options, err);
-    if (!device) return NULL;
-    pthread_mutex_lock(&work->lock);
-    work->selftest->device = *glint_device_get_info(device); /* all workers use the same device */
-    pthread_mutex_unlock(&work->lock);
-    return device;
-}
-
 static bool run_worker(void *user, uint32_t worker, size_t index) {
     struct work *work = user;
-    struct glint_device *device = NULL;
-    (void)worker, (void)index;
+    struct glint_device *device = work->devices[index];
+    (void)worker;
     for (size_t g; (g = take_group(work)) < SELFTEST_GROUPS;) {
         struct glint_error err = {0};
-        if (!device) device = open_device(work, &err);
-        const bool ran = device && run_group(work, device, &work->selftest->groups[g], &err);
-        const bool starved = !device || err.code == GLINT_ERROR_DEVICE || err.code == GLINT_ERROR_MEMORY;
+        const bool ran = run_group(work, device, &work->selftest->groups[g], &err);
+        const bool starved = err.code == GLINT_ERROR_DEVICE || err.code == GLINT_ERROR_MEMORY;
         if (ran && is_silent(device, &err)) continue;
-        glint_device_destroy(&device); /* before others allocate the memory that it needed */
         leave_group(work, g, starved, &err);
         break;
     }
-    glint_device_destroy(&device);
     return true;
+}
+
+/* Runs the waiting groups with as many devices as can be opened, up to `wanted`. False if there is none. */
+static bool run_waiting(struct work *work, uint32_t wanted, struct glint_error *err) {
+    const struct glint_device_options options = {.select = work->options->device, .passes = work->options->passes};
+    struct glint_error refused = {0};
+    uint32_t count = 0;
+    while (count < wanted && (work->devices[count] = glint_device_create(&options, &refused))) count++;
+    if (count) work->selftest->device = *glint_device_get_info(work->devices[0]); /* the same one for all workers */
+    work->alone = count == 1;
+    glint_loop(count, count, run_worker, work);
+    for (uint32_t i = 0; i < count; i++) glint_device_destroy(&work->devices[i]);
+    return count || glint_fail(err, refused.code, "%s", refused.message);
+}
+
+static uint32_t count_waiting(const struct work *work) {
+    uint32_t count = 0;
+    for (size_t g = 0; g < SELFTEST_GROUPS; g++) count += work->waits[g];
+    return count;
 }
 
 bool glint_selftest_run(struct glint_selftest *selftest, const struct glint_selftest_options *options,
                         glint_progress progress, void *user, struct glint_error *err) {
     struct work work = {.selftest = selftest, .options = options, .progress = progress, .user = user};
-    size_t count = 0;
-    for (size_t g = 0; g < SELFTEST_GROUPS; g++) {
-        work.waits[g] = selftest->groups[g].public.count > 0;
-        count += work.waits[g];
-    }
+    for (size_t g = 0; g < SELFTEST_GROUPS; g++) work.waits[g] = selftest->groups[g].public.count > 0;
     pthread_mutex_init(&work.lock, NULL);
-    const uint32_t workers = glint_loop_workers(count, 0);
-    glint_loop(workers, workers, run_worker, &work);
-    work.alone = true;
-    run_worker(&work, 0, 0);
+    bool ok = run_waiting(&work, glint_loop_workers(count_waiting(&work), 0), err);
+    if (ok && !work.error.code && count_waiting(&work)) ok = run_waiting(&work, 1, err);
     pthread_mutex_destroy(&work.lock);
-    if (work.error.code && err) *err = work.error;
-    return !work.error.code;
+    return ok && (!work.error.code || glint_fail(err, work.error.code, "%s", work.error.message));
 }

@@ -43,6 +43,8 @@ def run(tests):
             print(f"ok {i} - {words}", flush=True)
         except Exception as error:
             failed += 1
-            print(f"not ok {i} - {words}\n# " + explained(error).replace("\n", "\n# "), flush=True)
+            why = explained(error)
+            print(f"not ok {i} - {words}\n# " + why.replace("\n", "\n# "), flush=True)
+            print(f"{words}: {why}", file=sys.stderr, flush=True)  # Meson shows of a failed test what it wrote to stderr
         print(f"# {cpu_seconds() - before:.1f} s of CPU", flush=True)
     return failed > 0

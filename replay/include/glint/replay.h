@@ -60,6 +60,8 @@ struct glint_device_options {
     /* Enables the Khronos validation layer with synchronisation validation, as does $GLINT_VALIDATION=1. */
     bool validation;
 };
+/* Devices may be used by a thread each, but open and close none meanwhile: releases of the loader and of the validation layer up to 2023
+   race there. */
 struct glint_device *glint_device_create(const struct glint_device_options *options, struct glint_error *err);
 void glint_device_destroy(struct glint_device **device);
 const struct glint_device_info *glint_device_get_info(const struct glint_device *device);
