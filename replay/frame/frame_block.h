@@ -36,7 +36,7 @@ void frame_block_fill(struct frame_block *block, const struct glint_frame *frame
 void frame_block_mirror(struct frame_block *block, const struct glint_frame *frame, const struct glint_planar *planar);
 /* Sets the fields of the sun's shadow map, which stay 0 without one. */
 void frame_block_shadow(struct frame_block *block, const struct glint_frame *frame, const struct glint_shadow *shadow);
-/* Sets what the capture says of its part `indirect`. */
+/* Sets what the capture says of its part `indirect`, and its exposure. */
 void frame_block_captured_light(struct frame_block *block, const struct glint_capture *capture);
 /* Sets the fields of what rays find that nothing nearer continues: sky, probe, painted ground. */
 void frame_block_far(struct frame_block *block, const struct glint_capture *capture);

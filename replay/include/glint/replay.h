@@ -139,6 +139,8 @@ struct glint_survey {
     bool has_sky, has_probe, has_previous, has_planar, has_water, has_transparent, has_fresnel, has_fog;
     bool has_indirect, has_sun; /* which part of the light is indirect is known; the capture declares a sun */
     bool has_volume;            /* the capture has a volume of light */
+    bool has_scene;             /* the capture has the finished picture */
+    double exposure;            /* the capture's factor from radiance to what is displayed */
     bool has_earlier_lit, has_earlier_scene; /* pictures of the previous frame */
     uint64_t luminous; /* pixels of the lit picture that are not black; all, where it was not read */
     bool has_history;  /* the replay holds the images of the previous frame, and this frame is no camera cut */
@@ -153,7 +155,7 @@ struct glint_survey {
     uint64_t water, transparent; /* pixels with a water or a transparent surface in front */
     uint64_t moved, moving;   /* surfaces that moved in the picture since the previous frame; not by the camera alone */
     uint64_t stencil_bits[8]; /* pixels by the bits of their stencil id */
-    float light[2];           /* lowest and highest luminance of the lit picture */
+    float light[2];              /* lowest and highest finite luminance of the lit picture, the latter also if `partial`; +inf where it was not read */
     float transparent_roughness; /* largest roughness of a transparent surface */
     /* Entries of `active`, in the order of the active cube maps, whose faces were surveyed; 0: they may show anything. And how many
        of these also have `crossed` and `nearby`; 0: rays may reach every face. */
