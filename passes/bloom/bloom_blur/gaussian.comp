@@ -17,11 +17,12 @@ vec3 texel_at(ivec2 texel, int level, ivec2 last) {
 vec3 blurred(ivec2 at, int level, ivec2 last) {
     float texels = deviation * 2.0 / reduction(frame.size), total = 1.0; // MIP 1 is half as wide as the picture
     vec3 sum = texel_at(at, level, last);
-    ivec2 step = dispatch_phase == 0u ? ivec2(1, 0) : ivec2(0, 1);
+    int x = dispatch_phase == 0u ? 1 : 0; // not vectors chosen by dispatch_phase: Mesa 22.3's lavapipe mixes up their components
+    ivec2 along = ivec2(x, 1 - x);
     int reach = int(ceil(3.0 * texels));
     for (int i = 1; i <= reach; ++i) {
         float weight = exp(-0.5 * float(i * i) / (texels * texels));
-        sum += weight * (texel_at(at - i * step, level, last) + texel_at(at + i * step, level, last));
+        sum += weight * (texel_at(at - i * along, level, last) + texel_at(at + i * along, level, last));
         total += 2.0 * weight;
     }
     return sum / total;

@@ -15,7 +15,7 @@
 vec3 passed(vec3 color) {
     float bright = luminance(color) * frame.captured_light.y;
     if (!(bright > threshold) || !finite(vec4(color, bright))) return vec3(0.0);
-    return pass == pass_excess ? color * (1.0 - threshold / bright) : color;
+    return cut == cut_excess ? color * (1.0 - threshold / bright) : color;
 }
 
 vec3 finer(ivec2 texel) {

@@ -155,7 +155,8 @@ struct glint_survey {
     uint64_t water, transparent; /* pixels with a water or a transparent surface in front */
     uint64_t moved, moving;   /* surfaces that moved in the picture since the previous frame; not by the camera alone */
     uint64_t stencil_bits[8]; /* pixels by the bits of their stencil id */
-    float light[2];              /* lowest and highest finite luminance of the lit picture, the latter also if `partial`; +inf where it was not read */
+    /* Lowest and highest finite luminance of the lit picture; the latter also if `partial`, and +inf where the picture was not read. */
+    float light[2];
     float transparent_roughness; /* largest roughness of a transparent surface */
     /* Entries of `active`, in the order of the active cube maps, whose faces were surveyed; 0: they may show anything. And how many
        of these also have `crossed` and `nearby`; 0: rays may reach every face. */

@@ -2,9 +2,9 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "shared/bindings.glsl"
-#include "sum.pass.h"
+#include "combined.pass.h"
 #include "shared/push_begin.glsl"
-#include "sum.pass.h"
+#include "combined.pass.h"
 };
 #include "shared/constants.glsl"
 #include "shared/picture.glsl"
