@@ -119,6 +119,8 @@ KINDS = [
          row=VALUE, push='$type $name;'),
     Kind('ROLE', 'role, name', 'What this image or parameter is to replay and study, which know none by name: enum glint_pass_role.',
          row='.name = "", .image = #$name, .first = GLINT_ROLE_##$role'),
+    Kind('ENCODED_BY', 'image, parameter', 'This image of the pass is encoded as the choice of the parameter says, by a name of the encoding `color` of capture-format/FORMAT.md. '
+         'Run folders state it, and commands heed it.', row='.name = #$image, .assigned = #$parameter'),
     Kind('TRACER', 'label, image', 'The pass traces rays: tables call it by the label, and `image`, a DIAGNOSTIC, holds why each ray ended.',
          row='.name = $label, .image = #$image'),
     Kind('ASSUMED', 'parameter',

@@ -23,7 +23,7 @@ struct frame_block {
 };
 
 struct frame_sizes {
-    uint32_t full[2], half[2], planar[2], shadow[2], grid[2];
+    uint32_t full[2], half[2], planar[2], shadow[2], grid[2], table[2], dirt[2];
     uint32_t active, chain, cube_face, sky_face, probe_face, probe_mips;
     bool is_cpu;  /* that of struct glint_device_info */
     bool history; /* images of the previous frame are available */

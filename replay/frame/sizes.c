@@ -61,6 +61,8 @@ bool plan_find_sizes(struct frame_plan *plan, struct glint_error *err) {
                                  *sky = glint_capture_find(capture, GLINT_PART_SKY),
                                  *planar = glint_capture_find(capture, GLINT_PART_MIRROR),
                                  *shadow = glint_capture_find(capture, GLINT_PART_SHADOW),
+                                 *table = glint_capture_find(capture, GLINT_PART_TABLE),
+                                 *dirt = glint_capture_find(capture, GLINT_PART_DIRT),
                                  *grid = glint_capture_find(capture, PART_GRID);
     if (!gbuffer) return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part gbuffer: missing", glint_capture_path(capture));
     *sizes = (struct frame_sizes){.full = {gbuffer->width, gbuffer->height},
@@ -72,6 +74,8 @@ bool plan_find_sizes(struct frame_plan *plan, struct glint_error *err) {
     sizes->probe_mips = (uint32_t)glint_capture_probe(capture, 0, levels, roughness);
     if (sizes->probe_mips) sizes->probe_face = levels[0]->width;
     if (shadow) sizes->shadow[0] = shadow->width, sizes->shadow[1] = shadow->height;
+    if (table) sizes->table[0] = table->width, sizes->table[1] = table->height;
+    if (dirt) sizes->dirt[0] = dirt->width, sizes->dirt[1] = dirt->height;
     if (planar) sizes->planar[0] = planar->width, sizes->planar[1] = planar->height;
     sizes->grid[0] = grid ? grid->width : GRID_CELLS;
     sizes->grid[1] = grid ? grid->height : GRID_CELLS * GRID_CELLS;
@@ -169,6 +173,12 @@ bool plan_describe(const struct frame_plan *plan, const struct graph_image *imag
         break;
     case GLINT_SIZE_SHADOW:
         expected[0] = sizes->shadow[0], expected[1] = sizes->shadow[1];
+        break;
+    case GLINT_SIZE_TABLE:
+        expected[0] = sizes->table[0], expected[1] = sizes->table[1];
+        break;
+    case GLINT_SIZE_DIRT:
+        expected[0] = sizes->dirt[0], expected[1] = sizes->dirt[1];
         break;
     case GLINT_SIZE_GRID:
         expected[0] = sizes->grid[0], expected[1] = sizes->grid[1];

@@ -455,6 +455,8 @@ bool glint_capture_validate(const char *path, const struct glint_limits *limits,
 #define GLINT_PART_PROBE "probe.000" /* the only probe that passes use */
 #define GLINT_PART_WATER "water"
 #define GLINT_PART_TRANSPARENT "transparent"
+#define GLINT_PART_TABLE "lut"
+#define GLINT_PART_DIRT "dirt"
 #define GLINT_PART_SHADOW "shadow.000" /* the only shadow map that passes use */
 #define GLINT_PART_MIRROR "planar.000" /* the only planar map that passes use */
 
@@ -472,6 +474,7 @@ enum glint_shape {
     GLINT_SHAPE_FRAME,  /* the G-buffer's size */
     GLINT_SHAPE_CUBE,   /* N × 6N */
     GLINT_SHAPE_LEVELS, /* N × 6N, with coarser levels as parts of their own: NAME.level1 … */
+    GLINT_SHAPE_TABLE,  /* N × N²: a table of colours, N slices of N × N below each other */
     GLINT_SHAPE_ANY
 };
 /* Whether the part is six faces below each other. */
