@@ -446,6 +446,9 @@ typedef void (*glint_report)(void *user, const char *rule, const char *message);
 bool glint_capture_validate(const char *path, const struct glint_limits *limits, glint_report report, void *user,
                             size_t *violations, struct glint_error *err);
 
+/* What the encoding `srgb` of colours decodes to. */
+float glint_linear_of_srgb(float value);
+
 /* Names of common parts. */
 #define GLINT_PART_GBUFFER "gbuffer"
 #define GLINT_PART_LIT "lit"

@@ -335,6 +335,8 @@ struct glint_run;
 struct glint_run_image {
     const char *slot, *variant, *name, *unit, *meaning, *channels; /* channels as declared: "R G B A" */
     uint32_t width, height, components;
+    const char *
+        encoding; /* of the colours, a name of the encoding `color` of FORMAT.md; "linear" unless the pass says otherwise */
     bool integer, cube; /* cube: cube maps, whose faces are stacked from top to bottom */
 };
 struct glint_run *glint_run_open(const char *folder, struct glint_error *err);
@@ -349,7 +351,7 @@ void glint_run_close(struct glint_run **run);
    "camera" {world_to_view, view_to_clip, clip_y}, "seconds" by phase, "peak_memory_bytes", "warnings",
    "passes" [{slot, variant, ran, reason, cached, cached_work, dispatches, work {texels, of, rays}, host, shader,
    parameters {name: value}, time_ns {n, min, median, max, cold},
-   images [{name, file, part, channels, unit, meaning, width, height, format}, …]}, …].
+   images [{name, file, part, channels, unit, meaning, width, height, format, encoding (not of linear ones)}, …]}, …].
    work: the texels that a pass was dispatched over (for a list those of its tiles), their number without culling, and with diagnostics
    the number of rays that a tracer traced. */
 const char *glint_run_json(const struct glint_run *run);
@@ -361,9 +363,16 @@ const struct glint_run_image *glint_run_find(const struct glint_run *run, const 
 bool glint_run_remove(const char *folder, struct glint_error *err);
 /* Replaces `folder`/run.json atomically. */
 bool glint_run_write_json(const char *folder, const char *text, struct glint_error *err);
-/* Reads an image as GLINT_F32, GLINT_U32 or its stored type, which keeps every bit. */
+/* Reads an image as GLINT_F32, GLINT_U32 or its stored type, which keeps every bit: colours as they are encoded. */
 bool glint_run_read(struct glint_run *run, const struct glint_run_image *image, enum glint_type type, void *out,
                     struct glint_error *err);
+/* Reads an image as floats, its colours decoded to linear ones. */
+bool glint_run_read_linear(struct glint_run *run, const struct glint_run_image *image, float *out,
+                           struct glint_error *err);
+/* Whether colours of that encoding are those of a display; NULL is linear. */
+bool glint_encoding_is_display(const char *encoding);
+/* Decodes R, G and B of interleaved pixels; names are those of the channels. */
+void glint_decode_display(float *values, size_t pixels, const char *const *names, size_t channels);
 
 #ifdef __cplusplus
 }
