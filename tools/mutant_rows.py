@@ -93,6 +93,11 @@ HARMLESS = {
     ("reflection/transparent_resolve/main.glsl", "vec4 color = tile_works && reflects(depth_m, normal) ? resolved(texel, depth_m, normal) : vec4(0.0);",
      "vec4 color = tile_works  ? resolved(texel, depth_m, normal) : vec4(0.0);"):
         "texels without a surface have a travelled distance of 0 and no source, so that they are black, too: the guard saves work",
+    ("display/grade/smooth.glsl", "ivec2 at = pixel + i * along;", "ivec2 at = pixel - i * along;"):
+        "both ends of a step are looked for, and exchanging them changes nothing",
+    ("display/grade/combined.comp", "if (any(greaterThanEqual(pixel, imageSize(graded)))) return;", "if (false) return;"): OUTSIDE,
+    ("display/exposure/stops.comp", "if (any(greaterThanEqual(pixel, imageSize(exposed)))) return;", "if (false) return;"): OUTSIDE,
+    ("bloom/bloom/combined.comp", "if (any(greaterThanEqual(pixel, imageSize(bloomed)))) return;", "if (false) return;"): OUTSIDE,
     ("indirect/indirect_apply/bilinear.comp",
      "float weight_of(ivec2 pixel, float depth_m, vec3 normal, ivec2 texel, float texel_m) { return 1.0; }",
      "float weight_of(ivec2 pixel, float depth_m, vec3 normal, ivec2 texel, float texel_m) { return 2.0; }"):

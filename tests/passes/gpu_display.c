@@ -95,6 +95,26 @@ static void off_is_the_same_bits(void **state) {
     }
 }
 
+/* Catches: exposure and grade that leave bloom out, or exchange its channels. */
+static void bloom_comes_before(void **state) {
+    struct gpu *gpu = *state;
+    load(gpu, &(struct picture){.color = stops});
+    free(RUN(gpu, "grade.grain=0"));
+    gpu_use(gpu, "bloom_threshold=luminance");
+    gpu_use(gpu, "bloom_blur=gaussian");
+    gpu_use(gpu, "bloom=combined");
+    for (int exposure = 0; exposure < 2; exposure++) {
+        if (!exposure) gpu_use(gpu, "exposure=none");
+        else gpu_use(gpu, "exposure=stops");
+        gpu_run(gpu);
+        float *found = gpu_floats(gpu, "graded", NULL, NULL), *before = gpu_floats(gpu, "bloomed", NULL, NULL),
+              *composed = gpu_floats(gpu, "composed", NULL, NULL);
+        assert_memory_equal(found, before, 4 * PIXELS * sizeof *found);
+        assert_true(memcmp(before, composed, 4 * PIXELS * sizeof *before) != 0);
+        free(found), free(before), free(composed);
+    }
+}
+
 /* ---- Curves ---- */
 
 /* Catches: stops of another base, an exposure that is left out or counts where it is switched off. */
@@ -378,6 +398,7 @@ static void a_run_states_its_encoding(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(off_is_the_same_bits),
+        cmocka_unit_test(bloom_comes_before),
         cmocka_unit_test(exposure_doubles_with_each_stop),
         cmocka_unit_test(tone_curves_are_those_published),
         cmocka_unit_test(a_table_maps_colours),
