@@ -131,6 +131,7 @@ ROLE(truth_mirror, "truth.mirror", FRAME, false, false, false, false, "the exact
 END(truth_mirror)
 ROLE(truth_occlusion, "truth.occlusion", FRAME, false, false, false, false, "path traced: which part of the hemisphere about the vertex normal, weighted by the cosine, no surface within glint.radius hides")
     CHANNEL("visibility", true, "1", "", "1 where nothing occludes the surface, and where sky")
+    CHANNEL("distance.Z", false, "m", "", "mean distance of what occludes the surface, over the occluded directions, weighted by the cosine; +inf where nothing does, and where sky")
 END(truth_occlusion)
 ROLE(truth_sun, "truth.sun", FRAME, false, false, false, false, "path traced: which part of the sun's disc the surface sees")
     CHANNEL("visibility", true, "1", "", "1 in the sun, and where sky; 0 in shadow, and where the vertex normal is turned away from the sun")
