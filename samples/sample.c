@@ -98,6 +98,7 @@ static bool check_options(const struct glint_sample_options *o, struct glint_err
         return glint_fail(err, GLINT_ERROR_USAGE,
                           "radius of occlusion %g, length of contact shadows %g: expected lengths", o->occlusion_radius,
                           o->contact_length);
+    if (o->cascades > 4) return glint_fail(err, GLINT_ERROR_USAGE, "%u cascades: expected at most 4", o->cascades);
     bool looks = finite3(o->eye) && finite3(o->target) && memcmp(o->eye, o->target, sizeof o->eye);
     if (o->camera_given && !looks)
         return glint_fail(err, GLINT_ERROR_USAGE, "camera: expected a position and another point to look at");

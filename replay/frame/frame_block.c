@@ -105,8 +105,26 @@ void frame_block_mirror(struct frame_block *block, const struct glint_frame *fra
                                  (float)(planar->plane[2] / length), (float)(offset / length * metres)};
 }
 
+size_t frame_sun_maps(const struct glint_capture *capture, const struct glint_part_info *maps[SHADOW_MAPS]) {
+    size_t count = 0, rows = 0;
+    const size_t parts = glint_capture_part_count(capture);
+    for (int32_t number = 0; count < SHADOW_MAPS; number = maps[count - 1]->index + 1) {
+        const struct glint_part_info *found = NULL; /* the map of the sun with the lowest number from `number` on */
+        for (size_t i = 0; i < parts; i++) {
+            const struct glint_part_info *part = glint_capture_part(capture, i);
+            if (part->has_shadow && !part->shadow.has_light && part->index >= number &&
+                (!found || part->index < found->index))
+                found = part;
+        }
+        if (!found || (rows += found->height) > SHADOW_ROWS) break;
+        maps[count++] = found;
+    }
+    return count;
+}
+
 /* A point p in metres, relative to this camera, is at eye + p/u in the world. The map's x and y are in [-1, 1]. */
-void frame_block_shadow(struct frame_block *block, const struct glint_frame *frame, const struct glint_shadow *shadow) {
+static void fill_shadow(struct frame_block *block, size_t k, const struct glint_frame *frame,
+                        const struct glint_shadow *shadow) {
     const double metres = frame->metres_per_unit > 0 ? frame->metres_per_unit : 1;
     const double down = frame->clip_y == GLINT_CLIP_Y_DOWN ? 1 : -1, *m = shadow->world_to_shadow;
     double eye[3];
@@ -116,14 +134,24 @@ void frame_block_shadow(struct frame_block *block, const struct glint_frame *fra
         for (int r = 0; r < 4; r++)
             of[r] = c < 3 ? m[4 * r + c] / metres
                           : m[4 * r] * eye[0] + m[4 * r + 1] * eye[1] + m[4 * r + 2] * eye[2] + m[4 * r + 3];
-        float *column = block->shadow_uv_from_world.column[c];
+        float *column = block->shadow_uv_from_world[k].column[c];
         column[0] = (float)(0.5 * (of[3] + of[0]));
         column[1] = (float)(0.5 * (of[3] + down * of[1]));
         column[2] = (float)of[2];
         column[3] = (float)of[3];
     }
     const bool falls = shadow->range[0] > shadow->range[1];
-    block->shadow_depth = (vec4){falls ? -1 : 1, (float)shadow->bias, 0, 0};
+    block->shadow_depth[k] = (vec4){falls ? -1 : 1, (float)shadow->bias, 0, 0};
+}
+
+void frame_block_shadows(struct frame_block *block, const struct glint_capture *capture) {
+    const struct glint_part_info *maps[SHADOW_MAPS];
+    const size_t count = frame_sun_maps(capture, maps);
+    uint32_t row = 0;
+    for (size_t k = 0; k < count; row += maps[k++]->height) {
+        fill_shadow(block, k, glint_capture_frame(capture), &maps[k]->shadow);
+        block->shadow_place[k] = (uvec4){0, row, maps[k]->width, maps[k]->height};
+    }
 }
 
 static vec4 metres_of(const double units[3], const double from[3], double metres) {

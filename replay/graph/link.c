@@ -22,11 +22,12 @@ bool graph_capture_has(const struct glint_capture *capture, const struct glint_r
     size_t found = 0;
     char part[64];
     if (!capture) return false;
-    if (!size_is_array(row->size)) return part_has(glint_capture_find(capture, row->role), row);
+    if (!size_is_array(row->size) && row->size != GLINT_SIZE_SHADOW)
+        return part_has(glint_capture_find(capture, row->role), row);
     snprintf(part, sizeof part, "%s.", row->role);
     for (size_t i = 0; i < glint_capture_part_count(capture); i++) {
         const struct glint_part_info *info = glint_capture_part(capture, i);
-        if (strncmp(info->name, part, strlen(part)) != 0) continue;
+        if (strncmp(info->name, part, strlen(part)) != 0 || (info->has_shadow && info->shadow.has_light)) continue;
         found += part_has(info, row);
     }
     return found > 0;

@@ -225,6 +225,8 @@ static bool add_pictures(struct glint_writer *writer, const struct plain *plain,
     return ok;
 }
 
+enum { MAP = 256 }; /* width of the first shadow map */
+
 /* One plane of values. */
 static bool add_plane(struct glint_writer *writer, struct glint_part part, const char *channel, const float *values,
                       struct glint_error *err) {
@@ -234,8 +236,23 @@ static bool add_plane(struct glint_writer *writer, struct glint_part part, const
     return glint_writer_add_part(writer, &part, err);
 }
 
+static bool add_cascades(struct glint_writer *writer, const struct plain *plain, float *values,
+                         struct glint_error *err) {
+    bool ok = true;
+    for (uint32_t k = 1; ok && k <= plain->cascade_count; ++k) {
+        const uint32_t wide = MAP >> k;
+        char name[32];
+        snprintf(name, sizeof name, "shadow.%03u", k);
+        for (uint32_t i = 0; i < wide * wide; ++i)
+            values[i] = plain->cascade(plain, k, (i % wide + 0.5) / wide, (i / wide + 0.5) / wide);
+        ok = add_plane(
+            writer, (struct glint_part){.name = name, .width = wide, .height = wide, .shadow = &plain->cascades[k - 1]},
+            "depth.Z", values, err);
+    }
+    return ok;
+}
+
 static bool add_shadows(struct glint_writer *writer, const struct plain *plain, struct glint_error *err) {
-    enum { MAP = 256 };
     const uint32_t pixels = plain->width * plain->height;
     float *values = malloc((pixels > MAP * MAP ? pixels : MAP * MAP) * sizeof *values);
     bool ok = values || no_memory(err);
@@ -250,6 +267,7 @@ static bool add_shadows(struct glint_writer *writer, const struct plain *plain, 
         ok = add_plane(writer,
                        (struct glint_part){.name = "shadow.000", .width = MAP, .height = MAP, .shadow = &plain->shadow},
                        "depth.Z", values, err);
+    ok = ok && add_cascades(writer, plain, values, err);
     free(values);
     return ok;
 }

@@ -51,6 +51,10 @@ struct plain {
     /* The sun's shadow map, 256 wide; NULL: none. */
     float (*shadow_map)(const struct plain *plain, double u, double v);
     struct glint_shadow shadow;
+    /* More maps, from shadow.001 on, each half as wide as the one before; 0: none. */
+    float (*cascade)(const struct plain *plain, uint32_t number, double u, double v);
+    const struct glint_shadow *cascades;
+    uint32_t cascade_count;
     enum glint_axis up;
     enum glint_compression compression;
     const void *user; /* for `spoil` */

@@ -101,7 +101,98 @@ static void a_shadow_map_makes_the_mask(void **state) {
     assert_true(dark > 1500);
 }
 
+/* ---- Cascades ---- */
+
+/* Map k is half as wide in texels as the one before, and shows three times as many metres: its texels are six times as wide. Its
+   depths tell of no scene, but of the map and the texel. */
+enum { CASCADES = 3 };
+static const double reaches[CASCADES] = {0.5, 1.5, 4.5};
+static float by_pattern(uint32_t number, double u, double v) {
+    const uint32_t wide = 256 >> number, x = (uint32_t)(u * wide), y = (uint32_t)(v * wide);
+    return ((x ^ y) + x * y + number) % 3 ? 1 : 0;
+}
+static float first_pattern(UNUSED const struct plain *plain, double u, double v) {
+    return by_pattern(0, u, v);
+}
+static float other_pattern(UNUSED const struct plain *plain, uint32_t number, double u, double v) {
+    return by_pattern(number, u, v);
+}
+static struct glint_shadow cascade_of(const struct glint_sun *sun, double reach) {
+    struct glint_shadow shadow = map_of(sun, false);
+    for (int i = 0; i < 8; i++) shadow.world_to_shadow[i] *= map_reach / reach;
+    return shadow;
+}
+
+/* What the square of texels about a point says, of the finest map that holds it; NAN: within rounding of another texel or map. */
+static double by_cascades(const struct glint_sun *sun, const double at[3], const int taps[CASCADES]) {
+    double axes[2][3];
+    map_axes(sun->direction, axes[0], axes[1]);
+    for (uint32_t k = 0; k < CASCADES; k++) {
+        const int wide = 256 >> k;
+        double place[2], lit = 0;
+        bool inside = true;
+        for (int a = 0; a < 2; a++) {
+            place[a] = 0.5;
+            for (int c = 0; c < 3; c++)
+                place[a] += (a ? -1 : 1) * axes[a][c] * (at[c] - map_middle[c]) / (2 * reaches[k]);
+            const double first = place[a] * wide - 0.5 * (taps[k] - 1);
+            if (fabs(first - round(first)) < 1e-2 || fabs(place[a] - round(place[a])) < 1e-4) return NAN;
+            inside = inside && place[a] > 0 && place[a] < 1;
+            place[a] = floor(first);
+        }
+        if (!inside) continue;
+        for (int i = 0; i < taps[k] * taps[k]; i++) {
+            const double x = fmin(fmax(place[0] + i % taps[k], 0), wide - 1),
+                         y = fmin(fmax(place[1] + i / taps[k], 0), wide - 1);
+            lit += (double)by_pattern(k, (x + 0.5) / wide, (y + 0.5) / wide);
+        }
+        return lit / (taps[k] * taps[k]);
+    }
+    return 1;
+}
+
+/* The floor and the wall are seen in all three maps, and beyond them. */
+static void each_surface_is_compared_with_the_finest_map_that_holds_it(void **state) {
+    static const char *const words[] = {"shadow_mask=map",
+                                        "shadow_mask.taps=3",
+                                        "shadow_mask.far_taps=2",
+                                        "shadow_mask.offset=0",
+                                        "contact_trace=dda",
+                                        "contact_trace.length_m=0",
+                                        NULL};
+    static const int taps[CASCADES] = {3, 2, 2};
+    struct gpu *gpu = *state;
+    const struct glint_sun sun = sunlit_sun(50, 100);
+    const struct glint_shadow others[] = {cascade_of(&sun, reaches[1]), cascade_of(&sun, reaches[2])};
+    struct plain plain = sunlit_frame(&sunlit_box, &sun);
+    plain.shadow = cascade_of(&sun, reaches[0]);
+    plain.shadow_map = first_pattern;
+    plain.cascade = other_pattern;
+    plain.cascades = others;
+    plain.cascade_count = CASCADES - 1;
+    occlusion_load(gpu, &plain);
+    free(sunlit_run(gpu, words));
+    float *mask = gpu_floats(gpu, "shadow_mask", NULL, NULL);
+    size_t compared = 0, values[3] = {0}; /* dark, between, lit */
+    for (uint32_t i = 0; i < WIDE * HIGH; i++) {
+        double position[3], normal[3];
+        if (!shapes_pixel(&sunlit_box, &plain, i % WIDE, i / WIDE, position, normal)) continue;
+        const double right = by_cascades(&sun, position, taps);
+        if (isnan(right)) continue;
+        if (fabs((double)mask[i] - right) > 1e-3) /* a half holds multiples of 1/9 to 2^-12 */
+            fail_msg("pixel %u,%u: %g, expected %g", i % WIDE, i / WIDE, (double)mask[i], right);
+        compared++;
+        values[right == 0 ? 0 : right < 1 ? 1 : 2]++;
+    }
+    print_message("# %zu compared: %zu dark, %zu between, %zu lit\n", compared, values[0], values[1], values[2]);
+    assert_true(compared > 4000 && values[1] > 500 && values[2] > 100);
+    free(mask);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_shadow_map_makes_the_mask)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_shadow_map_makes_the_mask),
+        cmocka_unit_test(each_surface_is_compared_with_the_finest_map_that_holds_it),
+    };
     return cmocka_run_group_tests_name("gpu_shadow_map", tests, gpu_set_up, gpu_tear_down);
 }

@@ -455,7 +455,6 @@ bool glint_capture_validate(const char *path, const struct glint_limits *limits,
 #define GLINT_PART_PROBE "probe.000" /* the only probe that passes use */
 #define GLINT_PART_WATER "water"
 #define GLINT_PART_TRANSPARENT "transparent"
-#define GLINT_PART_SHADOW "shadow.000" /* the only shadow map that passes use */
 #define GLINT_PART_MIRROR "planar.000" /* the only planar map that passes use */
 
 /* ---- The registry of roles, which writer, reader, validation and the tables of FORMAT.md are generated from ---- */

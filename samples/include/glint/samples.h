@@ -28,7 +28,7 @@ enum glint_truths {
 enum glint_also {
     GLINT_ALSO_AO = 1,     /* its own, coarse ambient occlusion, over half the radius of the truth */
     GLINT_ALSO_SUN = 2,    /* its shadow mask, in scenes with a sun */
-    GLINT_ALSO_SHADOW = 4, /* one shadow map, in scenes with a sun */
+    GLINT_ALSO_SHADOW = 4, /* shadow maps, in scenes with a sun */
     GLINT_ALSO_VOLUME = 8  /* a volume of light */
 };
 
@@ -49,6 +49,8 @@ struct glint_sample_options {
     double occlusion_radius; /* m: how far the truth of occlusion looks for occluders; 0: 1 */
     double contact_length;   /* m: how far that of contact shadows does; 0: 0.5 */
     uint32_t also;           /* enum glint_also */
+    uint32_t
+        cascades; /* shadow maps of GLINT_ALSO_SHADOW, each three times as wide as the one before, at most 4; 0: 1 */
     bool truth_of_pixels; /* of their whole areas, as a still camera sees them over its jitter; false: of the samples */
     uint32_t light_samples; /* rays a point for indirect light; 0: the scene's default */
     double fov_y_rad;       /* 0: the scene's */
