@@ -146,11 +146,16 @@ static void fill_shadow(struct frame_block *block, size_t k, const struct glint_
 
 void frame_block_shadows(struct frame_block *block, const struct glint_capture *capture) {
     const struct glint_part_info *maps[SHADOW_MAPS];
+    const struct glint_frame *frame = glint_capture_frame(capture);
     const size_t count = frame_sun_maps(capture, maps);
     uint32_t row = 0;
     for (size_t k = 0; k < count; row += maps[k++]->height) {
-        fill_shadow(block, k, glint_capture_frame(capture), &maps[k]->shadow);
-        block->shadow_place[k] = (uvec4){0, row, maps[k]->width, maps[k]->height};
+        const struct glint_shadow *shadow = &maps[k]->shadow;
+        const struct glint_stencil_class *class = &frame->classes[shadow->stencil_class];
+        const uint32_t mask = class->mask & 255 ? class->mask & 255 : 255;
+        fill_shadow(block, k, frame, shadow);
+        block->shadow_place[k] = (uvec4){shadow->has_stencil_class ? (class->value & mask) + 256 * mask : 0, row,
+                                         maps[k]->width, maps[k]->height};
     }
 }
 

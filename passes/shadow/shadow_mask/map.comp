@@ -35,12 +35,19 @@ float lit_by_map(int map, vec3 place, int wide, vec2 shift) {
     return float(lit_texels) / float(wide * wide);
 }
 
-// By the finest map that holds the surface; surfaces in none are lit.
-float lit_by_maps(vec3 world, vec3 normal, vec2 pattern) {
-    vec3 place;
-    for (int map = 0; map < SHADOW_MAPS && frame.shadow_place[map].z != 0u; ++map)
-        if (place_in_map(map, world, normal, place)) return lit_by_map(map, place, map == 0 ? taps : far_taps, dither * pattern);
-    return 1.0;
+// By the finest map of all surfaces that holds this one, and by each map of its own class; surfaces in none are lit.
+float lit_by_maps(vec3 world, vec3 normal, uint id, vec2 pattern) {
+    bool compared = false;
+    float lit = 1.0;
+    for (int map = 0; map < SHADOW_MAPS && frame.shadow_place[map].z != 0u; ++map) {
+        uint of = frame.shadow_place[map].x;
+        vec3 place;
+        if (of == 0u ? compared : (id & of >> 8u) != (of & 255u)) continue;
+        if (!place_in_map(map, world, normal, place)) continue;
+        lit = min(lit, lit_by_map(map, place, map == 0 || of != 0u ? taps : far_taps, dither * pattern));
+        compared = compared || of == 0u;
+    }
+    return lit;
 }
 
 void main() {
@@ -53,7 +60,7 @@ void main() {
         vec3 view = view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
         vec2 pattern = vec2(bayer4(pixel), bayer4(pixel.yx + 2)) - 0.5; // two patterns, so that a block of 4 x 4 pixels is spread over a square
         if (textureSize(sun_mask, 0) == ivec2(frame.size.xy)) visible = valid_mask(texelFetch(sun_mask, pixel, 0).x);
-        else if (reflects(depth_m, normal)) visible = lit_by_maps(mat3(frame.world_from_view) * view, normalize(normal), pattern);
+        else if (reflects(depth_m, normal)) visible = lit_by_maps(mat3(frame.world_from_view) * view, normalize(normal), texelFetch(stencil_full, pixel, 0).x, pattern);
     }
     imageStore(shadow_mask, pixel, vec4(visible));
 }

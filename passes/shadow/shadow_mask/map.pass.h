@@ -1,5 +1,5 @@
 /* Compares the surfaces with the engine's shadow maps of the sun where the capture has no mask; a captured mask is taken as it is. Each surface is
-   compared with the first map that holds it, which is the finest cascade. */
+   compared with the first map that holds it, which is the finest cascade, and with the maps that are of its stencil class alone. */
 PASS("From the shadow maps", "Mafia DE article, Parallel Split Shadows")
 #include "slot.h"
 #line 202
@@ -7,6 +7,7 @@ READ(texture2D, shadow_map)
 WITHOUT(sun_mask, "the shadow maps, if there are any, make the mask")
 READ(texture2D, depth_full)
 READ(texture2D, normal_full)
+READ(utexture2D, stencil_full)
 REFERENCE
 SPEC(int,   taps,      1,   1,   15,  "1", "chosen by the measured error", "texels compared along each side of a square, whose results are averaged, in the finest cascade; 1: the nearest texel")
 SPEC(int,   far_taps,  1,   1,   15,  "1", "Mafia DE article, Parallel Split Shadows", "the same in the other cascades")
