@@ -111,7 +111,7 @@ void glint_decode_motion_packed(const struct glint_decoder *d, int axis, const u
 }
 
 /* x to the power of 2.4. The rounding of 2.4 to float would be noticeable for x in the thousands. */
-static float from_srgb(float value) {
+float glint_linear_of_srgb(float value) {
     const float magnitude = fabsf(value), base = (magnitude + 0.055f) / 1.055f;
     const float linear = magnitude <= 0.04045f ? magnitude / 12.92f : base * base * powf(base, 0.4f);
     return copysignf(linear, value);
@@ -122,7 +122,7 @@ void glint_decode_color(const struct glint_decoder *d, float *v, size_t count) {
     if (d->encodings.color == GLINT_COLOR_PRE_EXPOSED && factor != 1)
         for (size_t i = 0; i < count; i++) v[i] = (float)((double)v[i] * factor);
     if (d->encodings.color == GLINT_COLOR_SRGB)
-        for (size_t i = 0; i < count; i++) v[i] = from_srgb(v[i]);
+        for (size_t i = 0; i < count; i++) v[i] = glint_linear_of_srgb(v[i]);
 }
 
 /* ---- normals ---- */

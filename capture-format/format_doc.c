@@ -13,7 +13,7 @@ static const char *or_dash(const char *text) {
 }
 
 static void write_roles(FILE *out) {
-    static const char *const shapes[] = {"frame", "cube", "levels", "any"};
+    static const char *const shapes[] = {"frame", "cube", "levels", "table", "any"};
     size_t count = 0;
     const struct glint_role *all = glint_roles(&count);
     fprintf(out, "| role | shape | required | `previous.ROLE` allowed | meaning |\n| --- | --- | --- | --- | --- |\n");

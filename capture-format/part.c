@@ -298,6 +298,9 @@ static bool check_shape(struct glint_check *check, const struct glint_part_info 
     if (!out->width || !out->height) return true; /* its size is that of a sibling, which is not open yet */
     if (glint_shape_is_cube(out->role->shape) && (uint64_t)out->height != 6 * (uint64_t)out->width)
         return BROKEN(SHAPE, NULL, "expected N x 6N pixels, found %u x %u", out->width, out->height);
+    if (out->role->shape == GLINT_SHAPE_TABLE &&
+        (out->width < 2 || (uint64_t)out->height != (uint64_t)out->width * out->width))
+        return BROKEN(SHAPE, NULL, "expected N x N² pixels, N at least 2, found %u x %u", out->width, out->height);
     if (out->role->shape == GLINT_SHAPE_FRAME && gbuffer &&
         (out->width != gbuffer->width || out->height != gbuffer->height))
         return BROKEN(SHAPE, NULL, "expected %u x %u pixels as in gbuffer, found %u x %u", gbuffer->width,

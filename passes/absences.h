@@ -16,6 +16,8 @@ ABSENCE("emissive", "", "what surfaces emit themselves is not known apart from t
 ABSENCE("ao", "", "the engine's own occlusion is not there to be compared with, or taken out of the ambient light")
 ABSENCE_UNLESS("sun", "shadow", "", "no shadow mask can be made from the engine's shadow map")
 ABSENCE_UNLESS("shadow", "sun", "", "contact shadows are all that shades the sun: what casts a shadow from farther away is not known")
+ABSENCE("lut", "", "the finished picture has the colours of the tone curve alone, without the engine's grading")
+ABSENCE("dirt", "", "no dirt is on the lens of the finished picture")
 ABSENCE("gbuffer", "motion.X", "moving objects are reprojected as if they stood still, and smear")
 ABSENCE("gbuffer", "motion.Z", "objects that move along the view are compared with the previous frame at the wrong depth")
 ABSENCE("gbuffer", "material.metalness", "every surface is a dielectric, and metals reflect a few per cent")

@@ -44,6 +44,16 @@ FACT(bounce, PIXELS,
      s->surfaces.count == 0 ? SAY("%llu of %llu pixels have a surface", N(s->surfaces.count), N(s->pixels))
      : s->luminous > 0      ? SAY("%llu of %llu pixels are not black", N(s->luminous), N(s->pixels))
                             : SAY("the picture is black, and there %s other light", OTHER_LIGHT ? "may be" : "is no"))
+/* Whether a pixel of the picture, as it is displayed, may be brighter than the limit. How bright reflections, indirect light, surfaces in front and
+   earlier frames make it is not known beforehand, so that frames with any of them count. The factor is for rounding. */
+#define BRIGHTEST (s->exposure * (double)s->light[1])
+#define MORE_LIGHT (shown->count > 0 || s->has_transparent || s->has_water || s->has_scene || s->has_history || (s->surfaces.count > 0 && OTHER_LIGHT))
+FACT_BY(bright, PIXELS, 1.00001 * BRIGHTEST > limit || MORE_LIGHT,
+        BRIGHTEST > 3e38 ? SAY("the picture may be brighter than %.3g", limit)
+                         : SAY("the brightest of the lit picture is %.3g, the limit %.3g%s", BRIGHTEST, limit,
+                               1.00001 * BRIGHTEST > limit ? "" : MORE_LIGHT ? "; other light may be added" : "; nothing is added"))
+#undef MORE_LIGHT
+#undef BRIGHTEST
 #undef OTHER_LIGHT
 FACT(light_volume, PARTS, s->has_volume, SAY("%s volume of light", s->has_volume ? "a" : "no"))
 FACT(no_light_volume, PARTS, !s->has_volume, SAY("%s volume of light", s->has_volume ? "a" : "no"))

@@ -119,6 +119,8 @@ KINDS = [
          row=VALUE, push='$type $name;'),
     Kind('ROLE', 'role, name', 'What this image or parameter is to replay and study, which know none by name: enum glint_pass_role.',
          row='.name = "", .image = #$name, .first = GLINT_ROLE_##$role'),
+    Kind('ENCODED_BY', 'image, parameter', 'This image of the pass is encoded as the choice of the parameter says, by a name of the encoding `color` of capture-format/FORMAT.md. '
+         'Run folders state it, and commands heed it.', row='.name = #$image, .assigned = #$parameter'),
     Kind('TRACER', 'label, image', 'The pass traces rays: tables call it by the label, and `image`, a DIAGNOSTIC, holds why each ray ended.',
          row='.name = $label, .image = #$image'),
     Kind('ASSUMED', 'parameter',
@@ -167,6 +169,7 @@ KINDS = [
          'Of a pass with such rows one has to call for it: one whose fact holds and whose image, an OPTIONAL_READ, is made by a pass of the pipeline. '
          'That image is then required, as with READ. If the pipeline makes none of the images, the first row counts.',
          row='.name = #$fact, .image = #$image'),
+    Kind('NEEDS_MADE', 'image', 'The pass is needed only where the pass that makes this image, which it reads, is.', row='.name = #$image'),
     Kind('NEEDS_BY', 'fact, parameter', 'NEEDS of a fact about a parameter of the pass.',
          row='.name = #$fact, .image = #$parameter', as_kind='NEEDS'),
     Kind('IN_PLACE_OF', 'image, other, on, off, why',
@@ -222,6 +225,8 @@ EFFECT_KINDS = [
          row='.truth = $part, .channels = $channels, .truth_by = GLINT_ROLE_##$role, .truth_has_choices = true,'),
     Kind('TRUTH_CHANNEL_BY', 'role, channels', 'Beside TRUTH: its channel is one of these, between spaces, by the place of the choice of the parameter with '
          'this ROLE; the last one where a pipeline does not have the parameter.', row='.channel_by = GLINT_ROLE_##$role, .channel_choices = $channels,'),
+    Kind('NO_TRUTH', 'channels, why', 'No part of a capture judges the effect: the channels of its result, and why there is no truth of them. Commands that judge '
+         'say so where the effect is asked for by name, and leave it out otherwise.', row='.channels = $channels, .no_truth = $why,'),
     Kind('RAYS', 'part', 'The part whose distance.Z is where the rays of surfaces of the first class truly end.', row='.rays = $part,'),
     Kind('JUDGED_IN', 'pixels', 'The pixels that count: enum glint_judged.', row='.judged = GLINT_JUDGED_##$pixels,'),
     Kind('CALLED_FOR', 'fact', 'The fact (facts.h) without which a frame does not call for the effect.', row='.fact = #$fact,'),

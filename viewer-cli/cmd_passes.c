@@ -334,8 +334,10 @@ static void print_effect(const struct glint_effect *effect, bool markdown) {
     for (size_t k = 0; k < GLINT_EFFECT_RESULTS && effect->results[k]; k++)
         printf("%s%s%s%s", k ? ", else " : "", code, effect->results[k], code);
     printf("\n%scomposed picture: %s\n", item, effect->term);
-    printf("%struth: %s%s%s%s (%s)\n", item, code, effect->truth, effect->truth_has_choices ? ".*" : "", code,
-           effect->channels);
+    if (effect->no_truth) printf("%struth: none, since %s\n", item, effect->no_truth);
+    else
+        printf("%struth: %s%s%s%s (%s)\n", item, code, effect->truth, effect->truth_has_choices ? ".*" : "", code,
+               effect->channels);
     printf("%scalled for by: %s%s%s\n", item, code, effect->fact, code);
     static const char *const judged[] = {"pixels that reflect", "all pixels but sky", "all pixels"};
     printf("%sjudged in: %s", item, judged[effect->judged]);
@@ -355,7 +357,7 @@ static json_t *effect_json(const struct glint_effect *effect) {
         json_array_append_new(results, json_string(effect->results[k]));
     for (size_t k = 1; k <= glint_effect_class_count(effect); k++)
         json_array_append_new(classes, json_string(glint_effect_class_name(effect, k)));
-    return json_pack("{s:s, s:s, s:s, s:o, s:s, s:s, s:s, s:s, s:o}", "effect", effect->name, "title", effect->title,
+    return json_pack("{s:s, s:s, s:s, s:o, s:s?, s:s, s:s, s:s, s:o}", "effect", effect->name, "title", effect->title,
                      "about", effect->about, "results", results, "truth", effect->truth, "channels", effect->channels,
                      "called_for_by", effect->fact, "term", effect->term, "classes", classes);
 }

@@ -10,7 +10,7 @@ RULE(WINDOW,    "display-window",   "`displayWindow` and `pixelAspectRatio` are 
 RULE(RESERVED,  "reserved-roles",   "A reserved role is not used before a version defines it.")
 RULE(CHANNELS,  "channels",         "A part holds its role's required channels (no Z of a normal that is octahedral, view_xy or spheremap) and no channel that the role does not list.")
 RULE(TYPES,     "channel-types",    "`stencil.id`, packed motion and its packed depth are uint; every other listed channel is half or float.")
-RULE(SHAPE,     "shape",            "Parts of shape `frame` have the size of `gbuffer`; cube maps are N × 6N.")
+RULE(SHAPE,     "shape",            "Parts of shape `frame` have the size of `gbuffer`; cube maps are N × 6N, tables N × N² with N at least 2.")
 RULE(PROBE,     "probe",            "The levels of a probe are numbered from 1 without a gap, at most 15 beside the finest; each has half the face size of the finer one, at least 1; their roughnesses increase; a box has min < max.")
 RULE(ENCODING,  "encoding",         "A declared encoding is one of the values of its table; where nothing is declared, the first one holds.")
 RULE(ATTRIBUTE, "attributes",       "Attributes have the type and range of their table, the required ones are there, every number is finite; directions have a length of 1 within 1e-3; a hull has no gap, and a plane nothing below row 0. A part of a role with listed channels has no `envmap`, no other attribute that begins with `glint.` than those that this page has for it, and `glint.storage` names channels of the role.")

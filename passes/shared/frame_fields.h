@@ -13,7 +13,7 @@ FIELD(vec4,  material,                 "x: reflectance of a metal at normal inci
 FIELD(vec4,  sun_direction,            "xyz: unit vector towards the sun in world axes, 0 where the capture has no sun; w: angular radius of its disc in rad")
 FIELD(vec4,  sun_irradiance,           "rgb: irradiance on a surface that faces the sun, radiance · sr, 0 where it is not known; w: 0")
 FIELD(vec4,  openness,                 "x: fraction of the picture above the horizon that shows the sky, -1 where nothing above it is in the picture; counted in frames without cube maps that have a sky, else 0; yzw: 0")
-FIELD(vec4,  captured_light,           "x: 1 where the engine's own occlusion is already in the captured indirect light; yzw: 0")
+FIELD(vec4,  captured_light,           "x: 1 where the engine's own occlusion is already in the captured indirect light; y: the capture's exposure, a factor from radiance to what is displayed; zw: 0")
 FIELD(vec4,  up,                       "xyz: unit up axis; w: largest colour that images hold, 65504 or +inf")
 FIELD(uvec4, size,                     "xy: full resolution; zw: pipeline's half resolution")
 FIELD(uvec4, counts,                   "x: active cube maps; y: frame number; z: cube face size; w: sky face size, 0 without a sky; a probe without a box is one")

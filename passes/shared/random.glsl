@@ -8,6 +8,7 @@ const uint RANDOM_STEP_SCALE = 2u;
 const uint RANDOM_OCCLUSION = 3u;
 const uint RANDOM_CONTACT = 4u;
 const uint RANDOM_INDIRECT = 5u;
+const uint RANDOM_GRAIN = 6u;
 const uint RANDOM_NDF = 16u; // and the following ones, one for each attempt
 
 // Hashes four words. M. Jarzynski, M. Olano, Hash Functions for GPU Rendering, JCGT 9(3), 2020: pcg4d.

@@ -22,7 +22,7 @@
 #undef MAXIMUM
 #line 24
 const int ALL_FIGURES = 512;
-const int FIGURES = whole ? ALL_FIGURES : 192; // words of a workgroup: plans only need the first lines of figures.h
+const int FIGURES = whole ? ALL_FIGURES : 208; // words of a workgroup: plans only need the first lines of figures.h
 shared uint figures[ALL_FIGURES];
 // The bits of non-negative floats have the order of their values.
 const uint COUNTED = 0u, LOWEST = 1u, HIGHEST = 2u;
@@ -107,8 +107,6 @@ void count_more(ivec2 pixel, float depth_m, vec4 surface, vec4 base, float specu
 bool has_part(texture2D image) { return textureSize(image, 0) == ivec2(frame.size.xy); }
 
 void count_picture(ivec2 pixel, inout Sums sums) {
-    float light = luminance(texelFetch(lit, pixel, 0).rgb);
-    if (light >= 0.0 && light < LARGEST) extend(sums.light, light);
     if (has_part(water_color) && texelFetch(water_color, pixel, 0).a > 0.0) sums.water++;
     if (has_part(transparent_color) && texelFetch(transparent_color, pixel, 0).a > 0.0) {
         sums.transparent++;
@@ -142,7 +140,10 @@ void count_pixel(ivec2 pixel, inout Sums sums) {
         sums.above++;
         if (!(depth_m < INFINITE)) sums.open++;
     }
-    if (!all(equal(texelFetch(lit, pixel, 0).rgb, vec3(0.0)))) sums.luminous++;
+    vec3 color = texelFetch(lit, pixel, 0).rgb;
+    float light = luminance(color);
+    if (!all(equal(color, vec3(0.0)))) sums.luminous++;
+    if (light >= 0.0 && light < LARGEST) extend(sums.light, light);
     if (whole) count_picture(pixel, sums);
 }
 
@@ -163,7 +164,7 @@ void add_more(Sums sums) {
     atomicAdd(figures[at_moved], sums.moved);
     atomicAdd(figures[at_moving], sums.moving);
     add_range(at_nearest, at_farthest, sums.depth);
-    add_range(at_darkest, at_brightest, sums.light);
+    if (sums.light.x <= sums.light.y) atomicMin(figures[at_darkest], floatBitsToUint(sums.light.x));
     atomicMax(figures[at_transparent_roughest], floatBitsToUint(sums.transparent_roughest));
 }
 
@@ -189,6 +190,7 @@ void count_block(int place) {
     atomicAdd(figures[at_open], sums.open);
     atomicAdd(figures[at_sunlit], sums.sunlit);
     atomicAdd(figures[at_luminous], sums.luminous);
+    atomicMax(figures[at_brightest], floatBitsToUint(max(sums.light.y, 0.0)));
     add_range(at_surface_smoothest, at_surface_roughest, sums.surface_roughness);
     add_range(at_reflecting_smoothest, at_reflecting_roughest, sums.reflecting_roughness);
     barrier();

@@ -55,12 +55,14 @@ static bool add_image(struct glint_run *run, const json_t *pass, const json_t *i
                                            .name = text_of(image, "name"),
                                            .unit = text_of(image, "unit"),
                                            .meaning = text_of(image, "meaning"),
-                                           .channels = text_of(image, "channels")},
+                                           .channels = text_of(image, "channels"),
+                                           .encoding = text_of(image, "encoding")},
                                   .file = text_of(image, "file"),
                                   .part = text_of(image, "part")};
     const json_int_t width = json_integer_value(json_object_get(image, "width")),
                      height = json_integer_value(json_object_get(image, "height"));
     const char *format = text_of(image, "format");
+    if (!stored.info.encoding[0]) stored.info.encoding = "linear";
     stored.info.integer = strstr(format, "UI") != NULL;
     for (const char *at = stored.info.channels; *at; at += strcspn(at, " "), at += strspn(at, " "))
         stored.info.components++;
@@ -186,4 +188,25 @@ bool glint_run_read(struct glint_run *run, const struct glint_run_image *image, 
         return glint_exr_read(run->exr, p, names.list, names.count, type, out, 0, err);
     }
     return glint_fail(err, GLINT_ERROR_FORMAT, "%s/%s: part %s: missing", run->folder, stored->file, stored->part);
+}
+
+bool glint_encoding_is_display(const char *encoding) {
+    return encoding && !strcmp(encoding, "srgb");
+}
+
+void glint_decode_display(float *values, size_t pixels, const char *const *names, size_t channels) {
+    for (size_t c = 0; c < channels; c++) {
+        if (!names[c][0] || names[c][1] || !strchr("RGB", names[c][0])) continue;
+        for (size_t i = 0; i < pixels; i++) values[i * channels + c] = glint_linear_of_srgb(values[i * channels + c]);
+    }
+}
+
+bool glint_run_read_linear(struct glint_run *run, const struct glint_run_image *image, float *out,
+                           struct glint_error *err) {
+    struct channel_names names;
+    if (!glint_run_read(run, image, GLINT_F32, out, err)) return false;
+    channel_names(&names, image->channels);
+    if (glint_encoding_is_display(image->encoding))
+        glint_decode_display(out, (size_t)image->width * image->height, names.list, names.count);
+    return true;
 }

@@ -24,7 +24,7 @@ struct frame_block {
 };
 
 struct frame_sizes {
-    uint32_t full[2], half[2], planar[2], shadow[2], grid[2];
+    uint32_t full[2], half[2], planar[2], shadow[2], grid[2], table[2], dirt[2];
     uint32_t active, chain, cube_face, sky_face, probe_face, probe_mips;
     bool is_cpu;  /* that of struct glint_device_info */
     bool history; /* images of the previous frame are available */
@@ -39,7 +39,7 @@ void frame_block_mirror(struct frame_block *block, const struct glint_frame *fra
 size_t frame_sun_maps(const struct glint_capture *capture, const struct glint_part_info *maps[SHADOW_MAPS]);
 /* Sets the fields of these maps. */
 void frame_block_shadows(struct frame_block *block, const struct glint_capture *capture);
-/* Sets what the capture says of its part `indirect`. */
+/* Sets what the capture says of its part `indirect`, and its exposure. */
 void frame_block_captured_light(struct frame_block *block, const struct glint_capture *capture);
 /* Sets the fields of what rays find that nothing nearer continues: sky, probe, painted ground. */
 void frame_block_far(struct frame_block *block, const struct glint_capture *capture);

@@ -60,6 +60,8 @@ bool plan_find_sizes(struct frame_plan *plan, struct glint_error *err) {
     const struct glint_part_info *gbuffer = glint_capture_find(capture, GLINT_PART_GBUFFER),
                                  *sky = glint_capture_find(capture, GLINT_PART_SKY),
                                  *planar = glint_capture_find(capture, GLINT_PART_MIRROR),
+                                 *table = glint_capture_find(capture, GLINT_PART_TABLE),
+                                 *dirt = glint_capture_find(capture, GLINT_PART_DIRT),
                                  *grid = glint_capture_find(capture, PART_GRID);
     if (!gbuffer) return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part gbuffer: missing", glint_capture_path(capture));
     *sizes = (struct frame_sizes){.full = {gbuffer->width, gbuffer->height},
@@ -73,6 +75,8 @@ bool plan_find_sizes(struct frame_plan *plan, struct glint_error *err) {
     const struct glint_part_info *maps[SHADOW_MAPS];
     for (size_t k = frame_sun_maps(capture, maps); k-- > 0; sizes->shadow[1] += maps[k]->height)
         if (maps[k]->width > sizes->shadow[0]) sizes->shadow[0] = maps[k]->width;
+    if (table) sizes->table[0] = table->width, sizes->table[1] = table->height;
+    if (dirt) sizes->dirt[0] = dirt->width, sizes->dirt[1] = dirt->height;
     if (planar) sizes->planar[0] = planar->width, sizes->planar[1] = planar->height;
     sizes->grid[0] = grid ? grid->width : GRID_CELLS;
     sizes->grid[1] = grid ? grid->height : GRID_CELLS * GRID_CELLS;
@@ -170,6 +174,12 @@ bool plan_describe(const struct frame_plan *plan, const struct graph_image *imag
         break;
     case GLINT_SIZE_SHADOW:
         expected[0] = sizes->shadow[0], expected[1] = sizes->shadow[1];
+        break;
+    case GLINT_SIZE_TABLE:
+        expected[0] = sizes->table[0], expected[1] = sizes->table[1];
+        break;
+    case GLINT_SIZE_DIRT:
+        expected[0] = sizes->dirt[0], expected[1] = sizes->dirt[1];
         break;
     case GLINT_SIZE_GRID:
         expected[0] = sizes->grid[0], expected[1] = sizes->grid[1];

@@ -214,6 +214,21 @@ static bool decide_passes(struct graph *graph, const struct graph_inputs *inputs
     return true;
 }
 
+/* Drops passes whose row NEEDS_MADE names an image that no pass makes now, from the first pass to the last. */
+static void drop_without_input(struct graph *graph, const struct glint_replay_options *options) {
+    for (size_t i = 0; i < graph->pass_count; i++) {
+        struct graph_pass *pass = &graph->passes[i];
+        const struct glint_row *row = glint_pass_row(pass->pass, GLINT_ROW_NEEDS_MADE, NULL);
+        const size_t maker = row ? graph_maker(graph, row->name) : graph->pass_count;
+        if (!pass->runs || options->all || list_has(options->force, pass->pass->slot)) continue;
+        if (maker == graph->pass_count || graph->passes[maker].runs) continue;
+        const char *slot = graph->passes[maker].pass->slot;
+        if (options->passes && !list_has(options->passes, slot)) continue; /* the image comes from a run */
+        pass->runs = false;
+        snprintf(pass->reason, sizeof pass->reason, "%.48s, whose %.48s it works on, does not run", slot, row->name);
+    }
+}
+
 /* Adds to the reason of a pass that runs what it does without images of the capture. */
 static void add_without(struct graph_pass *pass, const struct glint_capture *capture) {
     char text[200];
@@ -280,6 +295,7 @@ bool graph_decide(struct graph *graph, const struct graph_inputs *inputs, struct
     check_slots(graph, "skip", options->skip, faults);
     check_slots(graph, "force", options->force, faults);
     if (!decide_passes(graph, inputs, faults, err)) return false;
+    drop_without_input(graph, options);
     cull_passes(graph, options, faults);
     for (size_t i = 0; i < graph->pass_count; i++) add_without(&graph->passes[i], inputs->capture);
     return true;

@@ -52,6 +52,7 @@ void survey_channels(const struct channels *channels, struct glint_survey *surve
     }
     survey->sunlit = survey->surfaces.count;
     survey->luminous = survey->pixels; /* the host does not read the picture */
+    survey->light[1] = INFINITY;
 }
 
 void survey_capture_parts(const struct glint_capture *capture, struct glint_survey *survey) {
@@ -66,6 +67,7 @@ void survey_capture_parts(const struct glint_capture *capture, struct glint_surv
     const struct glint_part_info *gbuffer = glint_capture_find(capture, GLINT_PART_GBUFFER);
     survey->has_fresnel = gbuffer && glint_part_has_channel(gbuffer, "material.fresnel");
     survey->has_previous = glint_capture_frame(capture)->has_previous;
+    survey->exposure = glint_capture_frame(capture)->exposure > 0 ? glint_capture_frame(capture)->exposure : 1;
     survey->has_fog = glint_capture_frame(capture)->has_fog;
     survey->has_sun = glint_capture_frame(capture)->has_sun;
 }

@@ -54,6 +54,7 @@ static void read_figures(struct glint_survey *survey, const uint32_t *f, bool wh
               survey->reflecting.count > 0);
     set_range(survey->depth_m, f, at_nearest, at_farthest, whole && survey->surfaces.count > 0);
     set_range(survey->light, f, at_darkest, at_brightest, whole && f[at_darkest] <= f[at_brightest]);
+    survey->light[1] = as_float(f[at_brightest]);
     survey->transparent_roughness = as_float(f[at_transparent_roughest]);
     survey->on_device = true;
     survey->partial = !whole;

@@ -16,6 +16,7 @@ enum { PATH_SIZE = 4096, CHANNELS = 4 };
 /* An EXR file, written by a worker thread while the next pass is read back. */
 struct job {
     const struct glint_pass *pass;
+    const json_t *parameters; /* of the pass, as run.json has them */
     struct host_buffer buffer;
     struct image_part parts[PASS_PARTS_MAX];
     VkDeviceSize offsets[PASS_PARTS_MAX];
@@ -30,11 +31,17 @@ struct job {
 /* Memory that a part needs until the file is written. */
 struct part_memory {
     struct glint_exr_channel channels[CHANNELS];
-    struct glint_exr_attribute attributes[8];
+    struct glint_exr_attribute attributes[9];
     double level;
     struct channel_names names;
     uint32_t *widened;
 };
+
+/* How the colours of an image are encoded, or NULL: linear. */
+static const char *encoding_of(const struct glint_pass *pass, const json_t *parameters, const char *image) {
+    const struct glint_row *row = glint_pass_row(pass, GLINT_ROW_ENCODED_BY, image);
+    return row ? json_string_value(json_object_get(parameters, row->assigned)) : NULL;
+}
 
 static bool fill_part(const struct job *job, size_t i, struct part_memory *memory, struct glint_exr_part *part,
                       struct glint_error *err) {
@@ -71,16 +78,22 @@ static bool fill_part(const struct job *job, size_t i, struct part_memory *memor
     for (size_t t = 0; t < text_count; t++)
         memory->attributes[t] = (struct glint_exr_attribute){
             .name = texts[t][0], .type = GLINT_EXR_STRING, .string = texts[t][1], .count = 1};
+    size_t count = text_count;
+    const char *encoding = encoding_of(job->pass, job->parameters, row->name);
+    if (encoding)
+        memory->attributes[count++] = (struct glint_exr_attribute){
+            .name = "glint.color", .type = GLINT_EXR_STRING, .string = encoding, .count = 1};
     memory->level = image->level;
-    memory->attributes[text_count] = (struct glint_exr_attribute){
-        .name = "glint.level", .type = GLINT_EXR_INT, .numbers = &memory->level, .count = 1};
+    if (image->levels > 1)
+        memory->attributes[count++] = (struct glint_exr_attribute){
+            .name = "glint.level", .type = GLINT_EXR_INT, .numbers = &memory->level, .count = 1};
     *part = (struct glint_exr_part){.name = image->name,
                                     .width = image->width,
                                     .height = image->height,
                                     .channels = memory->channels,
                                     .channel_count = components,
                                     .attributes = memory->attributes,
-                                    .attribute_count = text_count + (image->levels > 1),
+                                    .attribute_count = count,
                                     .compression = GLINT_ZIP};
     return true;
 }
@@ -117,13 +130,14 @@ static void job_start(struct job *job) {
     if (!job->threaded) write_file(job);
 }
 
-static json_t *image_record(const struct image_part *part, const char *file) {
+static json_t *image_record(const struct image_part *part, const char *file, const char *encoding) {
     const struct glint_image *image = part->info;
     const struct glint_row *row = image->row;
     json_t *record = json_pack("{ssssssssssss si si ss}", "name", image->name, "file", file, "part", image->name,
                                "channels", row->channels, "unit", row->unit, "meaning", row->help, "width",
                                (int)image->width, "height", (int)image->height, "format", format_name(image->format));
     if (image->levels > 1) json_object_set_new(record, "level", json_integer((json_int_t)image->level));
+    if (encoding) json_object_set_new(record, "encoding", json_string(encoding));
     return record;
 }
 
@@ -169,9 +183,13 @@ static bool write_pass(struct glint_replay *replay, size_t p, const char *folder
     job->count = pool_parts(&replay->pool, result->pass, job->parts, PASS_PARTS_MAX);
     if (!file_of_pass(replay, p, folder, job->path))
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
-    json_t *images = json_object_get(json_array_get(json_object_get(root, "passes"), p), "images");
+    const json_t *recorded = json_array_get(json_object_get(root, "passes"), p);
+    json_t *images = json_object_get(recorded, "images");
+    job->parameters = json_object_get(recorded, "parameters");
     for (size_t i = 0; i < job->count; i++)
-        json_array_append_new(images, image_record(&job->parts[i], job->path + strlen(folder) + 1));
+        json_array_append_new(images,
+                              image_record(&job->parts[i], job->path + strlen(folder) + 1,
+                                           encoding_of(job->pass, job->parameters, job->parts[i].info->row->name)));
     if (result->cached && replay->results.cache_keys[p][0] &&
         cache_copy(replay->results.cache, replay->results.cache_keys[p], job->path))
         return true;

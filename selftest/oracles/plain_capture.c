@@ -162,7 +162,8 @@ static bool add_over(struct glint_writer *writer, const struct plain *plain, con
 
 static struct glint_frame frame_of(const struct plain *plain) {
     const double near = 0.1, far = 1000;
-    struct glint_frame frame = {.number = plain->first   ? 0
+    struct glint_frame frame = {.exposure = plain->exposure,
+                                .number = plain->first   ? 0
                                           : plain->frame ? plain->frame
                                                          : 1,
                                 .cut = plain->cut,

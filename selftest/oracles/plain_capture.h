@@ -42,6 +42,7 @@ struct plain {
     uint32_t frame;       /* number; 0: 1 */
     bool first;           /* the number is 0 */
     bool cut;
+    double exposure;                             /* of the frame; 0: 1 */
     double jitter_px[2], previous_jitter_px[2];  /* of the projection; the wall's motion says both */
     const double *world_to_view;                 /* 16 values; NULL: as above */
     const struct glint_fog *fog;                 /* NULL: none */

@@ -47,7 +47,7 @@ float *study_channels(struct glint_capture *capture, const char *name, const cha
 float *study_run_values(struct glint_run *run, const struct glint_run_image *image, struct glint_error *err) {
     float *values = malloc((size_t)image->width * image->height * image->components * sizeof *values);
     if (!values) no_memory(err, image->name);
-    if (values && glint_run_read(run, image, GLINT_F32, values, err)) return values;
+    if (values && glint_run_read_linear(run, image, values, err)) return values;
     free(values);
     return NULL;
 }

@@ -54,6 +54,9 @@ static void short_lit(struct rewrite *r) {
 static void short_cube(struct rewrite *r) {
     rewrite_find(r, "cubemap.000")->part.height--;
 }
+static void flat_table(struct rewrite *r) {
+    rename_part(r, "scene", "lut");
+}
 static void odd_encoding(struct rewrite *r) {
     broken_string(r, "lit", "glint.color", "gamma");
 }
@@ -252,6 +255,7 @@ static const struct broken_case cases[] = {
     {"channel-types", {"stencil.id", "found float"}, float_id, false},
     {"shape", {"40 x 24", "40 x 23"}, short_lit, false},
     {"shape", {"N x 6N", "8 x 47"}, short_cube, false},
+    {"shape", {"part lut", "N x N²"}, flat_table, false},
     {"encoding", {"glint.color", "gamma"}, odd_encoding, false},
     {"attributes", {"glint.worldToView", "m44d"}, string_matrix, false},
     {"attributes", {"glint.viewToClip", "missing"}, no_matrix, false},

@@ -12,7 +12,8 @@
 
 enum { WIDTH = 40, HEIGHT = 30, PIXELS = WIDTH * HEIGHT };
 
-static void write_image(const char *name, const char *part, uint32_t width, size_t channels, const float *values) {
+static void write_encoded(const char *name, const char *part, uint32_t width, size_t channels, const float *values,
+                          const char *color) {
     static const char *const names[] = {"R", "G", "B", "A"};
     struct glint_error err = {0};
     struct glint_exr_channel list[4];
@@ -22,9 +23,18 @@ static void write_image(const char *name, const char *part, uint32_t width, size
                                              .data = values + k,
                                              .x_stride_bytes = 4 * channels,
                                              .y_stride_bytes = 4 * channels * width};
-    const struct glint_exr_part file = {
-        .name = part, .width = width, .height = PIXELS / width, .channels = list, .channel_count = channels};
+    const struct glint_exr_attribute attribute = {.name = "glint.color", .type = GLINT_EXR_STRING, .string = color};
+    const struct glint_exr_part file = {.name = part,
+                                        .width = width,
+                                        .height = PIXELS / width,
+                                        .channels = list,
+                                        .channel_count = channels,
+                                        .attributes = &attribute,
+                                        .attribute_count = color ? 1 : 0};
     if (!glint_exr_write(in_folder(name), &file, 1, 0, &err)) fail_msg("%s", err.message);
+}
+static void write_image(const char *name, const char *part, uint32_t width, size_t channels, const float *values) {
+    write_encoded(name, part, width, channels, values, NULL);
 }
 
 static float values[4 * PIXELS], others[4 * PIXELS];
@@ -107,6 +117,27 @@ static void figures_are_idiffs(UNUSED void **state) {
     outcome_free(&theirs);
     outcome_free(&ours);
     json_decref(json);
+}
+
+/* Linear colours and the same, encoded by the curve of sRGB, are the same picture. Catches: encoded values that are compared as they are, an
+   alpha that is decoded, too. */
+static void encoded_pictures_are_decoded(UNUSED void **state) {
+    for (size_t i = 0; i < 4 * PIXELS; i++) {
+        const double linear = (double)(i % 97) / 96;
+        values[i] = (float)linear;
+        others[i] = (float)(i % 4 == 3            ? linear
+                            : linear <= 0.0031308 ? 12.92 * linear
+                                                  : 1.055 * pow(linear, 1 / 2.4) - 0.055);
+    }
+    write_image("linear.exr", "p", WIDTH, 4, values);
+    write_encoded("srgb.exr", "p", WIDTH, 4, others, "srgb");
+    write_image("raw.exr", "p", WIDTH, 4, others);
+    for (int raw = 0; raw < 2; raw++) {
+        struct outcome found = glint("diff", in_folder("linear.exr"), in_folder(raw ? "raw.exr" : "srgb.exr"), "-fail",
+                                     "2e-6", "-warn", "2e-6", NULL);
+        if (found.status != (raw ? 2 : 0)) fail_msg("%d: %d\n%s%s", raw, found.status, found.out, found.err);
+        outcome_free(&found);
+    }
 }
 
 static void status_is(int status, const char *first, const char *second, const char *says) {
@@ -298,6 +329,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(verdicts_are_idiffs),
         cmocka_unit_test(figures_are_idiffs),
+        cmocka_unit_test(encoded_pictures_are_decoded),
         cmocka_unit_test(what_cannot_be_compared_has_its_own_code),
         cmocka_unit_test(alpha_does_not_hide_colors),
         cmocka_unit_test(runs_name_what_differs_first),

@@ -78,6 +78,39 @@ static void colour_without_tone_mapping_is_the_srgb_curve(UNUSED void **state) {
 }
 
 /* The same configuration and view through another program; both use OpenColorIO and round separately. */
+/* Catches: a second tone curve over a picture that has one, values taken for linear ones. */
+static void what_is_encoded_for_a_display_is_shown_as_it_is(UNUSED void **state) {
+    const float v[] = {0, 0.5F, 1, 0.02F, 0.25F, 0.75F};
+    struct glint_exr_channel channels[3];
+    for (size_t c = 0; c < 3; c++)
+        channels[c] = (struct glint_exr_channel){.name = (const char *[]){"R", "G", "B"}[c],
+                                                 .stored = GLINT_STORED_FLOAT,
+                                                 .data = v + c,
+                                                 .x_stride_bytes = 3 * sizeof *v};
+    const struct glint_exr_attribute color = {.name = "glint.color", .type = GLINT_EXR_STRING, .string = "srgb"};
+    const struct glint_exr_part part = {.name = "graded",
+                                        .width = 2,
+                                        .height = 1,
+                                        .channels = channels,
+                                        .channel_count = 3,
+                                        .attributes = &color,
+                                        .attribute_count = 1};
+    struct glint_error err = {0};
+    struct pixels p;
+    if (!glint_exr_write(in_folder("encoded.exr"), &part, 1, 1, &err)) fail_msg("%s", err.message);
+    for (int named = 0; named < 2; named++) { /* the view without a tone curve encodes it again as it was */
+        if (named) free(glint_ok("view", in_folder("encoded.exr"), "--view", "sRGB", "-o", in_folder("encoded.png")));
+        else free(glint_ok("view", in_folder("encoded.exr"), "-o", in_folder("encoded.png")));
+        p = read_png(in_folder("encoded.png"));
+        for (uint32_t x = 0; x < 2; x++)
+            assert_pixel(&p, x, 0,
+                         (const uint8_t[3]){(uint8_t)lroundf(255 * v[3 * x]), (uint8_t)lroundf(255 * v[3 * x + 1]),
+                                            (uint8_t)lroundf(255 * v[3 * x + 2])},
+                         named);
+        free(p.rgb);
+    }
+}
+
 static void colour_equals_oiiotool(UNUSED void **state) {
     enum { W = 32, H = 24 };
     static float v[W * H * 3];
@@ -376,6 +409,7 @@ static void a_dash_is_stdout(UNUSED void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(colour_without_tone_mapping_is_the_srgb_curve),
+        cmocka_unit_test(what_is_encoded_for_a_display_is_shown_as_it_is),
         cmocka_unit_test(colour_equals_oiiotool),
         cmocka_unit_test(distance_is_viridis_between_the_ends_of_the_range),
         cmocka_unit_test(wide_lengths_are_shown_logarithmically),

@@ -24,6 +24,7 @@ struct diff_image {
     const char **channels;             /* at most DIFF_CHANNELS */
     const char **stored;               /* their names in a captured part */
     bool *integers;                    /* for each channel */
+    bool display;                      /* colours were encoded for a display, and are read decoded */
     size_t channel_count;
     size_t part;                            /* index in the file */
     const struct glint_run_image *run;      /* NULL: an image of a file */

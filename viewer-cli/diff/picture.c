@@ -42,6 +42,7 @@ static bool read_source(struct diff_side *side, const struct diff_image *image, 
                               .height = image->height,
                               .components = (uint32_t)count,
                               .integer = integers,
+                              .display = image->display,
                               .cube = image->height % (6 * image->width) == 0,
                               .texels = malloc(values * sizeof *source->texels)};
     const size_t length = channel_layer_length(names[0]);

@@ -73,6 +73,8 @@ static bool add_part(struct diff_side *side, size_t p, const char *name, struct 
     struct diff_image *image = add_image(side, name, part->channel_count, err);
     if (!image) return false;
     image->part = p;
+    const struct glint_exr_attribute *color = side->is_capture ? NULL : glint_exr_attribute(part, "glint.color");
+    image->display = color && color->type == GLINT_EXR_STRING && glint_encoding_is_display(color->string);
     set_size(image, part->width, part->height);
     for (size_t c = 0; c < part->channel_count; c++) {
         if (!in_layer(side, part->channels[c].name)) continue;
@@ -158,6 +160,7 @@ static bool list_run(struct diff_side *side, struct glint_error *err) {
         image->slot = info->slot;
         image->variant = info->variant;
         image->unit = info->unit;
+        image->display = glint_encoding_is_display(info->encoding);
         set_size(image, info->width, info->height);
         for (const char *at = info->channels; *at && image->channel_count < info->components;) {
             const size_t length = strcspn(at, " ");
@@ -204,8 +207,8 @@ static bool read_run(struct diff_side *side, const struct diff_image *image, con
                      bool integers, void *out, struct glint_error *err) {
     const size_t pixels = (size_t)image->own_width * image->own_height, components = image->channel_count;
     uint32_t *all = malloc(pixels * components * sizeof *all), *to = out;
-    bool ok =
-        (all || no_memory(err)) && glint_run_read(side->run, image->run, integers ? GLINT_U32 : GLINT_F32, all, err);
+    bool ok = (all || no_memory(err)) && (integers ? glint_run_read(side->run, image->run, GLINT_U32, all, err)
+                                                   : glint_run_read_linear(side->run, image->run, (float *)all, err));
     for (size_t k = 0; ok && k < count; k++) {
         size_t from = 0;
         while (from < components && strcmp(image->channels[from], channels[k]) != 0) from++;
@@ -237,7 +240,11 @@ static bool read_own(struct diff_side *side, const struct diff_image *image, con
                      bool integers, void *out, struct glint_error *err) {
     if (side->run) return read_run(side, image, channels, count, integers, out, err);
     if (image->captured) return read_captured(side, image, channels, count, integers, out, err);
-    return glint_exr_read(side->exr, image->part, channels, count, integers ? GLINT_U32 : GLINT_F32, out, 0, err);
+    if (!glint_exr_read(side->exr, image->part, channels, count, integers ? GLINT_U32 : GLINT_F32, out, 0, err))
+        return false;
+    if (image->display && !integers)
+        glint_decode_display(out, (size_t)image->own_width * image->own_height, channels, count);
+    return true;
 }
 
 bool diff_side_read(struct diff_side *side, const struct diff_image *image, const char *const *channels, size_t count,

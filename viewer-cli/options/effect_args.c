@@ -52,6 +52,9 @@ size_t effects_find(const struct effect_search *search, const struct glint_effec
     const struct glint_effect *effects = glint_effects_by_default(&all);
     if (search->name) {
         if (!(found[0] = named(search->name, err))) return 0;
+        if (found[0]->no_truth && (search->truths || search->reference))
+            return glint_fail(err, GLINT_ERROR_USAGE, "--effect %s: it has neither a truth nor a reference: %s",
+                              search->name, found[0]->no_truth);
         return is_made(search, found[0]) ||
                glint_fail(err, GLINT_ERROR_USAGE, "--effect %s: no slot of the pipeline makes the %s", search->name,
                           found[0]->noun);

@@ -447,6 +447,9 @@ typedef void (*glint_report)(void *user, const char *rule, const char *message);
 bool glint_capture_validate(const char *path, const struct glint_limits *limits, glint_report report, void *user,
                             size_t *violations, struct glint_error *err);
 
+/* What the encoding `srgb` of colours decodes to. */
+float glint_linear_of_srgb(float value);
+
 /* Names of common parts. */
 #define GLINT_PART_GBUFFER "gbuffer"
 #define GLINT_PART_LIT "lit"
@@ -456,6 +459,8 @@ bool glint_capture_validate(const char *path, const struct glint_limits *limits,
 #define GLINT_PART_PROBE "probe.000" /* the only probe that passes use */
 #define GLINT_PART_WATER "water"
 #define GLINT_PART_TRANSPARENT "transparent"
+#define GLINT_PART_TABLE "lut"
+#define GLINT_PART_DIRT "dirt"
 #define GLINT_PART_MIRROR "planar.000" /* the only planar map that passes use */
 
 /* ---- The registry of roles, which writer, reader, validation and the tables of FORMAT.md are generated from ---- */
@@ -472,6 +477,7 @@ enum glint_shape {
     GLINT_SHAPE_FRAME,  /* the G-buffer's size */
     GLINT_SHAPE_CUBE,   /* N × 6N */
     GLINT_SHAPE_LEVELS, /* N × 6N, with coarser levels as parts of their own: NAME.level1 … */
+    GLINT_SHAPE_TABLE,  /* N × N²: a table of colours, N slices of N × N below each other */
     GLINT_SHAPE_ANY
 };
 /* Whether the part is six faces below each other. */

@@ -70,6 +70,8 @@ enum glint_size_class {
     GLINT_SIZE_FIGURES,        /* 2D, 512 × 1 */
     GLINT_SIZE_PLANAR,         /* 2D, the size of the capture's planar reflection map */
     GLINT_SIZE_SHADOW,         /* 2D, the shadow maps of the sun one below the other (passes/shared/shadow_maps.h) */
+    GLINT_SIZE_TABLE,          /* 2D, the size of the capture's table of colours */
+    GLINT_SIZE_DIRT,           /* 2D, the size of the capture's dirt on the lens */
     GLINT_SIZE_GRID,           /* 2D, slices of the capture's volume of light, or of 24³ cells that a pass fills */
     GLINT_SIZE_CUBEMAPS_MIPS,
     GLINT_SIZE_SKY_MIPS,
@@ -183,6 +185,7 @@ struct glint_effect {
                         1];        /* images that may be its result, the preferred first; NULL behind the last */
     const char *channels;          /* of the truth, and as many of the result: "R G B" */
     const char *truth;             /* the part, or with truth_has_choices its name before ".CHOICE" */
+    const char *no_truth;          /* why there is no truth; NULL: there is one */
     enum glint_pass_role truth_by; /* the parameter whose choice that is */
     bool truth_has_choices;
     enum glint_pass_role channel_by; /* the parameter whose choice is the place of the channel among channel_choices */
@@ -198,9 +201,9 @@ struct glint_effect {
     const char *term;                /* how the composed picture changes by it */
     bool of_all;                     /* the passes of all effects count as its own */
 };
-/* All effects, by the place that each declares, those made of all last. */
+/* All effects, by the place that each declares, behind the others those without a truth, and last those made of all. */
 const struct glint_effect *glint_effects(size_t *count);
-/* Of these the first, which are judged where none is asked for by name: all but those made of all. */
+/* Of these the first, which are judged where none is asked for by name: all that have a truth and are not made of all. */
 const struct glint_effect *glint_effects_by_default(size_t *count);
 /* Whether passes of the pass's effect count as the effect's own. */
 static inline bool glint_effect_has(const struct glint_effect *effect, const struct glint_pass *pass) {

@@ -139,6 +139,8 @@ struct glint_survey {
     bool has_sky, has_probe, has_previous, has_planar, has_water, has_transparent, has_fresnel, has_fog;
     bool has_indirect, has_sun; /* which part of the light is indirect is known; the capture declares a sun */
     bool has_volume;            /* the capture has a volume of light */
+    bool has_scene;             /* the capture has the finished picture */
+    double exposure;            /* the capture's factor from radiance to what is displayed */
     bool has_earlier_lit, has_earlier_scene; /* pictures of the previous frame */
     uint64_t luminous; /* pixels of the lit picture that are not black; all, where it was not read */
     bool has_history;  /* the replay holds the images of the previous frame, and this frame is no camera cut */
@@ -153,7 +155,8 @@ struct glint_survey {
     uint64_t water, transparent; /* pixels with a water or a transparent surface in front */
     uint64_t moved, moving;   /* surfaces that moved in the picture since the previous frame; not by the camera alone */
     uint64_t stencil_bits[8]; /* pixels by the bits of their stencil id */
-    float light[2];           /* lowest and highest luminance of the lit picture */
+    /* Lowest and highest finite luminance of the lit picture; the latter also if `partial`, and +inf where the picture was not read. */
+    float light[2];
     float transparent_roughness; /* largest roughness of a transparent surface */
     /* Entries of `active`, in the order of the active cube maps, whose faces were surveyed; 0: they may show anything. And how many
        of these also have `crossed` and `nearby`; 0: rays may reach every face. */
@@ -332,6 +335,8 @@ struct glint_run;
 struct glint_run_image {
     const char *slot, *variant, *name, *unit, *meaning, *channels; /* channels as declared: "R G B A" */
     uint32_t width, height, components;
+    const char *
+        encoding; /* of the colours, a name of the encoding `color` of FORMAT.md; "linear" unless the pass says otherwise */
     bool integer, cube; /* cube: cube maps, whose faces are stacked from top to bottom */
 };
 struct glint_run *glint_run_open(const char *folder, struct glint_error *err);
@@ -346,7 +351,7 @@ void glint_run_close(struct glint_run **run);
    "camera" {world_to_view, view_to_clip, clip_y}, "seconds" by phase, "peak_memory_bytes", "warnings",
    "passes" [{slot, variant, ran, reason, cached, cached_work, dispatches, work {texels, of, rays}, host, shader,
    parameters {name: value}, time_ns {n, min, median, max, cold},
-   images [{name, file, part, channels, unit, meaning, width, height, format}, …]}, …].
+   images [{name, file, part, channels, unit, meaning, width, height, format, encoding (not of linear ones)}, …]}, …].
    work: the texels that a pass was dispatched over (for a list those of its tiles), their number without culling, and with diagnostics
    the number of rays that a tracer traced. */
 const char *glint_run_json(const struct glint_run *run);
@@ -358,9 +363,16 @@ const struct glint_run_image *glint_run_find(const struct glint_run *run, const 
 bool glint_run_remove(const char *folder, struct glint_error *err);
 /* Replaces `folder`/run.json atomically. */
 bool glint_run_write_json(const char *folder, const char *text, struct glint_error *err);
-/* Reads an image as GLINT_F32, GLINT_U32 or its stored type, which keeps every bit. */
+/* Reads an image as GLINT_F32, GLINT_U32 or its stored type, which keeps every bit: colours as they are encoded. */
 bool glint_run_read(struct glint_run *run, const struct glint_run_image *image, enum glint_type type, void *out,
                     struct glint_error *err);
+/* Reads an image as floats, its colours decoded to linear ones. */
+bool glint_run_read_linear(struct glint_run *run, const struct glint_run_image *image, float *out,
+                           struct glint_error *err);
+/* Whether colours of that encoding are those of a display; NULL is linear. */
+bool glint_encoding_is_display(const char *encoding);
+/* Decodes R, G and B of interleaved pixels; names are those of the channels. */
+void glint_decode_display(float *values, size_t pixels, const char *const *names, size_t channels);
 
 #ifdef __cplusplus
 }

@@ -23,6 +23,22 @@ static bool invalid_color(const struct source *s, size_t i) {
     return false;
 }
 
+/* IEC 61966-2-1. */
+static float srgb_of_linear(float v) {
+    return v <= 0.0031308F ? 12.92F * v : 1.055F * powf(v, 1 / 2.4F) - 0.055F;
+}
+
+/* What was encoded for a display is shown as it was, without another tone curve, unless a transform is asked for by name. */
+static bool to_display(const struct source *s, const struct render_options *options, float *rgba,
+                       struct glint_error *err) {
+    const struct ocio_options *ocio = &options->ocio;
+    if (!s->display || ocio->input || ocio->display || ocio->view)
+        return ocio_apply(ocio, rgba, s->width, s->height, err);
+    for (size_t i = 0; i < (size_t)s->width * s->height; i++)
+        for (size_t k = 0; k < 3; k++) rgba[4 * i + k] = srgb_of_linear(rgba[4 * i + k]);
+    return true;
+}
+
 static uint8_t to_byte(float v) {
     return (uint8_t)((v > 0 ? v < 1 ? v : 1 : 0) * 255 + 0.5F);
 }
@@ -31,8 +47,7 @@ static bool draw_color(struct picture *picture, const struct source *s, const st
                        size_t *invalid, struct glint_error *err) {
     float *rgba = linear_rgba(s, options->exposure_ev);
     if (!rgba) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    bool ok = ocio_apply(&options->ocio, rgba, s->width, s->height, err) &&
-              picture_init(picture, s->width, s->height, COLOR_BACKGROUND, err);
+    bool ok = to_display(s, options, rgba, err) && picture_init(picture, s->width, s->height, COLOR_BACKGROUND, err);
     *invalid = 0;
     for (size_t i = 0; ok && i < (size_t)s->width * s->height; i++) {
         bool bad = invalid_color(s, i);

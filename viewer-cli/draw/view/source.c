@@ -191,6 +191,9 @@ static bool read_exr(struct source *source, struct glint_exr *exr, const struct 
         !glint_exr_read(exr, index, names, s.count, source->integer ? GLINT_U32 : GLINT_F32, source->texels, 0, err))
         return false;
     if (source->integer) integers_to_float(source);
+    const struct glint_exr_attribute *color = glint_exr_attribute(part, "glint.color");
+    source->display = color && color->type == GLINT_EXR_STRING && glint_encoding_is_display(color->string);
+    if (source->display) glint_decode_display(source->texels, (size_t)source->width * source->height, names, s.count);
     return true;
 }
 
@@ -248,14 +251,15 @@ static bool read_run(struct source *source, const struct source_choice *choice, 
         source->components = image->components;
         source->integer = image->integer;
         source->cube = image->cube;
+        source->display = glint_encoding_is_display(image->encoding);
         const char *name = image->channels;
         for (uint32_t i = 0; i < source->components; i++) {
             size_t length = strcspn(name, " ");
             snprintf(source->channels[i], sizeof source->channels[i], "%.*s", (int)length, name);
             name += name[length] ? length + 1 : length;
         }
-        ok = allocate(source, err) &&
-             glint_run_read(run, image, image->integer ? GLINT_U32 : GLINT_F32, source->texels, err);
+        ok = allocate(source, err) && (image->integer ? glint_run_read(run, image, GLINT_U32, source->texels, err)
+                                                      : glint_run_read_linear(run, image, source->texels, err));
         if (ok && image->integer) integers_to_float(source);
     }
     glint_run_close(&run);

@@ -20,6 +20,7 @@ struct source {
     char channels[4][256]; /* without the layer's name */
     uint32_t width, height, components;
     bool integer; /* the texels are integers */
+    bool display; /* they were encoded for a display, and are decoded here */
     bool cube;    /* faces of a cube map below each other */
     float *texels;
 };
