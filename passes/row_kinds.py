@@ -220,6 +220,8 @@ EFFECT_KINDS = [
          row='.truth = $part, .channels = $channels, .truth_by = GLINT_ROLE_##$role, .truth_has_choices = true,'),
     Kind('TRUTH_CHANNEL_BY', 'role, channels', 'Beside TRUTH: its channel is one of these, between spaces, by the place of the choice of the parameter with '
          'this ROLE; the last one where a pipeline does not have the parameter.', row='.channel_by = GLINT_ROLE_##$role, .channel_choices = $channels,'),
+    Kind('NO_TRUTH', 'channels', 'No capture holds its true result, of which these channels would be judged. Commands judge it where it is asked for by name, against runs alone.',
+         row='.channels = $channels,'),
     Kind('RAYS', 'part', 'The part whose distance.Z is where the rays of surfaces of the first class truly end.', row='.rays = $part,'),
     Kind('JUDGED_IN', 'pixels', 'The pixels that count: enum glint_judged.', row='.judged = GLINT_JUDGED_##$pixels,'),
     Kind('CALLED_FOR', 'fact', 'The fact (facts.h) without which a frame does not call for the effect.', row='.fact = #$fact,'),

@@ -2,6 +2,7 @@
 SURVEY_PART(has_sky, GLINT_PART_SKY)
 SURVEY_PART(has_probe, GLINT_PART_PROBE)
 SURVEY_PART(has_indirect, "indirect")
+SURVEY_PART(has_stippling, "stipple")
 SURVEY_PART(has_earlier_lit, "previous.lit")
 SURVEY_PART(has_earlier_scene, "previous.scene")
 SURVEY_PART(has_planar, GLINT_PART_MIRROR)

@@ -17,7 +17,7 @@ const struct glint_effect *glint_effects(size_t *count) {
 
 const struct glint_effect *glint_effects_by_default(size_t *count) {
     const struct glint_effect *all = glint_effects(count);
-    while (*count && all[*count - 1].of_all) --*count;
+    while (*count && (all[*count - 1].of_all || !all[*count - 1].truth)) --*count;
     return all;
 }
 

@@ -102,14 +102,14 @@ def text_files(root, build):
 
 
 def effects(root):
-    """The names of the effects, by the place that each declares, those made of all last; equal ones by name."""
+    """The names of the effects, by the place that each declares, those that are judged by default first; equal ones by name."""
     places = {}
     for path in root.glob('*/effect.h'):
         text = path.read_text(encoding='utf-8')
         row = re.search(r'^EFFECT\((\d+),', text, re.M)
         if not row:
             sys.exit(f'{path}: expected a row EFFECT(place, title, noun, about)')
-        places[path.parent.name] = bool(re.search(r'^OF_ALL_EFFECTS\b', text, re.M)), int(row[1])
+        places[path.parent.name] = bool(re.search(r'^(OF_ALL_EFFECTS|NO_TRUTH)\b', text, re.M)), int(row[1])
     return sorted(places, key=lambda name: (places[name], name))
 
 

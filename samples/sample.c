@@ -6,6 +6,7 @@
 #include "bake.h"
 #include "dump.h"
 #include "encode.h"
+#include "extra.h"
 #include "finished.h"
 #include "foreground.h"
 #include "gltf.h"
@@ -276,7 +277,8 @@ static bool write_parts(struct session *s, const struct dump *dump, const struct
     if (!dump_gbuffer(dump, "gbuffer", view, s->pixels, err) || !dump_lit(dump, "lit", s->pixels, err) ||
         !dump_gbuffer(dump, "previous.gbuffer", previous, s->previous, err) ||
         !dump_lit(dump, "previous.lit", s->previous, err) ||
-        !light_write(dump, s->now, s->pixels, &s->options, &s->job, err))
+        !light_write(dump, s->now, s->pixels, &s->options, &s->job, err) ||
+        !extra_write(dump, s->now, &s->options, &s->job, err))
         return false;
     if (!(shot ? name_cubemaps(s, dump, err) : write_cubemaps(s, dump, err)) || !write_sky(s, dump, err)) return false;
     if (s->scene.water.there && !write_water(s, dump, view, number, err)) return false;

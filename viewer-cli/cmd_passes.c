@@ -334,8 +334,10 @@ static void print_effect(const struct glint_effect *effect, bool markdown) {
     for (size_t k = 0; k < GLINT_EFFECT_RESULTS && effect->results[k]; k++)
         printf("%s%s%s%s", k ? ", else " : "", code, effect->results[k], code);
     printf("\n%scomposed picture: %s\n", item, effect->term);
-    printf("%struth: %s%s%s%s (%s)\n", item, code, effect->truth, effect->truth_has_choices ? ".*" : "", code,
-           effect->channels);
+    if (effect->truth)
+        printf("%struth: %s%s%s%s (%s)\n", item, code, effect->truth, effect->truth_has_choices ? ".*" : "", code,
+               effect->channels);
+    else printf("%struth: none\n", item);
     printf("%scalled for by: %s%s%s\n", item, code, effect->fact, code);
     static const char *const judged[] = {"pixels that reflect", "all pixels but sky", "all pixels"};
     printf("%sjudged in: %s", item, judged[effect->judged]);

@@ -9,6 +9,7 @@ COUNT(above,                   1,  "pixels whose view ray rises above the horizo
 COUNT(open,                    1,  "pixels of these without a surface")
 COUNT(sunlit,                  1,  "surfaces that are not in the shadow of the sun's mask, all without a mask")
 COUNT(luminous,                1,  "pixels whose lit picture is not black, or is invalid")
+COUNT(stippled,                1,  "pixels in which a stippled surface was drawn")
 COUNT(surface_roughness,       10, "surfaces by roughness, in bins of 0.1")
 COUNT(reflecting_roughness,    10, "reflecting surfaces by roughness, in bins of 0.1")
 COUNT(metalness,               10, "surfaces by metalness, in bins of 0.1")

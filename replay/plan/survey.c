@@ -51,7 +51,7 @@ void survey_channels(const struct channels *channels, struct glint_survey *surve
         if (!(pixel[at[2]] == 0 && pixel[at[3]] == 0)) count_pixel(&survey->reflecting, roughness);
     }
     survey->sunlit = survey->surfaces.count;
-    survey->luminous = survey->pixels; /* the host does not read the picture */
+    survey->luminous = survey->stippled = survey->pixels; /* the host does not read the picture and its mask */
 }
 
 void survey_capture_parts(const struct glint_capture *capture, struct glint_survey *survey) {

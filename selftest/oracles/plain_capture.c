@@ -269,7 +269,8 @@ bool plain_write(const char *path, const struct plain *plain, struct glint_error
          (!plain->pane || add_over(writer, plain, "transparent", plain->pane, err));
     for (uint32_t i = 0; ok && plain->cube && i < plain->cube_count; ++i) ok = add_cube(writer, plain, i, err);
     for (uint32_t i = 0; ok && plain->distance && i < plain->cube_count; ++i) ok = add_distances(writer, plain, i, err);
-    ok = ok && (!plain->part || glint_writer_add_part(writer, plain->part, err));
+    for (uint32_t i = 0; ok && plain->part && i < (plain->part_count ? plain->part_count : 1); ++i)
+        ok = glint_writer_add_part(writer, &plain->part[i], err);
     ok = ok && (!plain->sky || add_cube(writer, plain, plain->cube_count, err)) && glint_writer_finish(writer, err);
     glint_writer_destroy(&writer);
     return ok;

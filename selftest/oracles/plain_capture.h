@@ -65,7 +65,8 @@ struct plain {
        the pane's roughness; a depth of +inf: nothing there. */
     void (*water)(uint32_t x, uint32_t y, float out[9]);
     void (*pane)(uint32_t x, uint32_t y, float out[9]);
-    const struct glint_part *part; /* one part more; NULL: none */
+    const struct glint_part *part; /* one part more, or part_count of them; NULL: none */
+    uint32_t part_count;
 };
 bool plain_write(const char *path, const struct plain *plain, struct glint_error *err);
 

@@ -132,7 +132,7 @@ void glint_study_truth_part(const struct glint_effect *effect, const struct glin
     size_t place;
     const char *choice = effect->truth_has_choices ? choice_of(effect->truth_by, pipeline, &place) : NULL;
     if (effect->truth_has_choices && !choice) choice = choice_of(effect->truth_by, NULL, &place);
-    snprintf(part, 96, choice ? "%s.%s" : "%s", effect->truth, choice);
+    snprintf(part, 96, choice ? "%s.%s" : "%s", effect->truth ? effect->truth : "", choice);
 }
 
 static void truth_channels(const struct glint_effect *effect, const struct glint_pipeline *pipeline,
@@ -168,6 +168,9 @@ bool glint_study_truth(struct glint_capture *capture, const struct glint_effect 
     struct study_channel_list channels;
     *pixels = (struct glint_pixels){0};
     *error = NULL;
+    if (!effect->truth)
+        return glint_fail(err, GLINT_ERROR_USAGE, "effect %s: no capture holds a truth of the %s; compare with a run",
+                          effect->name, effect->noun);
     glint_study_truth_part(effect, pipeline, name);
     const struct glint_part_info *part = glint_capture_find(capture, name);
     if (!part) return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part %s: missing", glint_capture_path(capture), name);

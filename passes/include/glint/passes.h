@@ -182,7 +182,7 @@ struct glint_effect {
     const char *results[GLINT_EFFECT_RESULTS +
                         1];        /* images that may be its result, the preferred first; NULL behind the last */
     const char *channels;          /* of the truth, and as many of the result: "R G B" */
-    const char *truth;             /* the part, or with truth_has_choices its name before ".CHOICE" */
+    const char *truth;             /* the part, or with truth_has_choices its name before ".CHOICE"; NULL: none */
     enum glint_pass_role truth_by; /* the parameter whose choice that is */
     bool truth_has_choices;
     enum glint_pass_role channel_by; /* the parameter whose choice is the place of the channel among channel_choices */
@@ -198,9 +198,9 @@ struct glint_effect {
     const char *term;                /* how the composed picture changes by it */
     bool of_all;                     /* the passes of all effects count as its own */
 };
-/* All effects, by the place that each declares, those made of all last. */
+/* All effects, by the place that each declares, those that are judged by default first. */
 const struct glint_effect *glint_effects(size_t *count);
-/* Of these the first, which are judged where none is asked for by name: all but those made of all. */
+/* Of these the first, which are judged where none is asked for by name: all that have a truth and are not made of all. */
 const struct glint_effect *glint_effects_by_default(size_t *count);
 /* Whether passes of the pass's effect count as the effect's own. */
 static inline bool glint_effect_has(const struct glint_effect *effect, const struct glint_pass *pass) {
