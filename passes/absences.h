@@ -14,6 +14,7 @@ ABSENCE("indirect", "", "occlusion has nothing to darken: which part of the ligh
 ABSENCE("volume.000", "", "indirect light that the screen does not show comes from a volume made of the cube maps; without those it is the captured indirect light, or black if that is missing, too")
 ABSENCE("emissive", "", "what surfaces emit themselves is not known apart from the light that falls on them")
 ABSENCE("ao", "", "the engine's own occlusion is not there to be compared with, or taken out of the ambient light")
+ABSENCE("decal", "", "decals are not blended into the G-buffer")
 ABSENCE("stipple", "", "surfaces that the engine drew into every other pixel stay a pattern")
 ABSENCE_UNLESS("sun", "shadow", "", "no shadow mask can be made from the engine's shadow map")
 ABSENCE_UNLESS("shadow", "sun", "", "contact shadows are all that shades the sun: what casts a shadow from farther away is not known")

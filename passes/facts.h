@@ -37,6 +37,7 @@ FACT(fresnel, PARTS, s->has_fresnel, SAY("materials with%s a Fresnel factor", s-
 FACT(history, PARTS, s->has_history, SAY("%s", s->has_history ? "the previous frame is available" : "no previous frame, or a camera cut"))
 FACT(stippled, PIXELS, s->has_stippling && s->stippled > 0,
      s->has_stippling ? SAY("%llu of %llu pixels show a stippled surface", N(s->stippled), N(s->pixels)) : SAY("no mask of stippled pixels"))
+FACT(decals, PARTS, s->has_overlays, SAY("%s", s->has_overlays ? "decal buffers" : "no decal buffers"))
 FACT(indirect_light, PARTS, s->has_indirect, SAY("%s part of the light that is indirect", s->has_indirect ? "a" : "no"))
 /* Whether surfaces can receive light from others or the sky: where nothing is lit, only what other parts than the picture hold. */
 #define OTHER_LIGHT                                                                                                             \

@@ -61,7 +61,7 @@ void survey_capture_parts(const struct glint_capture *capture, struct glint_surv
         survey->volumes += part->has_cubemap && part->cubemap.inner != GLINT_VOLUME_NONE;
         survey->distances += part->has_cubemap && glint_part_has_channel(part, "distance.Z");
     }
-#define SURVEY_PART(member, name) survey->member = glint_capture_find(capture, name) != NULL;
+#define SURVEY_PART(member, name) survey->member |= glint_capture_find(capture, name) != NULL;
 #include "survey_parts.h"
     const struct glint_part_info *gbuffer = glint_capture_find(capture, GLINT_PART_GBUFFER);
     survey->has_fresnel = gbuffer && glint_part_has_channel(gbuffer, "material.fresnel");

@@ -188,7 +188,10 @@ static struct glint_frame frame_of(const struct plain *plain) {
         frame.camera.view_to_clip[i ? 6 : 2] = clip * plain->jitter_px[i];
         frame.previous.view_to_clip[i ? 6 : 2] = clip * plain->previous_jitter_px[i];
     }
-    if (plain->foreground) frame.classes[frame.class_count++] = (struct glint_stencil_class){4, 4, "foreground"};
+    if (plain->foreground) frame.classes[frame.class_count++] = (struct glint_stencil_class){4, 4, ""};
+    if (plain->foreground)
+        snprintf(frame.classes[0].name, sizeof frame.classes[0].name, "%s",
+                 plain->class_name ? plain->class_name : "foreground");
     return frame;
 }
 

@@ -26,11 +26,12 @@ enum glint_truths {
 
 /* What the engine writes only when asked. */
 enum glint_also {
-    GLINT_ALSO_AO = 1,      /* its own, coarse ambient occlusion, over half the radius of the truth */
-    GLINT_ALSO_SUN = 2,     /* its shadow mask, in scenes with a sun */
-    GLINT_ALSO_SHADOW = 4,  /* one shadow map, in scenes with a sun */
-    GLINT_ALSO_VOLUME = 8,  /* a volume of light */
-    GLINT_ALSO_STIPPLE = 16 /* where stippled surfaces were drawn */
+    GLINT_ALSO_AO = 1,       /* its own, coarse ambient occlusion, over half the radius of the truth */
+    GLINT_ALSO_SUN = 2,      /* its shadow mask, in scenes with a sun */
+    GLINT_ALSO_SHADOW = 4,   /* one shadow map, in scenes with a sun */
+    GLINT_ALSO_VOLUME = 8,   /* a volume of light */
+    GLINT_ALSO_STIPPLE = 16, /* where stippled surfaces were drawn */
+    GLINT_ALSO_DECALS = 32   /* decals on the ground, in buffers of their own */
 };
 
 struct glint_sample_options {
