@@ -22,6 +22,7 @@ CAPTURE(engine_ao,        R16F,    "1",  FULL,     "ao",      "visibility", fals
 CAPTURE(sun_mask,         R16F,    "1",  FULL,     "sun",     "visibility", false, 1, "the engine's own shadow mask of the sun: 1 in the sun, 0 in its shadow")
 CAPTURE(shadow_map,       R32F,    "1",  SHADOW,   "shadow.000", "depth.Z", false, 1, "depths of the surfaces nearest to the light, as frame.shadow_uv_from_world has them")
 CAPTURE(stipple_mask,     R16F,    "1",  FULL,     "stipple", "drawn", false, 0, "1 where a surface was drawn that the engine draws into every other pixel alone")
+CAPTURE(skin_strength,    R16F,    "1",  FULL,     "skin",    "strength", false, 1, "how widely light scatters under the surface: 1 as the profile of skin says, 0: no skin")
 CAPTURE(scene,            RGBA16F, "radiance", FULL, "scene", "R G B -", false, 0, "the finished picture")
 CAPTURE(previous_lit,     RGBA16F, "radiance", FULL, "previous.lit", "R G B -", false, 0, "lit of the previous frame")
 CAPTURE(previous_scene,   RGBA16F, "radiance", FULL, "previous.scene", "R G B -", false, 0, "scene of the previous frame")

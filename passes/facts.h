@@ -38,6 +38,7 @@ FACT(history, PARTS, s->has_history, SAY("%s", s->has_history ? "the previous fr
 FACT(stippled, PIXELS, s->has_stippling && s->stippled > 0,
      s->has_stippling ? SAY("%llu of %llu pixels show a stippled surface", N(s->stippled), N(s->pixels)) : SAY("no mask of stippled pixels"))
 FACT(decals, PARTS, s->has_overlays, SAY("%s", s->has_overlays ? "decal buffers" : "no decal buffers"))
+FACT(skin, PARTS, s->has_skin, SAY("%s", s->has_skin ? "a mask or a stencil class of skin" : "no skin"))
 FACT(indirect_light, PARTS, s->has_indirect, SAY("%s part of the light that is indirect", s->has_indirect ? "a" : "no"))
 /* Whether surfaces can receive light from others or the sky: where nothing is lit, only what other parts than the picture hold. */
 #define OTHER_LIGHT                                                                                                             \

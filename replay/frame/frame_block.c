@@ -216,6 +216,7 @@ void frame_block_fill(struct frame_block *block, const struct glint_frame *frame
     block->flags = (uvec4){sizes->history, frame->cut, sizes->chain, 0};
     block->foreground = class_of(frame, "foreground");
     block->overlaid = class_of(frame, "decal");
+    block->skin = class_of(frame, "skin");
     block->jitter = (vec4){(float)frame->jitter_px[0], (float)frame->jitter_px[1], 0, 0};
 }
 

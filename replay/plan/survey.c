@@ -63,6 +63,8 @@ void survey_capture_parts(const struct glint_capture *capture, struct glint_surv
     }
 #define SURVEY_PART(member, name) survey->member |= glint_capture_find(capture, name) != NULL;
 #include "survey_parts.h"
+    const struct glint_frame *frame = glint_capture_frame(capture);
+    for (uint32_t i = 0; i < frame->class_count; i++) survey->has_skin |= !strcmp(frame->classes[i].name, "skin");
     const struct glint_part_info *gbuffer = glint_capture_find(capture, GLINT_PART_GBUFFER);
     survey->has_fresnel = gbuffer && glint_part_has_channel(gbuffer, "material.fresnel");
     survey->has_previous = glint_capture_frame(capture)->has_previous;
