@@ -191,7 +191,7 @@ KINDS = [
          row='.name = #$from, .image = #$image'),
     Kind('ALIAS', 'image, captured',
          'When the facts that the pass needs do not hold, `image` equals this image of the capture: while the pass is dropped, both names are '
-         'one image on the device.', row='.name = #$captured, .image = #$image'),
+         'one image on the device. `image` may be one of the capture, too: the pass then makes it in place of that.', row='.name = #$captured, .image = #$image'),
     Kind('ALL_VISIBLE_UNLESS', 'parameter', 'While this parameter is off, the reflection of every surface is visible, whatever its material.',
          row='.name = #$parameter'),
     Kind('ALONG_RAYS', 'image, normals',

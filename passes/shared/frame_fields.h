@@ -20,6 +20,8 @@ FIELD(uvec4, counts,                   "x: active cube maps; y: frame number; z:
 FIELD(uvec4, flags,                    "x: 1 when history is valid (HISTORY rows hold the previous frame); y: 1 after a cut; z: chain length; w: number of the ray, from pipeline.first_ray")
 FIELD(uvec4, work,                 "x: 1 when rays are traced even where no reflection is visible; y: 1 when every surface's reflection is visible, whatever its material; z: max roughness that some pass treats as smooth; w: min roughness that some pass treats as rough; both as bits of a float")
 FIELD(uvec4, foreground,           "stencil ids with (id & y) == x are of the class `foreground`; z: 1 when the capture has such a class; w: 0")
+FIELD(uvec4, overlaid,             "stencil ids with (id & y) == x are of the class `decal`; z: 1 when the capture has such a class; w: 0")
+FIELD(uvec4, skin,                 "stencil ids with (id & y) == x are of the class `skin`; z: 1 when the capture has such a class; w: 0")
 FIELD(uvec4, distances,            "x: bit i is set when active cube map i has distances; yzw: 0")
 FIELD(vec4,  far_light,            "what rays find that nothing nearer continues. x: levels of the probe, 0 without one; y: 1 when the probe has a box; z: sine of the elevation below which the sky, or the probe, shows painted ground, -2 without; w: 0")
 FIELD(mat4,  probe_roughness,      "roughness that each level of the probe is for, four a column")

@@ -219,12 +219,10 @@ static void fill_sun(struct frame_block *block, const struct glint_frame *frame)
     block->sun_irradiance = (vec4){sun->irradiance[0], sun->irradiance[1], sun->irradiance[2], 0};
 }
 
-/* The stencil class of first-person foreground such as a weapon: what it hides was never rendered. */
-static uvec4 foreground_of(const struct glint_frame *frame) {
+static uvec4 class_of(const struct glint_frame *frame, const char *name) {
     for (uint32_t i = 0; i < frame->class_count; i++) {
         const struct glint_stencil_class *class = &frame->classes[i];
-        if (strcmp(class->name, "foreground") == 0)
-            return (uvec4){class->value, class->mask ? class->mask : UINT32_MAX, 1, 0};
+        if (strcmp(class->name, name) == 0) return (uvec4){class->value, class->mask ? class->mask : UINT32_MAX, 1, 0};
     }
     return (uvec4){0, 0, 0, 0};
 }
@@ -251,7 +249,9 @@ void frame_block_fill(struct frame_block *block, const struct glint_frame *frame
     block->size = (uvec4){sizes->full[0], sizes->full[1], sizes->half[0], sizes->half[1]};
     block->counts = (uvec4){sizes->active, frame->number, sizes->cube_face, sizes->sky_face};
     block->flags = (uvec4){sizes->history, frame->cut, sizes->chain, 0};
-    block->foreground = foreground_of(frame);
+    block->foreground = class_of(frame, "foreground");
+    block->overlaid = class_of(frame, "decal");
+    block->skin = class_of(frame, "skin");
     block->jitter = (vec4){(float)frame->jitter_px[0], (float)frame->jitter_px[1], 0, 0};
 }
 

@@ -137,7 +137,7 @@ void graph_check(const struct graph *graph, struct faults *faults) {
                 continue;
             }
             const char *image = pass->rows[r].name;
-            if (capture_row(image))
+            if (capture_row(image) && !glint_pass_row(pass, GLINT_ROW_ALIAS, image))
                 faults_add(faults, GLINT_ERROR_USAGE, "image %s has two producers: %s/%s and the capture", image,
                            pass->slot, pass->variant);
             for (size_t j = i + 1; j < graph->pass_count; j++)

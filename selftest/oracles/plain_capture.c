@@ -189,7 +189,10 @@ static struct glint_frame frame_of(const struct plain *plain) {
         frame.camera.view_to_clip[i ? 6 : 2] = clip * plain->jitter_px[i];
         frame.previous.view_to_clip[i ? 6 : 2] = clip * plain->previous_jitter_px[i];
     }
-    if (plain->foreground) frame.classes[frame.class_count++] = (struct glint_stencil_class){4, 4, "foreground"};
+    if (plain->foreground) frame.classes[frame.class_count++] = (struct glint_stencil_class){4, 4, ""};
+    if (plain->foreground)
+        snprintf(frame.classes[0].name, sizeof frame.classes[0].name, "%s",
+                 plain->class_name ? plain->class_name : "foreground");
     return frame;
 }
 
@@ -288,7 +291,8 @@ bool plain_write(const char *path, const struct plain *plain, struct glint_error
          (!plain->pane || add_over(writer, plain, "transparent", plain->pane, err));
     for (uint32_t i = 0; ok && plain->cube && i < plain->cube_count; ++i) ok = add_cube(writer, plain, i, err);
     for (uint32_t i = 0; ok && plain->distance && i < plain->cube_count; ++i) ok = add_distances(writer, plain, i, err);
-    ok = ok && (!plain->part || glint_writer_add_part(writer, plain->part, err));
+    for (uint32_t i = 0; ok && plain->part && i < (plain->part_count ? plain->part_count : 1); ++i)
+        ok = glint_writer_add_part(writer, &plain->part[i], err);
     ok = ok && (!plain->sky || add_cube(writer, plain, plain->cube_count, err)) && glint_writer_finish(writer, err);
     glint_writer_destroy(&writer);
     return ok;

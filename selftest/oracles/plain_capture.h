@@ -36,11 +36,12 @@ struct plain {
     bool floor;
     /* Changes the values before they are written; NULL: not. values[channel · pixels + y · width + x]. */
     void (*spoil)(const struct plain *plain, float *values);
-    const float *scene;   /* R G B of the finished picture everywhere; NULL: none */
-    const float *fresnel; /* material.fresnel everywhere; NULL: none */
-    bool foreground;      /* the right half has stencil id 5, which is of the class `foreground`; the left one 1 */
-    uint32_t frame;       /* number; 0: 1 */
-    bool first;           /* the number is 0 */
+    const float *scene;     /* R G B of the finished picture everywhere; NULL: none */
+    const float *fresnel;   /* material.fresnel everywhere; NULL: none */
+    bool foreground;        /* the right half has stencil id 5, which is of the class `foreground`; the left one 1 */
+    const char *class_name; /* the class of that id; NULL: foreground */
+    uint32_t frame;         /* number; 0: 1 */
+    bool first;             /* the number is 0 */
     bool cut;
     double exposure;                             /* of the frame; 0: 1 */
     double jitter_px[2], previous_jitter_px[2];  /* of the projection; the wall's motion says both */
@@ -70,7 +71,8 @@ struct plain {
        the pane's roughness; a depth of +inf: nothing there. */
     void (*water)(uint32_t x, uint32_t y, float out[9]);
     void (*pane)(uint32_t x, uint32_t y, float out[9]);
-    const struct glint_part *part; /* one part more; NULL: none */
+    const struct glint_part *part; /* one part more, or part_count of them; NULL: none */
+    uint32_t part_count;
 };
 bool plain_write(const char *path, const struct plain *plain, struct glint_error *err);
 

@@ -12,6 +12,8 @@ float kept_part(ivec2 pixel) {
     return kept_light(texelFetch(occlusion, pixel, 0).x, darkened ? texelFetch(engine_ao, pixel, 0).x : 1.0);
 }
 
+vec3 diffuse_light(ivec2 pixel) { return has_lit_scattered && scatter ? texelFetch(lit_scattered, pixel, 0).rgb : texelFetch(lit, pixel, 0).rgb; }
+
 vec3 with_terms(ivec2 pixel, vec3 color, float depth_m, vec3 normal) {
     bool traced = has_indirect && bounce && (ambient || is_replaced()), shaded = has_sun_shadow && shade,
          captured = has_captured() && ((has_occlusion && occlude) || is_replaced());
