@@ -36,11 +36,12 @@ struct plain {
     bool floor;
     /* Changes the values before they are written; NULL: not. values[channel · pixels + y · width + x]. */
     void (*spoil)(const struct plain *plain, float *values);
-    const float *scene;   /* R G B of the finished picture everywhere; NULL: none */
-    const float *fresnel; /* material.fresnel everywhere; NULL: none */
-    bool foreground;      /* the right half has stencil id 5, which is of the class `foreground`; the left one 1 */
-    uint32_t frame;       /* number; 0: 1 */
-    bool first;           /* the number is 0 */
+    const float *scene;         /* R G B of the finished picture everywhere; NULL: none */
+    const float *fresnel;       /* material.fresnel everywhere; NULL: none */
+    const float *vertex_normal; /* vertexNormal.X, .Y, .Z everywhere; NULL: none */
+    bool foreground; /* the right half has stencil id 5, which is of the class `foreground`; the left one 1 */
+    uint32_t frame;  /* number; 0: 1 */
+    bool first;      /* the number is 0 */
     bool cut;
     double jitter_px[2], previous_jitter_px[2];  /* of the projection; the wall's motion says both */
     const double *world_to_view;                 /* 16 values; NULL: as above */

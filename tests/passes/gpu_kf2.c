@@ -48,7 +48,9 @@ struct end {
     double distance; /* m */
     double toward;   /* cosine between the ray and the direction to the viewer */
     double facing;   /* cosine between the wall's normal and the reversed ray */
+    double turned;   /* and that of the normal `turned` */
 };
+static const double turned[3] = {0.6, 0, 0.8};
 static bool floor_ray(uint32_t i, struct end *end) {
     const double half =
         tan(degrees * 3.14159265358979323846 / 360) / HIGH; /* metres a half pixel, at a metre of depth */
@@ -56,9 +58,22 @@ static bool floor_ray(uint32_t i, struct end *end) {
     if (down * wall_m <= 1) return false; /* the wall itself */
     const double step = sqrt(1 + side * side + down * down), depth = 1 / down;
     const double height = -1 + down * (wall_m - depth);
-    *end = (struct end){(side / half + WIDE) / 2, (-height / wall_m / half + HIGH) / 2, (wall_m - depth) * step,
-                        -(side * side - down * down + 1) / (step * step), 1 / step};
+    *end = (struct end){(side / half + WIDE) / 2,
+                        (-height / wall_m / half + HIGH) / 2,
+                        (wall_m - depth) * step,
+                        -(side * side - down * down + 1) / (step * step),
+                        1 / step,
+                        (turned[2] - turned[0] * side) / step};
     return end->x > 0 && end->x < WIDE && end->y > 0 && end->y < HIGH && height > -0.9;
+}
+
+/* The right part of the wall has another normal. */
+enum { TURNED_X = 72 };
+static void turn(const struct plain *plain, float *values) {
+    const size_t pixels = (size_t)plain->width * plain->height;
+    for (size_t i = 0; i < pixels; ++i)
+        for (size_t k = 0; k < 3 && i % plain->width >= TURNED_X && values[PLAIN_NORMAL_Z * pixels + i] != 0; ++k)
+            values[(PLAIN_NORMAL_X + k) * pixels + i] = (float)turned[k];
 }
 
 static double smooth(double none, double full, double at) {
@@ -83,8 +98,13 @@ static void images_free(struct images *images) {
 
 static void each_attenuation_and_their_product(void **state) {
     struct gpu *gpu = *state;
+    char path[256];
     set_up(gpu);
-    capture(gpu, "floor", NULL, true);
+    plain_capture(
+        gpu_path(gpu, "turned", path),
+        &(struct plain){
+            .width = WIDE, .height = HIGH, .fov_y_degrees = degrees, .floor = true, .spoil = turn, .foreground = true});
+    gpu_load(gpu, "turned");
     gpu_set(gpu, "resolve.viewer_from=-1");
     gpu_set(gpu, "resolve.viewer_to=-0.5");
     gpu_set(gpu, "resolve.back_from=0.7");
@@ -98,8 +118,10 @@ static void each_attenuation_and_their_product(void **state) {
         if (!floor_ray(i, &end)) continue;
         const double u = end.x / WIDE, v = end.y / HIGH;
         const double expected[4] = {smooth(-0.5, -1, end.toward), smooth(0, 0.25, fmin(fmin(u, 1 - u), fmin(v, 1 - v))),
-                                    smooth(0.7, 1, end.facing), end.x < WIDE / 2.0 ? 1 : 0};
+                                    smooth(0.7, 1, end.x < TURNED_X ? end.facing : end.turned),
+                                    end.x < WIDE / 2.0 ? 1 : 0};
         if (fabs(end.x - WIDE / 2.0) < 0.01) continue; /* the border of the foreground */
+        if (fabs(end.x - TURNED_X) < 0.01) continue;
         double product = 1;
         for (uint32_t k = 0; k < 4; ++k) {
             product *= expected[k];

@@ -203,6 +203,26 @@ static void panes_lie_over_water(void **state) {
     free(all), free(composed);
 }
 
+/* Antialiasing takes the last picture, with panes and water; without a history it passes it on. */
+static void antialiasing_has_panes_and_water(void **state) {
+    static const char *const last[] = {"composed", "composed_water", "composed_transparent"};
+    struct gpu *gpu = *state;
+    for (int panes = 0; panes < 2; ++panes) {
+        load_plain(gpu, true, 0, NULL);
+        if (!panes) gpu_use(gpu, "transparency=none");
+        gpu_use(gpu, "water=combine");
+        gpu_use(gpu, "taa=composed");
+        gpu_run(gpu);
+        float *antialiased = gpu_floats(gpu, "antialiased", NULL, NULL),
+              *picture = gpu_floats(gpu, last[1 + panes], NULL, NULL),
+              *below = gpu_floats(gpu, last[panes], NULL, NULL);
+        for (uint32_t i = 0; i < SIDE * SIDE; ++i)
+            assert_memory_equal(antialiased + 4 * i, picture + 4 * i, 3 * sizeof *picture);
+        assert_true(memcmp(picture, below, 4 * SIDE * SIDE * sizeof *picture));
+        free(antialiased), free(picture), free(below);
+    }
+}
+
 /* A pane in a matte scene: the images that its rays are traced in are written nevertheless. */
 static void panes_reflect_in_a_matte_scene(void **state) {
     struct gpu *gpu = *state;
@@ -329,6 +349,7 @@ int main(void) {
         cmocka_unit_test(panes_find_their_colour_in_the_previous_frame),
         cmocka_unit_test(a_frame_without_glass_leaves_it_out),
         cmocka_unit_test(panes_lie_over_water),
+        cmocka_unit_test(antialiasing_has_panes_and_water),
         cmocka_unit_test(panes_reflect_in_a_matte_scene),
         cmocka_unit_test(panes_have_their_roughness),
         cmocka_unit_test(a_pane_without_a_normal_has_no_ray),
