@@ -250,7 +250,7 @@ def attempt(row, build, programs, report, measured=None, most_s=math.inf):
         else:
             write_mutant(row, folder)
             for program in in_order(row, programs, report):
-                if spent_s >= most_s:
+                if spent_s + report[program.name]["seconds"] > most_s:
                     break
                 control_here = measured(program)
                 failed, _, seconds = program.run(folder, max(AT_LEAST_S, SLOWER * control_here["seconds"]))
@@ -378,7 +378,8 @@ def retry(build, path, jobs, most_s):
     for m in record["mutants"]:
         if "by" in m or "before_by" in m:
             OUTCOMES[slot_of(m["file"]), m.get("by", m.get("before_by"))].append(True)
-    open_ = [n for n, m in enumerate(record["mutants"]) if "verdict" not in m or m["verdict"] == "survived" and mutants_page.missing(m)]
+    open_ = [n for n, m in enumerate(record["mutants"]) if "verdict" not in m or m["verdict"] == "survived" and not mutants_page.reason_of(m)]
+    open_.sort(key=lambda n: "verdict" in record["mutants"][n])
     save(record, path)
 
     def one(n):

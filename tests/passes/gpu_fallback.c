@@ -141,6 +141,47 @@ static void the_fallback_ends_where_the_ray_leaves_the_cocoon(void **state) {
     assert_true(2 * in_box.right > in_box.known); /* the same texel moves walls away by up to 12 % */
 }
 
+/* A cube map without an inner volume has the same box as any other without one, whether or not another cube map has a volume. */
+static void white_ball(UNUSED uint32_t number, UNUSED const double d[3], float out[5]) {
+    for (int k = 0; k < 4; ++k) out[k] = 1;
+    out[4] = 3;
+}
+static void a_cube_map_without_a_volume_has_its_own_box(void **state) {
+    struct gpu *gpu = *state;
+    const double half_m = 4;
+    for (int other = 0; other < 2; ++other) {
+        char path[256];
+        struct plain plain = {.width = 96,
+                              .height = 54,
+                              .fov_y_degrees = 60,
+                              .cube_size = 8,
+                              .cube_count = other ? 2 : 1,
+                              .cube = white_ball};
+        plain.cubes[0].center[2] = -2;
+        plain.cubes[1] = (struct glint_cubemap){
+            .center = {0, 0, 60}, .inner = GLINT_VOLUME_BOX, .box_min = {-1, -1, -1}, .box_max = {1, 1, 1}};
+        plain_capture(gpu_path(gpu, "boxes", path), &plain);
+        gpu_load(gpu, "boxes");
+        gpu_reset(gpu);
+        gpu->float_precision = true;
+        gpu_use(gpu, "cubemap_trace=box");
+        gpu_set(gpu, "cubemap_trace.default_m=4");
+        gpu_set(gpu, "screen_trace.length_m=0");
+        gpu_run(gpu);
+        uint32_t width, height, *pick = gpu_uints(gpu, "pick", &width, &height);
+        float *travelled = gpu_floats(gpu, "travelled", NULL, NULL);
+        for (uint32_t i = 0; i < width * height; ++i) {
+            double start[3], d[3], leaves = INFINITY;
+            ray_of(i, width, pick[i], -2, start, d);
+            for (int k = 0; k < 3; ++k)
+                if (d[k] != 0) leaves = fmin(leaves, ((d[k] < 0 ? -half_m : half_m) - start[k]) / d[k]);
+            if (leaves > 0) assert_true(fabs((double)travelled[i] - leaves) < 1e-4 * leaves + 1e-4);
+            else assert_true(isinf(travelled[i]));
+        }
+        free(pick), free(travelled);
+    }
+}
+
 /* A box of twice the size with screens in front of its walls, every other one near the centre. */
 static void screens(uint32_t number, const double d[3], float out[5]) {
     int sector = (int)floor(10 * (d[0] + 1));
@@ -288,6 +329,7 @@ static void a_mirrors_ray_ends_in_the_sky_where_a_cap_is(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_fallback_ends_where_the_ray_leaves_the_cocoon),
+        cmocka_unit_test(a_cube_map_without_a_volume_has_its_own_box),
         cmocka_unit_test(a_ray_that_stopped_inside_of_something_ends_there),
         cmocka_unit_test(a_mirrors_ray_ends_in_the_sky_where_a_cap_is),
     };

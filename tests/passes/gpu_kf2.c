@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "glint/probe.h"
 #include "gpu.h"
 #include "plain_capture.h"
 #include "unit.h"
@@ -294,6 +295,53 @@ static void the_last_texel_is_worth_its_own_material(void **state) {
     free(rejected);
 }
 
+/* Nothing moves, so that the previous picture shows the end of a ray where this one does. */
+static void the_previous_picture_is_recorded_where_it_is_sampled(void **state) {
+    enum { STEP = 37, MOST = WIDE * HIGH / STEP + 1 };
+    struct gpu *gpu = *state;
+    struct glint_error err = {0};
+    char path[256];
+    float *light = malloc((size_t)WIDE * HIGH * sizeof *light);
+    assert_non_null(light);
+    for (size_t i = 0; i < WIDE * HIGH; ++i) light[i] = 1;
+    struct glint_channel channels[3];
+    for (int k = 0; k < 3; ++k)
+        channels[k] =
+            (struct glint_channel){.name = (const char *[]){"R", "G", "B"}[k], .type = GLINT_F32, .data = light};
+    const struct glint_part before = {
+        .name = "previous.lit", .width = WIDE, .height = HIGH, .channels = channels, .channel_count = 3};
+    uint32_t pixels[MOST][2];
+    size_t count = 0, recorded = 0;
+    for (uint32_t i = 0; i < WIDE * HIGH; i += STEP, ++count) pixels[count][0] = i % WIDE, pixels[count][1] = i / WIDE;
+    set_up(gpu);
+    static const char *const slots[] = {"cubemap_active=nearest", "cubemap_select=nearest", "cubemap_trace=lookup",
+                                        "resolve=previous", "compose=none"};
+    for (size_t i = 0; i < sizeof slots / sizeof *slots; ++i) gpu_use(gpu, slots[i]);
+    plain_capture(
+        gpu_path(gpu, "before", path),
+        &(struct plain){.width = WIDE, .height = HIGH, .fov_y_degrees = degrees, .floor = true, .part = &before});
+    gpu_load(gpu, "before");
+    free(light);
+    const struct glint_replay_options options = {.probes = (const uint32_t(*)[2])pixels, .probe_count = count};
+    if (!glint_replay_run(gpu->replay, gpu->pipeline, &options, NULL, NULL, &err)) fail_msg("%s", err.message);
+    for (size_t i = 0; i < count; ++i) {
+        struct glint_probe_trace trace;
+        struct end end;
+        if (!floor_ray(pixels[i][1] * WIDE + pixels[i][0], &end)) continue;
+        if (!glint_replay_probe(gpu->replay, i, &trace, &err)) fail_msg("%s", err.message);
+        for (size_t r = 0; r < trace.count; ++r) {
+            const struct glint_probe_record *record = &trace.records[r];
+            if (!glint_probe_is(record, "color")) continue;
+            assert_string_equal(glint_probe_label("image", glint_probe_value(record, "image")).name, "previous_lit");
+            assert_true(fabs((double)glint_probe_value(record, "x") - end.x) < 0.02);
+            assert_true(fabs((double)glint_probe_value(record, "y") - end.y) < 0.02);
+            ++recorded;
+        }
+        free(trace.records);
+    }
+    assert_true(recorded > 30);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_attenuation_and_their_product),
@@ -303,6 +351,7 @@ int main(void) {
         cmocka_unit_test(alpha_stays_within_one_and_the_picture_a_mixture),
         cmocka_unit_test(rejected_tiles_contribute_nothing),
         cmocka_unit_test(the_last_texel_is_worth_its_own_material),
+        cmocka_unit_test(the_previous_picture_is_recorded_where_it_is_sampled),
     };
     return cmocka_run_group_tests_name("gpu_kf2", tests, gpu_set_up, gpu_tear_down);
 }

@@ -99,8 +99,15 @@ static void check_ray(const struct glint_probe_record *screen, const struct glin
     assert_near_sum(world.along_m, view.along_m, view.far_m);
 }
 
+/* A ray misses the proxy, or is within it for some distance, up to its end. */
+static bool crosses_proxy(const struct glint_probe_record *record) {
+    const float enters = glint_probe_value(record, "enters_m"), leaves = glint_probe_value(record, "leaves_m");
+    assert_true(enters != leaves);
+    return enters < leaves;
+}
+
 struct tally {
-    size_t traces, rays, depths, screen_hits, cube_hits;
+    size_t traces, rays, depths, screen_hits, cube_hits, proxies;
 };
 
 static void check_trace(const struct glint_probe_trace *trace, const struct images *images, const uint32_t pixel[2],
@@ -113,6 +120,7 @@ static void check_trace(const struct glint_probe_trace *trace, const struct imag
         const struct glint_probe_record *record = &trace->records[i];
         const bool texel = glint_probe_is(record, "screen_texel") || glint_probe_is(record, "cubemap_texel");
         check_depth(record, images);
+        if (glint_probe_is(record, "cubemap_proxy")) tally->proxies += crosses_proxy(record);
         if (glint_probe_is(record, "screen_ray")) ray = record;
         if (glint_probe_is(record, "cubemap_ray") && ray) check_ray(ray, record), tally->rays++;
         if (texel || glint_probe_is(record, "screen_cell")) {
@@ -134,7 +142,7 @@ static void test_stories(void **state) {
     struct gpu *gpu = *state;
     static uint32_t pixels[PIXELS][2];
     static struct images plain, probed;
-    size_t rays = 0;
+    size_t rays = 0, proxies = 0;
     probed_scene(gpu, "street");
     draw_pixels(pixels);
     for (size_t w = 0; w < WAYS; w++) {
@@ -153,11 +161,11 @@ static void test_stories(void **state) {
         print_message("# %s: %zu stories, %zu depths, hits %zu on screen, %zu in cube maps\n", ways[w][0], tally.traces,
                       tally.depths, tally.screen_hits, tally.cube_hits);
         assert_true(tally.traces == PIXELS && tally.cube_hits + tally.screen_hits > 0);
-        rays += tally.rays;
+        rays += tally.rays, proxies += tally.proxies;
         free_images(&plain);
         free_images(&probed);
     }
-    assert_true(rays > 0);
+    assert_true(rays > 0 && proxies > 100);
 }
 
 /* ---- Records of later passes sum up to the pass's result ---- */
