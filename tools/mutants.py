@@ -250,7 +250,7 @@ def attempt(row, build, programs, report, measured=None, most_s=math.inf):
         else:
             write_mutant(row, folder)
             for program in in_order(row, programs, report):
-                if spent_s + report[program.name]["seconds"] > most_s:
+                if tried and spent_s + report[program.name]["seconds"] > most_s:
                     break
                 control_here = measured(program)
                 failed, _, seconds = program.run(folder, max(AT_LEAST_S, SLOWER * control_here["seconds"]))

@@ -142,23 +142,6 @@ static void levels_hold_pixels_of_the_picture_and_their_edges(void **state) {
     }
 }
 
-/* The levels keep the geometric normals of their pixels, which are not those that shade. */
-static void levels_hold_vertex_normals(void **state) {
-    static const char *const levels[] = {"vertex_normal_levels", "vertex_normal_levels.level1",
-                                         "vertex_normal_levels.level2"};
-    static const float vertex[3] = {0.6F, 0, 0.8F};
-    struct gpu *gpu = *state;
-    load_capture(gpu, &(struct plain){.width = 32, .height = 24, .fov_y_degrees = 60, .vertex_normal = vertex});
-    gpu_run(gpu);
-    for (uint32_t l = 0; l < 3; ++l) {
-        uint32_t width, height;
-        float *found = gpu_floats(gpu, levels[l], &width, &height);
-        for (uint32_t i = 0; i < width * height; ++i)
-            for (uint32_t k = 0; k < 3; ++k) assert_true(fabsf(found[4 * i + k] - vertex[k]) < 1e-6F);
-        free(found);
-    }
-}
-
 static void stripes_of_roughness(const struct plain *plain, float *values) {
     const uint32_t pixels = plain->width * plain->height;
     for (uint32_t i = 0; i < pixels; ++i)
@@ -479,7 +462,6 @@ int main(void) {
         cmocka_unit_test(rays_lie_evenly_around_the_mirror_direction),
         cmocka_unit_test(a_mirror_has_its_own_ray),
         cmocka_unit_test(levels_hold_pixels_of_the_picture_and_their_edges),
-        cmocka_unit_test(levels_hold_vertex_normals),
         cmocka_unit_test(edges_are_open_in_part),
         cmocka_unit_test(noise_of_rough_surfaces_falls_and_mirrors_keep_theirs),
         cmocka_unit_test(nothing_leaks_over_edges),
