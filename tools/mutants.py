@@ -46,12 +46,13 @@ class Program:
 
     def __init__(self, name, command, selftest=False):
         self.name, self.command, self.selftest = name, [str(c) for c in command], selftest
+        self.case = ""  # ": CASE" if it is the only one
         self.failing = []  # cases that are ignored
 
     def only(self, case):
         """The self-test with only the case of this name."""
         program = Program(self.name, [*self.command[:4], "--only", case], True)
-        program.failing = self.failing
+        program.case, program.failing = f": {case}", self.failing
         return program
 
     def run(self, passes, limit_s, to_end=False):
@@ -240,9 +241,9 @@ def in_order(row, programs, report):
             yield program
 
 
-def attempt(row, build, programs, report, measured=None, most_s=math.inf):
-    """The row with its result. measured: gives the control of a program on this device, if that is not the report's; None where it has no case."""
-    measured = measured or (lambda program: report[program.name])
+def attempt(row, build, programs, report, passes_here=lambda program: True, most_s=math.inf):
+    """The row with its result. passes_here: whether a program passes with unchanged sources; it is asked for those that fail. After most_s seconds of
+    processor time no other program is begun."""
     failed, by, spent_s, tried = [], None, 0, set()
     with tempfile.TemporaryDirectory(prefix="gm") as folder:
         if row["file"].endswith(".c"):
@@ -252,11 +253,11 @@ def attempt(row, build, programs, report, measured=None, most_s=math.inf):
             for program in in_order(row, programs, report):
                 if tried and spent_s + report[program.name]["seconds"] > most_s:
                     break
-                control_here = measured(program)
-                failed, _, seconds = program.run(folder, max(AT_LEAST_S, SLOWER * control_here["seconds"]))
+                failed, _, seconds = program.run(folder, max(AT_LEAST_S, SLOWER * report[program.name]["seconds"]))
                 spent_s += seconds
                 by = program.name
                 tried.add(by)
+                failed = failed if failed and passes_here(program) else []
                 with LOCK:
                     OUTCOMES[slot_of(row["file"]), by] += [bool(failed)]
                 if failed:
@@ -359,21 +360,15 @@ def carried(path):
 def retry(build, path, jobs, most_s):
     build, path = pathlib.Path(build).resolve(), pathlib.Path(path)
     programs, record = list(programs_of(build)), carried(path)
-    if record.get("programs_here") != version_of(build, programs):
-        record.update(programs_here=version_of(build, programs), here={})
-    here = record["here"]
+    here, asked = record.setdefault("here", {}), threading.Lock()  # controls on this device
     on = {"on": device_of(build), "date": datetime.date.today().isoformat()}
-    guard = collections.defaultdict(threading.Lock)
 
-    def measured(program):
-        """The control of a program on this device, once it is needed."""
-        with LOCK:
-            own = guard[program.name]
-        with own:
-            if program.name not in here:
-                here[program.name] = control_of(program)
-            program.failing = here[program.name]["failing"]
-            return here[program.name]
+    def passes_here(program):
+        with asked:
+            version, name = version_of(build, [program]), program.name + program.case
+            if here.get(name, {}).get("version") != version:
+                here[name] = {**control_of(program), "version": version}
+            return not here[name]["failing"]
 
     for m in record["mutants"]:
         if "by" in m or "before_by" in m:
@@ -383,7 +378,7 @@ def retry(build, path, jobs, most_s):
     save(record, path)
 
     def one(n):
-        found = {**attempt(record["mutants"][n], build, programs, {**record["control"], **here}, measured, most_s), **on}
+        found = {**attempt(record["mutants"][n], build, programs, {**record["control"], **here}, passes_here, most_s), **on}
         with LOCK:
             record["mutants"][n] = found
             print(f"{found['file']}:{found['line']}: {found['verdict']} {found.get('by', '')} {found['seconds']} s", file=sys.stderr, flush=True)

@@ -201,9 +201,45 @@ static void narrow_levels_are_means(void **state) {
     free(finer);
 }
 
+/* A Gaussian of σ 1.5 texels within the picture, up to 3 texels to either side, along rows and then along columns. */
+static double gaussian(const double *values, int count, int at, int step) {
+    double sum = 0, total = 0;
+    for (int i = 0; i < count; ++i) {
+        const double weight = abs(i - at) > 3 ? 0 : exp(-2.0 / 9 * (i - at) * (i - at));
+        sum += weight * values[i * step], total += weight;
+    }
+    return sum / total;
+}
+static void the_coarsest_level_is_blurred_within_the_picture(void **state) {
+    enum { WIDE = 10, HIGH = 7 };
+    static const char *const settings[] = {"blur.width=0", "blur.radius=3", NULL};
+    struct gpu *gpu = *state;
+    double level[HIGH][WIDE], rows[HIGH][WIDE];
+    sharing(gpu, &(struct plain){.width = 8 * WIDE, .height = 8 * HIGH, .fov_y_degrees = 60, .roughness = 0.5f},
+            settings);
+    float *finer = gpu_floats(gpu, "reflection_levels.level1", NULL, NULL),
+          *across = gpu_floats(gpu, "reflection_across", NULL, NULL),
+          *both = gpu_floats(gpu, "reflection_levels.level2", NULL, NULL);
+    for (int y = 0; y < HIGH; ++y)
+        for (int x = 0; x < WIDE; ++x) {
+            level[y][x] = 0;
+            for (int i = 0; i < 4; ++i)
+                level[y][x] += 0.25 * (double)finer[4 * ((2 * y + i / 2) * 2 * WIDE + 2 * x + i % 2)];
+        }
+    for (int y = 0; y < HIGH; ++y)
+        for (int x = 0; x < WIDE; ++x) {
+            rows[y][x] = gaussian(level[y], WIDE, x, 1);
+            assert_true(fabs((double)across[4 * (y * WIDE + x)] - rows[y][x]) < 1e-5);
+        }
+    for (int y = 0; y < HIGH; ++y)
+        for (int x = 0; x < WIDE; ++x)
+            assert_true(fabs((double)both[4 * (y * WIDE + x)] - gaussian(&rows[0][x], HIGH, y, WIDE)) < 1e-5);
+    free(finer), free(across), free(both);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_cone_chooses_between_boxes),
-                                       cmocka_unit_test(lone_texels_are_interpolated),
-                                       cmocka_unit_test(narrow_levels_are_means)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_cone_chooses_between_boxes), cmocka_unit_test(lone_texels_are_interpolated),
+        cmocka_unit_test(narrow_levels_are_means), cmocka_unit_test(the_coarsest_level_is_blurred_within_the_picture)};
     return cmocka_run_group_tests_name("gpu_blur_mips", tests, gpu_set_up, gpu_tear_down);
 }
