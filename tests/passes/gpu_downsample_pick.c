@@ -295,6 +295,31 @@ static void rough_surfaces_are_traced_at_coarser_levels(void **state) {
     }
 }
 
+/* Rays that are drawn from the whole lobe are the same for every share, and the tangents of their cones are proportional to what they leave. */
+static void cones_cover_what_rays_leave(void **state) {
+    static const char *const shares[] = {"downsample.share=0", "downsample.share=0.5", "downsample.share=1"};
+    struct gpu *gpu = *state;
+    float *cone[3];
+    double widest = 0;
+    load_plane(gpu, 0.6F);
+    gpu_set(gpu, "downsample.split=solid_angle");
+    gpu_set(gpu, "downsample.horizon=false");
+    for (int s = 0; s < 3; ++s) {
+        gpu_set(gpu, shares[s]);
+        gpu_run(gpu);
+        cone[s] = gpu_floats(gpu, "cone_half", NULL, NULL);
+    }
+    for (size_t i = 0; i < DRAWS; ++i) {
+        widest = fmax(widest, (double)cone[0][i]);
+        assert_true(cone[2][i] == 0);
+        if (cone[0][i] > 1.5F) continue; /* whose tangents are above 14 */
+        assert_true(fabs(tan((double)cone[1][i]) / tan((double)cone[0][i]) - 0.5) < 1e-4);
+    }
+    print_message("# cones up to %.3f rad\n", widest);
+    assert_true(widest > 0.3);
+    for (int s = 0; s < 3; ++s) free(cone[s]);
+}
+
 /* The levels of downsample/mips keep the geometric normals of their pixels, which are not those that shade. */
 static void turning(const struct plain *plain, uint32_t x, uint32_t y, float out[3]) {
     out[0] = 0.6F * (float)x / (float)plain->width, out[1] = 0.5F * (float)y / (float)plain->height;
@@ -338,6 +363,7 @@ int main(void) {
         cmocka_unit_test(odd_sizes_pick_inside),
         cmocka_unit_test(odd_borders_are_worth_what_their_pixels_are),
         cmocka_unit_test(rough_surfaces_are_traced_at_coarser_levels),
+        cmocka_unit_test(cones_cover_what_rays_leave),
         cmocka_unit_test(levels_hold_vertex_normals),
     };
     return cmocka_run_group_tests_name("gpu_downsample_pick", tests, gpu_set_up, gpu_tear_down);

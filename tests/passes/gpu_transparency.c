@@ -270,6 +270,31 @@ static void panes_have_their_roughness(void **state) {
     assert_true(variance[0] > 1e-3 && variance[1] < variance[0] / 6);
 }
 
+/* A pane on the floor, whose rays meet the wall: each frame begins its steps elsewhere. */
+static void on_floor(UNUSED uint32_t x, uint32_t y, float out[9]) {
+    const double down = (2 * (y + 0.5) / SIDE - 1) * 0.57735027;
+    const float values[9] = {0, 0, 0, 0.5f, 0, 1, 0, down > 0.3 ? (float)(1 / down) : INFINITY, 0};
+    memcpy(out, values, sizeof values);
+}
+static void each_frame_of_a_pane_steps_elsewhere(void **state) {
+    struct gpu *gpu = *state;
+    float *travelled[2];
+    size_t found = 0, apart = 0;
+    for (uint32_t i = 0; i < 2; ++i) {
+        load_panes(
+            gpu, &(struct plain){.width = SIDE, .height = SIDE, .fov_y_degrees = 60, .frame = 7 + i, .pane = on_floor});
+        gpu_set(gpu, "transparent_screen_trace.refine=false");
+        gpu_set(gpu, "transparent_downsample.jitter=false");
+        gpu_run(gpu);
+        travelled[i] = gpu_floats(gpu, "transparent_screen_travelled", NULL, NULL);
+    }
+    for (size_t i = 0; i < SIDE * SIDE / 4; ++i)
+        if (travelled[0][i] > 0 && travelled[1][i] > 0) found++, apart += travelled[0][i] != travelled[1][i];
+    print_message("# %zu rays end on screen in both frames, %zu elsewhere\n", found, apart);
+    assert_true(found > 300 && apart > found / 2);
+    free(travelled[0]), free(travelled[1]);
+}
+
 /* In the left column of each block a pane at 2 m without a normal, in the right one a valid pane at 3 m. */
 static void half_usable(uint32_t x, UNUSED uint32_t y, float out[9]) {
     const float values[9] = {0.25f, 0.5f, 0.75f, 0.5f, 0, 0, (float)(x % 2), x % 2 ? 3 : 2, 0};
@@ -352,6 +377,7 @@ int main(void) {
         cmocka_unit_test(antialiasing_has_panes_and_water),
         cmocka_unit_test(panes_reflect_in_a_matte_scene),
         cmocka_unit_test(panes_have_their_roughness),
+        cmocka_unit_test(each_frame_of_a_pane_steps_elsewhere),
         cmocka_unit_test(a_pane_without_a_normal_has_no_ray),
         cmocka_unit_test(a_pane_shows_its_own_reflection),
     };
