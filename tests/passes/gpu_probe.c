@@ -99,6 +99,17 @@ static void check_ray(const struct glint_probe_record *screen, const struct glin
     assert_near_sum(world.along_m, view.along_m, view.far_m);
 }
 
+/* The depths of the ray are those of its points. */
+static void check_depths_of_ray(const struct glint_probe_record *record, const struct glint_probe_record *ray) {
+    static const char *const ways[2] = {"from_m", "travelled_m"}, *const depths[2] = {"ray_from_m", "ray_m"};
+    for (int k = 0; k < 2; k++) {
+        const double way = (double)glint_probe_value(record, ways[k]), z = (double)glint_probe_value(ray, "z"),
+                     part = way * (double)glint_probe_value(ray, "direction_z");
+        if (way < 1e4) /* 1/z is linear on screen, so that far away depths are rounded */
+            assert_true(fabs((double)glint_probe_value(record, depths[k]) - fabs(z + part)) < 1e-3 * (fabs(z) + way));
+    }
+}
+
 /* A ray misses the proxy, or is within it for some distance, up to its end. */
 static bool crosses_proxy(const struct glint_probe_record *record) {
     const float enters = glint_probe_value(record, "enters_m"), leaves = glint_probe_value(record, "leaves_m");
@@ -118,6 +129,8 @@ static void check_trace(const struct glint_probe_trace *trace, const struct imag
     tally->traces += trace->count > 0;
     for (size_t i = 0; i < trace->count; i++) {
         const struct glint_probe_record *record = &trace->records[i];
+        if (ray && (glint_probe_is(record, "screen_texel") || glint_probe_is(record, "screen_cell")))
+            check_depths_of_ray(record, ray);
         const bool texel = glint_probe_is(record, "screen_texel") || glint_probe_is(record, "cubemap_texel");
         check_depth(record, images);
         if (glint_probe_is(record, "cubemap_proxy")) tally->proxies += crosses_proxy(record);
