@@ -249,6 +249,10 @@ static void panes_have_their_roughness(void **state) {
         assert_true(normal[4 * i] == 0 && normal[4 * i + 1] == 0 && normal[4 * i + 2] == there);
     }
     free(normal);
+    const struct glint_survey *survey = NULL;
+    struct glint_error err = {0};
+    if (!glint_replay_survey(gpu->replay, &survey, NULL, &err)) fail_msg("%s", err.message);
+    assert_true(survey->transparent == SIDE * SIDE && survey->transparent_roughness == 0);
     for (int many = 0; many < 2; ++many) {
         load_plain(gpu, false, 0.4f, NULL);
         gpu_set(gpu, "transparent_screen_trace.length_m=0");
