@@ -38,24 +38,41 @@ static void fill_planes(const struct plain *plain, float *values) {
     }
 }
 
+/* What not every G-buffer has. */
+enum { MORE = 4 };
+static bool add_more(const struct plain *plain, struct glint_channel *channels, size_t *count, float *planes) {
+    static const char *const names[MORE] = {"material.fresnel", "vertexNormal.X", "vertexNormal.Y", "vertexNormal.Z"};
+    const size_t pixels = (size_t)plain->width * plain->height;
+    if (!planes) return false;
+    for (size_t i = 0; i < pixels; ++i) {
+        float normal[3] = {0};
+        if (plain->fresnel) planes[i] = *plain->fresnel;
+        if (plain->vertex_normal)
+            plain->vertex_normal(plain, (uint32_t)(i % plain->width), (uint32_t)(i / plain->width), normal);
+        for (size_t k = 0; k < 3; ++k) planes[(1 + k) * pixels + i] = normal[k];
+    }
+    for (size_t k = 0; k < MORE; ++k)
+        if (k ? plain->vertex_normal != NULL : plain->fresnel != NULL)
+            channels[(*count)++] =
+                (struct glint_channel){.name = names[k], .type = GLINT_F32, .data = planes + k * pixels};
+    return true;
+}
+
 /* ids: NULL, or stencil ids too */
 static bool add_part(struct glint_writer *writer, const char *name, const struct plain *plain, const char *const *names,
                      const float *values, size_t count, const uint32_t *ids, struct glint_error *err) {
-    struct glint_channel channels[PLAIN_CHANNELS + 2] = {{0}};
+    struct glint_channel channels[PLAIN_CHANNELS + MORE + 1] = {{0}};
     const size_t pixels = (size_t)plain->width * plain->height;
-    float *fresnel = plain->fresnel && strcmp(name, "gbuffer") == 0 ? malloc(pixels * sizeof *fresnel) : NULL;
-    for (size_t i = 0; fresnel && i < pixels; ++i) fresnel[i] = *plain->fresnel;
-    if (fresnel)
-        channels[count] = (struct glint_channel){.name = "material.fresnel", .type = GLINT_F32, .data = fresnel};
+    const bool gbuffer = strcmp(name, "gbuffer") == 0;
     for (size_t k = 0; k < count; ++k)
-        channels[k] = (struct glint_channel){
-            .name = names[k], .type = GLINT_F32, .data = &values[k * plain->width * plain->height]};
-    count += fresnel != NULL;
+        channels[k] = (struct glint_channel){.name = names[k], .type = GLINT_F32, .data = &values[k * pixels]};
+    float *planes = gbuffer ? malloc(MORE * pixels * sizeof *planes) : NULL;
+    if (gbuffer && !add_more(plain, channels, &count, planes)) return no_memory(err);
     if (ids) channels[count++] = (struct glint_channel){.name = "stencil.id", .type = GLINT_U32, .data = ids};
     const struct glint_part part = {
         .name = name, .width = plain->width, .height = plain->height, .channels = channels, .channel_count = count};
     const bool ok = glint_writer_add_part(writer, &part, err);
-    free(fresnel);
+    free(planes);
     return ok;
 }
 

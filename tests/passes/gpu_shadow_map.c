@@ -101,6 +101,29 @@ static void a_shadow_map_makes_the_mask(void **state) {
     assert_true(dark > 1500);
 }
 
+/* A mask of the capture is the frame's own, whatever the map says. */
+static float striped(UNUSED const struct plain *plain, uint32_t x, UNUSED uint32_t y) {
+    return (float)(x % 5) / 4;
+}
+static void a_captured_mask_comes_before_the_map(void **state) {
+    static const char *const words[] = {"shadow_mask=map", "contact_trace=dda", "contact_trace.length_m=0", NULL};
+    struct gpu *gpu = *state;
+    const struct glint_sun sun = sunlit_sun(40, 0);
+    struct plain plain = sunlit_frame(&sunlit_box, &sun);
+    plain.shadow = map_of(&sun, false);
+    plain.shadow_map = map_at;
+    plain.sun_mask = striped;
+    occlusion_load(gpu, &plain);
+    free(sunlit_run(gpu, words));
+    float *mask = gpu_floats(gpu, "shadow_mask", NULL, NULL);
+    for (uint32_t i = 0; i < WIDE * HIGH; i++) {
+        double position[3], normal[3];
+        if (shapes_pixel(&sunlit_box, &plain, i % WIDE, i / WIDE, position, normal))
+            assert_true(mask[i] == striped(&plain, i % WIDE, 0));
+    }
+    free(mask);
+}
+
 /* ---- Cascades ---- */
 
 /* Map k is half as wide in texels as the one before. Its
@@ -201,6 +224,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_shadow_map_makes_the_mask),
         cmocka_unit_test(each_surface_is_compared_with_the_finest_map_that_holds_it),
+        cmocka_unit_test(a_captured_mask_comes_before_the_map),
     };
     return cmocka_run_group_tests_name("gpu_shadow_map", tests, gpu_set_up, gpu_tear_down);
 }
