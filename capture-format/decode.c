@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "capture_internal.h"
+#include "glint/exr.h"
 
 void glint_decode_widen(enum glint_stored stored, const uint8_t *in, size_t count, float *out) {
     if (stored == GLINT_STORED_FLOAT) {

@@ -32,7 +32,7 @@ static bool write_table(const struct dump *dump, struct glint_error *err) {
                     b = (float)(i / TABLE / TABLE) / (TABLE - 1), grey = (r + g + b) / 3;
         colors[i] = v3(graded(r, grey, 0.03f), graded(g, grey, 0.01f), graded(b, grey, -0.03f));
     }
-    const bool ok = write_colors(dump, GLINT_PART_TABLE, TABLE, TABLE * TABLE, colors, err);
+    const bool ok = write_colors(dump, "lut", TABLE, TABLE * TABLE, colors, err);
     free(colors);
     return ok;
 }
@@ -56,7 +56,7 @@ static bool write_dirt(const struct dump *dump, struct glint_error *err) {
         }
         colors[i] = v3(fminf(sum, 1), fminf(0.9f * sum, 1), fminf(0.7f * sum, 1));
     }
-    const bool ok = write_colors(dump, GLINT_PART_DIRT, DIRT_W, DIRT_H, colors, err);
+    const bool ok = write_colors(dump, "dirt", DIRT_W, DIRT_H, colors, err);
     free(colors);
     return ok;
 }

@@ -62,7 +62,6 @@ static bool add_image(struct glint_run *run, const json_t *pass, const json_t *i
     const json_int_t width = json_integer_value(json_object_get(image, "width")),
                      height = json_integer_value(json_object_get(image, "height"));
     const char *format = text_of(image, "format");
-    if (!stored.info.encoding[0]) stored.info.encoding = "linear";
     stored.info.integer = strstr(format, "UI") != NULL;
     for (const char *at = stored.info.channels; *at; at += strcspn(at, " "), at += strspn(at, " "))
         stored.info.components++;

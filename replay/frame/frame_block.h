@@ -45,6 +45,8 @@ void frame_block_captured_light(struct frame_block *block, const struct glint_ca
 void frame_block_far(struct frame_block *block, const struct glint_capture *capture);
 /* Sets the grid of the volume of light: the capture's, or where there is none one of GRID_CELLS³ cells that a pass may fill. */
 #define PART_GRID "volume.000" /* the only volume of light that passes use */
+#define PART_COLORS "lut"
+#define PART_DIRT "dirt"
 enum { GRID_CELLS = 24 };
 void frame_block_grid(struct frame_block *block, const struct glint_frame *frame, const struct glint_part_info *volume);
 

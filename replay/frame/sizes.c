@@ -60,8 +60,8 @@ bool plan_find_sizes(struct frame_plan *plan, struct glint_error *err) {
     const struct glint_part_info *gbuffer = glint_capture_find(capture, GLINT_PART_GBUFFER),
                                  *sky = glint_capture_find(capture, GLINT_PART_SKY),
                                  *planar = glint_capture_find(capture, GLINT_PART_MIRROR),
-                                 *table = glint_capture_find(capture, GLINT_PART_TABLE),
-                                 *dirt = glint_capture_find(capture, GLINT_PART_DIRT),
+                                 *table = glint_capture_find(capture, PART_COLORS),
+                                 *dirt = glint_capture_find(capture, PART_DIRT),
                                  *grid = glint_capture_find(capture, PART_GRID);
     if (!gbuffer) return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part gbuffer: missing", glint_capture_path(capture));
     *sizes = (struct frame_sizes){.full = {gbuffer->width, gbuffer->height},

@@ -447,9 +447,6 @@ typedef void (*glint_report)(void *user, const char *rule, const char *message);
 bool glint_capture_validate(const char *path, const struct glint_limits *limits, glint_report report, void *user,
                             size_t *violations, struct glint_error *err);
 
-/* What the encoding `srgb` of colours decodes to. */
-float glint_linear_of_srgb(float value);
-
 /* Names of common parts. */
 #define GLINT_PART_GBUFFER "gbuffer"
 #define GLINT_PART_LIT "lit"
@@ -459,8 +456,6 @@ float glint_linear_of_srgb(float value);
 #define GLINT_PART_PROBE "probe.000" /* the only probe that passes use */
 #define GLINT_PART_WATER "water"
 #define GLINT_PART_TRANSPARENT "transparent"
-#define GLINT_PART_TABLE "lut"
-#define GLINT_PART_DIRT "dirt"
 #define GLINT_PART_MIRROR "planar.000" /* the only planar map that passes use */
 
 /* ---- The registry of roles, which writer, reader, validation and the tables of FORMAT.md are generated from ---- */
@@ -493,7 +488,6 @@ struct glint_role {
 const struct glint_role *glint_roles(size_t *count);
 /* The role of a part's name, its number (or -1) and whether it is previous.ROLE; NULL if unknown. */
 const struct glint_role *glint_role_find(const char *part, int32_t *index, bool *previous);
-
 /* The name of an encoding in files and on the command line ("reversed_infinite"); NULL past the last. */
 const char *glint_encoding_name(const char *which /* "depth", "normal", … */, int value);
 /* The value of a name, or -1. */

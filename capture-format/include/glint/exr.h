@@ -78,6 +78,9 @@ const struct glint_exr_attribute *glint_exr_attribute(const struct glint_exr_par
 bool glint_exr_read(struct glint_exr *exr, size_t part, const char *const *channels, size_t count, enum glint_type type,
                     void *out, uint32_t threads, struct glint_error *err);
 
+/* What a colour in the curve of sRGB (glint.color is "srgb") decodes to; continued above 1, and mirrored below 0. */
+float glint_linear_of_srgb(float value);
+
 #ifdef __cplusplus
 }
 #endif

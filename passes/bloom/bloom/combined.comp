@@ -7,7 +7,7 @@
 #include "combined.pass.h"
 };
 #include "shared/constants.glsl"
-#include "shared/picture.glsl"
+#include "this_frame/picture.glsl"
 
 // Interpolated between texels, whose borders repeat; by hand, since samplers round the weights.
 vec3 blurred_at(vec2 uv, int level) {

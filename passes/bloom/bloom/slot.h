@@ -1,7 +1,7 @@
 /* What every variant of this slot reads and writes. */
 #line 102
 SLOT("The picture with bloom")
-#include "shared/picture_rows.h"
+#include "this_frame/picture_rows.h"
 #line 202
 READ(texture2D, bloom_blurred)
 NEEDS_MADE(bloom_blurred)

@@ -7,9 +7,9 @@
 #include "luminance.pass.h"
 };
 #include "shared/constants.glsl"
-#include "shared/coverage.glsl"
+#include "coverage.glsl"
 #include "shared/luminance.glsl"
-#include "shared/picture.glsl"
+#include "this_frame/picture.glsl"
 
 // What is not finite does not bloom.
 vec3 passed(vec3 color) {

@@ -7,7 +7,7 @@
 #include "stops.pass.h"
 };
 #include "shared/constants.glsl"
-#include "shared/picture.glsl"
+#include "this_frame/picture.glsl"
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);

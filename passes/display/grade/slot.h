@@ -1,12 +1,12 @@
 /* What every variant of this slot reads and writes. */
 #line 102
 SLOT("The picture as a display shows it")
-#include "shared/picture_rows.h"
+#include "this_frame/picture_rows.h"
 #line 202
 OPTIONAL_READ(texture2D, bloomed, RGBA16F, FULL, 0)
 OPTIONAL_READ(texture2D, exposed, RGBA16F, FULL, 0)
-READ(texture2D, lut)
-READ(texture2D, dirt)
+READ(texture2D, color_table)
+READ(texture2D, lens_dirt)
 WRITE(image2D, toned, RGBA16F, "1", FULL, "R G B A", 0, "the picture after lens, tone curve and table of colours; a: 1")
 READ_OWN(texture2D, before, toned)
 WRITE(image2D, graded, RGBA16F, "1", FULL, "R G B A", 0, "the finished picture; a: 1")

@@ -340,8 +340,8 @@ struct glint_run;
 struct glint_run_image {
     const char *slot, *variant, *name, *unit, *meaning, *channels; /* channels as declared: "R G B A" */
     uint32_t width, height, components;
-    const char *
-        encoding; /* of the colours, a name of the encoding `color` of FORMAT.md; "linear" unless the pass says otherwise */
+    const char
+        *encoding; /* of the colours, a name of the encoding `color` of FORMAT.md; "" unless the pass says it: linear */
     bool integer, cube; /* cube: cube maps, whose faces are stacked from top to bottom */
 };
 struct glint_run *glint_run_open(const char *folder, struct glint_error *err);

@@ -2,14 +2,14 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 #include "shared/bindings.glsl"
-#include "display.pass.h"
+#include "combined.pass.h"
 #include "shared/push_begin.glsl"
-#include "display.pass.h"
+#include "combined.pass.h"
 };
 #include "shared/constants.glsl"
-#include "shared/picture.glsl"
+#include "this_frame/picture.glsl"
 #include "shared/random.glsl"
-#include "shared/tone.glsl"
+#include "tone.glsl"
 
 vec3 linear_picture(ivec2 pixel) {
     if (has_exposed) return texelFetch(exposed, pixel, 0).rgb;
@@ -34,26 +34,26 @@ vec3 encoded(vec3 color) { return is_limited() ? srgb_encoded(clamp(color, 0.0, 
 
 // The table's colour, interpolated between its eight nearest ones.
 vec3 from_table(vec3 color) {
-    int n = textureSize(lut, 0).x;
+    int n = textureSize(color_table, 0).x;
     vec3 place = clamp(color, 0.0, 1.0) * float(n - 1);
     ivec3 low = min(ivec3(place), ivec3(n - 2));
     vec3 part = place - vec3(low), sum = vec3(0.0);
     for (int i = 0; i < 8; ++i) {
         ivec3 corner = ivec3(i & 1, i >> 1 & 1, i >> 2), at = low + corner;
         vec3 weight = mix(1.0 - part, part, vec3(corner));
-        sum += weight.x * weight.y * weight.z * texelFetch(lut, ivec2(at.x, at.y + n * at.z), 0).rgb;
+        sum += weight.x * weight.y * weight.z * texelFetch(color_table, ivec2(at.x, at.y + n * at.z), 0).rgb;
     }
     return sum;
 }
 
 void store_toned(ivec2 pixel) {
     vec3 color = encoded(curve(through_lens(pixel)));
-    if (colors > 0.0 && textureSize(lut, 0).x > 1) color = mix(color, from_table(color), colors);
+    if (colors > 0.0 && textureSize(color_table, 0).x > 1) color = mix(color, from_table(color), colors);
     imageStore(toned, pixel, vec4(color, 1.0));
 }
 
 vec3 dirt_at(ivec2 pixel) {
-    return textureLod(sampler2D(dirt, linear_clamp), (vec2(pixel) + 0.5) / vec2(frame.size.xy), 0.0).rgb;
+    return textureLod(sampler2D(lens_dirt, linear_clamp), (vec2(pixel) + 0.5) / vec2(frame.size.xy), 0.0).rgb;
 }
 
 // Uniform in an interval whose half length is √3 standard deviations.
