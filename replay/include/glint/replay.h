@@ -139,6 +139,7 @@ struct glint_survey {
     bool has_sky, has_probe, has_previous, has_planar, has_water, has_transparent, has_fresnel, has_fog;
     bool has_indirect, has_sun; /* which part of the light is indirect is known; the capture declares a sun */
     bool has_stippling;         /* the capture has a mask of stippled pixels */
+    bool has_shadows;           /* the capture has a shadow map that passes use */
     bool has_overlays;          /* buffers that are to be blended into the G-buffer */
     bool has_volume;            /* the capture has a volume of light */
     bool has_earlier_lit, has_earlier_scene; /* pictures of the previous frame */
