@@ -60,6 +60,7 @@ void survey_capture_parts(const struct glint_capture *capture, struct glint_surv
         const struct glint_part_info *part = glint_capture_part(capture, i);
         survey->cubemaps += part->has_cubemap;
         survey->volumes += part->has_cubemap && part->cubemap.inner != GLINT_VOLUME_NONE;
+        survey->has_shadows |= part->has_shadow && !part->shadow.has_light;
         survey->distances += part->has_cubemap && glint_part_has_channel(part, "distance.Z");
     }
 #define SURVEY_PART(member, name) survey->member |= glint_capture_find(capture, name) != NULL;

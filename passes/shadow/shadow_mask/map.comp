@@ -9,43 +9,19 @@
 #include "shared/bayer.glsl"
 #include "shared/camera.glsl"
 #include "shared/sun.glsl"
-
-// Where a surface lies in a map: (u, v, depth). False beside it, and where there is no such map.
-bool place_in_map(int map, vec3 world, vec3 normal, out vec3 place) {
-    mat4 uv_from_world = frame.shadow_uv_from_world[map];
-    vec4 at = uv_from_world * vec4(world, 1.0);
-    vec3 across = vec3(uv_from_world[0].x, uv_from_world[1].x, uv_from_world[2].x);
-    float texel_m = at.w / (length(across) * float(frame.shadow_place[map].z));
-    at = uv_from_world * vec4(world + offset * texel_m * normal, 1.0);
-    place = at.xyz / at.w;
-    return at.w > 0.0 && all(greaterThanEqual(place, vec3(0.0))) && all(lessThan(place, vec3(1.0)));
-}
-
-// The part of the compared texels that let the sun pass. wide: texels along a side of the square; shift: of the square, in texels.
-float lit_by_map(int map, vec3 place, int wide, vec2 shift) {
-    ivec2 size = ivec2(frame.shadow_place[map].zw), row = ivec2(0, frame.shadow_place[map].y);
-    ivec2 first = ivec2(floor(place.xy * vec2(size) - 0.5 * float(wide - 1) + shift));
-    float away = frame.shadow_depth[map].x, deep = place.z * away, bias = bias_part * frame.shadow_depth[map].y;
-    int lit_texels = 0;
-    for (int y = 0; y < wide; ++y)
-        for (int x = 0; x < wide; ++x) {
-            float stored = texelFetch(shadow_map, clamp(first + ivec2(x, y), ivec2(0), size - 1) + row, 0).x;
-            if (!(deep > stored * away + bias)) ++lit_texels;
-        }
-    return float(lit_texels) / float(wide * wide);
-}
+#include "shadow_maps/lookup.glsl"
 
 // By the finest map of all surfaces that holds this one, and by each map of its own class; surfaces in none are lit.
 float lit_by_maps(vec3 world, vec3 normal, uint id, vec2 pattern) {
     bool compared = false;
     float lit = 1.0;
-    for (int map = 0; map < SHADOW_MAPS && frame.shadow_place[map].z != 0u; ++map) {
+    for (int map = 0; is_map(map); ++map) {
         uint of = frame.shadow_place[map].x;
-        vec3 place;
-        if (of == 0u ? compared : (id & of >> 8u) != (of & 255u)) continue;
-        if (!place_in_map(map, world, normal, place)) continue;
-        lit = min(lit, lit_by_map(map, place, map == 0 || of != 0u ? taps : far_taps, dither * pattern));
-        compared = compared || of == 0u;
+        vec3 place, above = world + offset * shadow_texel_m(map, world) * normal; // so that steep surfaces do not shade themselves
+        if (is_of_all(map) ? compared : (id & of >> 8u) != (of & 255u)) continue;
+        if (!place_in_map(map, above, place)) continue;
+        lit = min(lit, lit_by_map(map, place, map == 0 || !is_of_all(map) ? taps : far_taps, dither * pattern, bias_part));
+        compared = compared || is_of_all(map);
     }
     return lit;
 }
