@@ -308,11 +308,16 @@ static bool check_shape(struct glint_check *check, const struct glint_part_info 
     return true;
 }
 
-/* A shadow map is of a light that the frame has. */
+/* A shadow map is of a light, and maybe of a class, that the frame has. */
 static bool check_shadow(struct glint_check *check, const struct glint_part_info *out,
                          const struct glint_frame *frame) {
     const struct glint_shadow *shadow = &out->shadow;
-    if (!out->has_shadow || (shadow->has_light ? shadow->light < frame->light_count : frame->has_sun)) return true;
+    if (!out->has_shadow) return true;
+    if (shadow->has_stencil_class && shadow->stencil_class >= frame->class_count)
+        return BROKEN(SHADOW, "glint.shadowClass",
+                      "expected the number of one of the %u classes of glint.stencilClasses, found %u",
+                      frame->class_count, shadow->stencil_class);
+    if (shadow->has_light ? shadow->light < frame->light_count : frame->has_sun) return true;
     if (!shadow->has_light)
         return BROKEN(SHADOW, NULL, "expected glint.sunDirection on gbuffer, or glint.shadowLight, found neither");
     return BROKEN(SHADOW, "glint.shadowLight", "expected the number of one of the frame's %u lights, found %u",

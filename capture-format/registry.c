@@ -172,6 +172,7 @@ int glint_encoding_value(const char *which, const char *name) {
 #define GROUP_has_sun(scope) offsetof(STRUCT_##scope, has_sun)
 #define GROUP_has_cone(scope) offsetof(STRUCT_##scope, has_cone)
 #define GROUP_has_light(scope) offsetof(STRUCT_##scope, has_light)
+#define GROUP_has_stencil_class(scope) offsetof(STRUCT_##scope, has_stencil_class)
 #define NEED_REQUIRED true
 #define NEED_OPTIONAL false
 

@@ -35,6 +35,13 @@ FACT(water, PARTS, s->has_water, SAY("%s water surface", s->has_water ? "a" : "n
 FACT(planar, PARTS, s->has_planar, SAY("%s planar reflection map", s->has_planar ? "a" : "no"))
 FACT(fresnel, PARTS, s->has_fresnel, SAY("materials with%s a Fresnel factor", s->has_fresnel ? "" : "out"))
 FACT(history, PARTS, s->has_history, SAY("%s", s->has_history ? "the previous frame is available" : "no previous frame, or a camera cut"))
+FACT(stippled, PIXELS, s->has_stippling && s->stippled > 0,
+     s->has_stippling ? SAY("%llu of %llu pixels show a stippled surface", N(s->stippled), N(s->pixels)) : SAY("no mask of stippled pixels"))
+FACT(decals, PARTS, s->has_overlays, SAY("%s", s->has_overlays ? "decal buffers" : "no decal buffers"))
+FACT(skin, PARTS, s->has_skin, SAY("%s", s->has_skin ? "a mask or a stencil class of skin" : "no skin"))
+FACT(fog, PARTS, s->has_fog, SAY("%s", s->has_fog ? "fog" : "no fog"))
+FACT(shafts, PARTS, s->has_fog && s->has_sun && s->has_shadows,
+     SAY("%s", !s->has_fog ? "no fog" : !s->has_sun ? "no sun" : s->has_shadows ? "fog, a sun and its shadow map" : "no shadow map"))
 FACT(indirect_light, PARTS, s->has_indirect, SAY("%s part of the light that is indirect", s->has_indirect ? "a" : "no"))
 /* Whether surfaces can receive light from others or the sky: where nothing is lit, only what other parts than the picture hold. */
 #define OTHER_LIGHT                                                                                                             \

@@ -176,6 +176,8 @@ KINDS = [
          'Where the pipeline makes `image`, and of the pass\'s parameters `on` is on and `off` is off, the pass does not use `other`, which it reads as an '
          'OPTIONAL_READ. Passes whose images no other pass uses then are left out, unless their images are looked at for themselves.',
          row='.name = #$image, .image = #$other, .assigned = #$on, .source = #$off, .help = $why'),
+    Kind('NEEDS_READER', 'image, slot, why', 'The pass in `slot` has to read `image`, which this pass makes, since else something would be missing in the result: why.',
+         row='.name = #$image, .image = #$slot, .help = $why'),
     Kind('NEEDED_IF_READ', '', 'The pass is needed, too, when a pass that runs reads one of its images, whatever its rows NEEDS say, unless it needs cube maps and the capture has none.'),
     Kind('WITHOUT', 'image, what', 'What the pass does where the capture does not have this image, which it reads. The plan says so. Passes that read the image without '
          'such a row do not depend on it, if others have one.',
@@ -189,7 +191,7 @@ KINDS = [
          row='.name = #$from, .image = #$image'),
     Kind('ALIAS', 'image, captured',
          'When the facts that the pass needs do not hold, `image` equals this image of the capture: while the pass is dropped, both names are '
-         'one image on the device.', row='.name = #$captured, .image = #$image'),
+         'one image on the device. `image` may be one of the capture, too: the pass then makes it in place of that.', row='.name = #$captured, .image = #$image'),
     Kind('ALL_VISIBLE_UNLESS', 'parameter', 'While this parameter is off, the reflection of every surface is visible, whatever its material.',
          row='.name = #$parameter'),
     Kind('ALONG_RAYS', 'image, normals',

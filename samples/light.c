@@ -1,6 +1,7 @@
 /* The engine's own shadow mask is as sharp as its light, its occlusion coarse: a few rays over a short way. */
 #include "light.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -106,7 +107,7 @@ static bool write_occlusion(const struct dump *dump, const struct world *world, 
 /* ---- Shadow map ---- */
 
 enum { SHADOW_SIZE = 1024, MOST_CELLS = 32 };
-static const float SHADOW_REACH = 16, VOLUME_REACH = 20; /* m from the middle to the rim */
+static const float SHADOW_REACH = 16, CASCADE_REACH = 4, VOLUME_REACH = 20; /* m from the middle to the rim */
 
 struct shadow_work {
     const struct world *world;
@@ -148,34 +149,46 @@ static void fill_row(double row[4], vec3 direction, float scale, vec3 middle, co
     }
 }
 
-/* An orthographic map of what lies before the camera. */
-static bool write_shadow(const struct dump *dump, const struct world *world, const double offset[3], struct job *job,
-                         struct glint_error *err) {
+/* An orthographic map of what lies before the camera. reach: m from the middle to the rim */
+static bool write_shadow(const struct dump *dump, const struct world *world, uint32_t number, float reach,
+                         const double offset[3], struct job *job, struct glint_error *err) {
     const struct scene *scene = world_scene(world);
+    char name[32];
+    snprintf(name, sizeof name, "shadow.%03u", number);
     vec3 right, up, sun = scene->sun_direction,
                     ahead = view_ray(dump->view, dump->view->width / 2, dump->view->height / 2);
     frame_of(sun, &right, &up);
-    vec3 middle = along(view_eye(dump->view), unit(v3(ahead.x, 0, ahead.z)), 0.5f * SHADOW_REACH);
-    const float texel = 2 * SHADOW_REACH / SHADOW_SIZE, deep = extent(scene, middle, sun);
+    vec3 middle = along(view_eye(dump->view), unit(v3(ahead.x, 0, ahead.z)), 0.5f * reach);
+    const float texel = 2 * reach / SHADOW_SIZE, deep = extent(scene, middle, sun);
     struct glint_shadow shadow = {.range = {0, 1}, .bias = (double)(1.5f * texel / (2 * deep))};
-    fill_row(shadow.world_to_shadow, right, 1 / SHADOW_REACH, middle, offset, 0);
-    fill_row(shadow.world_to_shadow + 4, up, 1 / SHADOW_REACH, middle, offset, 0);
+    fill_row(shadow.world_to_shadow, right, 1 / reach, middle, offset, 0);
+    fill_row(shadow.world_to_shadow + 4, up, 1 / reach, middle, offset, 0);
     fill_row(shadow.world_to_shadow + 8, sun, -0.5f / deep, middle, offset, 0.5);
     shadow.world_to_shadow[15] = 1;
-    vec3 corner = along(along(along(middle, right, -SHADOW_REACH), up, SHADOW_REACH), sun, deep);
+    vec3 corner = along(along(along(middle, right, -reach), up, reach), sun, deep);
     float *depth = calloc((size_t)SHADOW_SIZE * SHADOW_SIZE, sizeof *depth);
     struct shadow_work work = {world, corner, scale(right, texel), scale(up, -texel), scale(sun, -2 * deep), depth};
     struct dump_part part;
     bool ok = depth || glint_fail(err, GLINT_ERROR_MEMORY, "no memory for the shadow map");
     ok = ok && parallel_for(job, "rendering the shadow map", 0, SHADOW_SIZE, shadow_row, &work, err);
     if (ok) {
-        dump_begin(&part, dump, "shadow.000", SHADOW_SIZE, SHADOW_SIZE);
+        dump_begin(&part, dump, name, SHADOW_SIZE, SHADOW_SIZE);
         dump_channel(&part, "depth.Z", (struct storage){GLINT_F32, "D32F"}, depth, sizeof *depth);
         part.part.shadow = &shadow;
         ok = dump_end(&part, dump, err);
     }
     free(depth);
     return ok;
+}
+
+/* One map, or cascades from the finest on, each three times as wide as the one before. */
+static bool write_shadows(const struct dump *dump, const struct world *world, uint32_t cascades, const double offset[3],
+                          struct job *job, struct glint_error *err) {
+    if (cascades < 2) return write_shadow(dump, world, 0, SHADOW_REACH, offset, job, err);
+    float reach = CASCADE_REACH;
+    for (uint32_t k = 0; k < cascades; k++, reach *= 3)
+        if (!write_shadow(dump, world, k, reach, offset, job, err)) return false;
+    return true;
 }
 
 /* ---- Volume of light ---- */
@@ -288,6 +301,7 @@ bool light_write(const struct dump *dump, const struct world *world, const struc
         return false;
     return (!(also & GLINT_ALSO_AO) || write_occlusion(dump, world, (float)options->occlusion_radius, job, err)) &&
            (!(also & GLINT_ALSO_SUN && has_sun(scene)) || write_mask(dump, world, job, err)) &&
-           (!(also & GLINT_ALSO_SHADOW && has_sun(scene)) || write_shadow(dump, world, options->offset, job, err)) &&
+           (!(also & GLINT_ALSO_SHADOW && has_sun(scene)) ||
+            write_shadows(dump, world, options->cascades, options->offset, job, err)) &&
            (!(also & GLINT_ALSO_VOLUME) || write_volume(dump, world, options->offset, job, err));
 }

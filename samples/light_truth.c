@@ -30,24 +30,25 @@ static void trace_hemisphere(const struct light_truth_work *work, const struct h
     const struct light_rays *rays = work->rays;
     const bool light = rays->kinds & GLINT_TRUTH_INDIRECT;
     const vec3 leave = world_leave(hit, hit->geometric);
-    double color[3] = {0}, square = 0, visible = 0, n = 0;
+    double color[3] = {0}, square = 0, distance = 0, hidden = 0, n = 0;
     for (uint32_t i = 0; i < rays->samples; i++) {
         vec3 d = cosine_direction(hit->normal, i, hash_two(index, 17));
         if (dot(d, hit->geometric) <= 0) continue;
         n++;
-        if (!light) {
-            visible += !world_blocked(work->world, leave, d, rays->radius);
-            continue;
-        }
         struct hit found;
-        vec3 c = world_look(work->world, leave, d, &found);
-        double l = (double)luminance(c);
-        color[0] += (double)c.x, color[1] += (double)c.y, color[2] += (double)c.z;
-        square += l * l;
-        visible += !(found.t <= rays->radius);
+        if (light) {
+            vec3 c = world_look(work->world, leave, d, &found);
+            double l = (double)luminance(c);
+            color[0] += (double)c.x, color[1] += (double)c.y, color[2] += (double)c.z;
+            square += l * l;
+        } else {
+            found.t = world_distance(work->world, leave, d, rays->radius);
+        }
+        if (found.t <= rays->radius) distance += (double)found.t, hidden++;
     }
     if (n == 0) return;
-    truth->occlusion = (float)(visible / n);
+    truth->occlusion = (float)((n - hidden) / n);
+    if (hidden > 0) truth->occluder_m = (float)(distance / hidden);
     truth->indirect = v3((float)(color[0] / n), (float)(color[1] / n), (float)(color[2] / n));
     const double mean = (double)luminance(truth->indirect), variance = square / n - mean * mean;
     if (n > 1 && mean > 0 && variance > 0) truth->error = (float)(sqrt(variance / (n - 1)) / mean);
@@ -80,7 +81,7 @@ static void truth_row(void *user, uint32_t y) {
     for (uint32_t x = 0; x < work->view->width; x++) {
         const uint32_t index = y * work->view->width + x;
         struct light_truth *truth = &work->truth[index];
-        *truth = (struct light_truth){.occlusion = 1, .sun = 1, .contact = 1};
+        *truth = (struct light_truth){.occlusion = 1, .occluder_m = INFINITY, .sun = 1, .contact = 1};
         struct hit hit = primary_hit(work->world, work->view, x, y);
         if (!(hit.t < INFINITY)) continue;
         if (work->rays->kinds & (GLINT_TRUTH_OCCLUSION | GLINT_TRUTH_INDIRECT))
@@ -147,6 +148,7 @@ static bool write_visibilities(const struct dump *dump, const struct light_truth
     if (rays->kinds & GLINT_TRUTH_OCCLUSION) {
         dump_begin(&part, dump, "truth.occlusion", width, height);
         dump_channel(&part, "visibility", dump_float, &truth->occlusion, sizeof *truth);
+        dump_channel(&part, "distance.Z", dump_float, &truth->occluder_m, sizeof *truth);
         part.part.truth = &lengths;
         add_samples(&part, &attribute, rays->samples);
         if (!dump_end(&part, dump, err)) return false;

@@ -6,6 +6,7 @@
 
 struct light_truth {
     float occlusion;    /* visible part of the hemisphere about the vertex normal, by the cosine; 1 for sky */
+    float occluder_m;   /* mean distance of what hides the rest, by the cosine; INFINITY where nothing does */
     float sun, contact; /* visible part of the sun's disc, with all surfaces and with near ones alone; 1 for sky */
     vec3 indirect;      /* irradiance by other surfaces and the sky, divided by π; 0 for sky */
     float error;        /* relative standard error of the luminance of `indirect` */

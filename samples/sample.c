@@ -4,8 +4,10 @@
 #include <string.h>
 
 #include "bake.h"
+#include "decals.h"
 #include "dump.h"
 #include "encode.h"
+#include "extra.h"
 #include "finished.h"
 #include "foreground.h"
 #include "gltf.h"
@@ -99,6 +101,7 @@ static bool check_options(const struct glint_sample_options *o, struct glint_err
         return glint_fail(err, GLINT_ERROR_USAGE,
                           "radius of occlusion %g, length of contact shadows %g: expected lengths", o->occlusion_radius,
                           o->contact_length);
+    if (o->cascades > 4) return glint_fail(err, GLINT_ERROR_USAGE, "%u cascades: expected at most 4", o->cascades);
     bool looks = finite3(o->eye) && finite3(o->target) && memcmp(o->eye, o->target, sizeof o->eye);
     if (o->camera_given && !looks)
         return glint_fail(err, GLINT_ERROR_USAGE, "camera: expected a position and another point to look at");
@@ -272,12 +275,23 @@ static bool write_glass(struct session *s, const struct dump *dump, const struct
     return ok;
 }
 
+/* The G-buffer without decals, their buffers, and the light that the picture has with them; that of the previous frame is from before. */
+static bool write_decals(struct session *s, const struct dump *dump, const struct view *view, struct glint_error *err) {
+    struct decal *decals = decals_draw(view, s->pixels, err);
+    const bool ok = decals && dump_gbuffer(dump, "gbuffer", view, s->pixels, err) && decals_write(dump, decals, err);
+    if (decals) decals_light(decals, view, s->pixels);
+    free(decals);
+    return ok;
+}
+
 static bool write_parts(struct session *s, const struct dump *dump, const struct view *view,
                         const struct view *previous, uint32_t number, bool shot, struct glint_error *err) {
-    if (!dump_gbuffer(dump, "gbuffer", view, s->pixels, err) || !dump_lit(dump, "lit", s->pixels, err) ||
-        !dump_gbuffer(dump, "previous.gbuffer", previous, s->previous, err) ||
+    if (!(s->options.also & GLINT_ALSO_DECALS ? write_decals(s, dump, view, err)
+                                              : dump_gbuffer(dump, "gbuffer", view, s->pixels, err)) ||
+        !dump_lit(dump, "lit", s->pixels, err) || !dump_gbuffer(dump, "previous.gbuffer", previous, s->previous, err) ||
         !dump_lit(dump, "previous.lit", s->previous, err) ||
-        !light_write(dump, s->now, s->pixels, &s->options, &s->job, err) || !lens_write(dump, &s->options, err))
+        !light_write(dump, s->now, s->pixels, &s->options, &s->job, err) ||
+        !extra_write(dump, s->now, &s->options, &s->job, err) || !lens_write(dump, &s->options, err))
         return false;
     if (!(shot ? name_cubemaps(s, dump, err) : write_cubemaps(s, dump, err)) || !write_sky(s, dump, err)) return false;
     if (s->scene.water.there && !write_water(s, dump, view, number, err)) return false;
@@ -464,6 +478,7 @@ bool glint_sample_write(const char *scene, const char *out, const struct glint_s
         ok = glint_fail(err, GLINT_ERROR_USAGE,
                         "%.200s: has water or panes, which the truths antialiased and picture lack", scene);
     if (ok) {
+        if (s.options.also & GLINT_ALSO_DECALS) decals_mark(&s.scene);
         if (s.options.foreground) foreground_add(&s.scene, &s.options);
         set_defaults(&s);
         ok = write_files(&s, err);

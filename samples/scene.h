@@ -125,7 +125,8 @@ enum {
     STENCIL_VEHICLE = 4,
     STENCIL_VEGETATION = 8,
     STENCIL_GLASS = 16,
-    STENCIL_FOREGROUND = 32
+    STENCIL_FOREGROUND = 32,
+    STENCIL_DECAL = 64
 };
 
 void scene_init(struct scene *scene);

@@ -68,6 +68,7 @@ static void take_options(XXH3_state_t *state, const struct scene *scene, const s
         hash_bytes(state, &o->reflecting, sizeof o->reflecting);
         hash_bytes(state, &o->scattered, sizeof o->scattered);
     }
+    if (o->cascades > 1) hash_bytes(state, &o->cascades, sizeof o->cascades);
     if (o->travel_given) hash_bytes(state, o->travel, sizeof o->travel);
     if (o->camera_given) {
         hash_bytes(state, o->eye, sizeof o->eye);

@@ -134,7 +134,7 @@ static void fill_hit(const struct world *world, const struct RTCRayHit *found, v
     hit->v = v;
 }
 
-static struct hit trace_tree(const struct world *world, RTCScene tree, vec3 origin, vec3 direction, float t_min) {
+static struct RTCRayHit first_hit(RTCScene tree, vec3 origin, vec3 direction, float t_min, float t_max) {
     struct RTCRayHit ray = {.ray = {.org_x = origin.x,
                                     .org_y = origin.y,
                                     .org_z = origin.z,
@@ -142,13 +142,18 @@ static struct hit trace_tree(const struct world *world, RTCScene tree, vec3 orig
                                     .dir_x = direction.x,
                                     .dir_y = direction.y,
                                     .dir_z = direction.z,
-                                    .tfar = INFINITY,
+                                    .tfar = t_max,
                                     .mask = ~0U},
                             .hit = {.geomID = RTC_INVALID_GEOMETRY_ID}};
     struct RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     rtcIntersect1(tree, &context, &ray);
+    return ray;
+}
+
+static struct hit trace_tree(const struct world *world, RTCScene tree, vec3 origin, vec3 direction, float t_min) {
+    const struct RTCRayHit ray = first_hit(tree, origin, direction, t_min, INFINITY);
     struct hit hit = {.t = INFINITY};
     if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
     hit.t = ray.ray.tfar;
@@ -165,6 +170,11 @@ struct hit world_see(const struct world *world, vec3 origin, vec3 direction, flo
     struct hit behind = world_trace(world, origin, direction, t_min);
     struct hit front = trace_tree(world, world->front, origin, direction, t_min);
     return front.t < behind.t ? front : behind;
+}
+
+float world_distance(const struct world *world, vec3 origin, vec3 direction, float t_max) {
+    const struct RTCRayHit ray = first_hit(world->tree, origin, direction, 0, t_max);
+    return ray.hit.geomID == RTC_INVALID_GEOMETRY_ID ? INFINITY : ray.ray.tfar;
 }
 
 static bool blocked(RTCScene tree, vec3 origin, vec3 direction, float t_max) {

@@ -31,6 +31,8 @@ void world_destroy(struct world **world);
 const struct scene *world_scene(const struct world *world);
 
 struct hit world_trace(const struct world *world, vec3 origin, vec3 direction, float t_min);
+/* Where the ray first hits anything, up to t_max; INFINITY if it does not. */
+float world_distance(const struct world *world, vec3 origin, vec3 direction, float t_max);
 bool world_blocked(const struct world *world, vec3 origin, vec3 direction, float t_max);
 /* The same for rays from and to the camera of a WORLD_ALL, which also hit meshes that only the camera sees. */
 struct hit world_see(const struct world *world, vec3 origin, vec3 direction, float t_min);

@@ -24,6 +24,11 @@ MASK = [
     'shadow_mask=captured length_m=0', 'shadow_mask=captured linear', 'length_m=0', 'linear', 'dda', 'length_m=0 offset=0', 'linear offset=0',
     'length_m=0 taps=3', 'linear taps=3', 'linear thickness=0.005', 'linear back_faces=true', 'linear length_m=0.1', 'linear end_fade=0.5',
     'linear border_fade=0.05', 'linear facing=false', 'linear skip=false', 'dda length_m=0.1']
+CASCADES = [
+    'length_m=0', 'length_m=0 taps=3', 'length_m=0 taps=5', 'length_m=0 taps=5 far_taps=2', 'length_m=0 taps=5 far_taps=5', 'length_m=0 offset=0',
+    'length_m=0 shadow_blur=separable', 'length_m=0 shadow_mask.dither=4', 'length_m=0 shadow_mask.dither=4 shadow_blur=separable',
+    'length_m=0 shadow_mask.dither=4 shadow_blur=separable shadow_blur.radius=1', 'length_m=0 shadow_mask.dither=4 shadow_blur=separable shadow_blur.radius=4',
+    'linear', 'linear taps=5 far_taps=2']
 INDIRECT = [
     'linear', 'linear level=1', 'linear indirect_blur=none', 'linear level=0 indirect_blur=none', 'linear indirect_blur.edges=false',
     'linear directions=1', 'linear directions=16', 'hiz', 'linear length_m=0', 'linear fallback=cubemaps', 'linear fallback=cubemaps corrections=0',
@@ -54,7 +59,9 @@ EFFECTS = {
         'slots': {'downsample': 'none', 'hiz': 'nearest', 'shadow_mask': 'map', 'contact_trace': 'linear', 'contact_apply': 'bilinear'},
         'trace': 'contact_trace', 'apply': 'contact_apply', 'fetches': 'contact_fetches',
         'tables': {'contact_trace': (TRACE, ['shadow_mask.mask=none']), 'shadow_mask': (MASK, [])}}}
-ELSEWHERE = {'facing': 'contact_apply', 'mask': 'shadow_mask', 'taps': 'shadow_mask', 'offset': 'shadow_mask'}
+EFFECTS['shadow, cascades'] = {**EFFECTS['shadow'], 'effect': 'shadow', 'optional': ['shadow_blur'], 'tables': {'shadow_blur': (CASCADES, [])},
+                               'sample': [*EFFECTS['shadow']['sample'], '--cascades', '4']}
+ELSEWHERE = {'facing': 'contact_apply', 'mask': 'shadow_mask', 'taps': 'shadow_mask', 'far_taps': 'shadow_mask', 'offset': 'shadow_mask'}
 
 
 def run(command):
@@ -71,7 +78,7 @@ def arguments(effect, row, settings):
         name, equals, _ = word.partition('=')
         if not equals:
             uses.append(f'{effect["trace"]}={word}')
-        elif name in effect['slots']:
+        elif name in [*effect['slots'], *effect.get('optional', [])]:
             uses.append(word)
         else:
             sets.append(word if '.' in name else f'{ELSEWHERE.get(name, effect["trace"])}.{word}')

@@ -132,92 +132,79 @@ HARMLESS = {
     ("screen_rays/linear_facets.glsl", "fetches += 2u;", "fetches -= 2u;"): COUNT,
     ("shadow/contact_trace/linear.comp", "return march(ray, grid, dither ? random4(uvec2(texel), random_frame(), RANDOM_CONTACT).x : 0.0);",
      "return march(ray, grid, dither ? random4(uvec2(texel), random_frame(), RANDOM_CONTACT).y : 0.0);"): ANOTHER_NUMBER,
+    ("antialiasing/taa/scene.comp",
+     "vec3 picture(ivec2 pixel) { return texelFetch(scene, min(pixel, textureSize(scene, 0) - 1), 0).rgb; }",
+     "vec3 picture(ivec2 pixel) { return texelFetch(scene, (pixel), 0).rgb; }"):
+        "without the captured picture the image is one black texel, and a fetch outside of an image is 0 on these devices; GLSL leaves it undefined, hence the guard",
+    ("picture/compose/brdf.comp",
+     "float rise = fact_fresnel ? texelFetch(fresnel_full, min(pixel, textureSize(fresnel_full, 0) - 1), 0).x : 1.0;",
+     "float rise = fact_fresnel ? texelFetch(fresnel_full, (pixel), 0).x : 1.0;"):
+        "channels of the G-buffer are as large as the picture; those that the capture lacks are filled with their fallback value",
+    ("prepare/surface_levels/picked.comp",
+     "ivec2 within = width_of(0) == 1 || picked > 3u ? ivec2(0) : ivec2(picked & 1u, picked >> 1u);",
+     "ivec2 within = width_of(1) == 1 || picked > 3u ? ivec2(0) : ivec2(picked & 1u, picked >> 1u);"):
+        "where a texel is a pixel, downsample/none has picked 0, which is the same",
+    ("reflection/blur/mips.comp",
+     "level = clamp(level, 0.0, float(textureQueryLevels(chain) - 1));",
+     "level = clamp(level, 0.0, float(textureQueryLevels(chain) + 1));"):
+        "radii are at most half of the picture's width w: log2(w / 2), while the coarsest level is floor(log2 w) or more",
+    ("filtering/planes.glsl", "if (!(corners.share[i] > 0.0)) continue;", "if (false) continue;"):
+        "a share of 0 adds 0 to both sums",
+    ("filtering/level_filter.glsl", "if (level + 1 >= textureQueryLevels(levels)) return vec4(0.0);", "if (false) return vec4(0.0);"):
+        "a level that the image lacks has the size 0 on these devices, so that no texel of it is found, and the fraction is 0 as well",
+    ("previous_frame/history.glsl",
+     "if (weight < 1e-3 || any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(frame.size.zw)))) continue;",
+     "if (weight < 1e-3  || any(greaterThanEqual(texel, ivec2(frame.size.zw)))) continue;"):
+        "a normal that is fetched outside of the image is 0 on these devices, which is no surface",
+    ("reflection/transparency/trace.comp", "ivec2 corner = ivec2(floor(place)), last = ivec2(frame.size.zw) - 1;",
+     "ivec2 corner = ivec2(floor(place)), last = ivec2(frame.size.zw) ;"):
+        "texels beyond the border repeat those at the border with the same proportions; outside of the image they have alpha 0, and do not enter the mean",
+    ("reflection/transparent_cubemap_trace/march.comp", "if (!has_distances(best)) return Result(INFINITE, best, END_fallback, 0u, 0u);",
+     "if (!has_distances(best)) return Result(INFINITE, best, END_fallback, 0u, 1u);"): COUNT,
+    ("reflection/transparent_downsample/nearest.comp", "return texelFetch(transparent_color, pixel, 0).a > 0.0 && reflects(depth_m, surface.xyz);",
+     "return texelFetch(transparent_color, pixel, 0).a > 0.0 && reflects(depth_m, surface.zyx);"): LENGTH,
+    ("reflection/upscale/source.glsl", "probe(PROBE_neighbour, vec4(texel, weight, color.r), vec4(color.gb, 0.0, 0.0));",
+     "probe(PROBE_neighbour, vec4(texel, weight, color.r), vec4(color.gb, 1.0, 0.0));"):
+        "a record of this kind has six values; this is the seventh",
+    ("shared/active.glsl", "if (gl_LocalInvocationIndex < min(frame.counts.x, ACTIVE_MOST))", "if (gl_LocalInvocationIndex < (frame.counts.x))"):
+        "the host activates at most as many cube maps (TABLES_MAX of replay, the highest value of cubemap_active.count)",
+    ("survey/reach.comp", "if (gl_LocalInvocationIndex == 0u) imageStore(reached_faces, ivec2(word, 0), uvec4(faces[word]));",
+     "if (gl_LocalInvocationIndex == 1u) imageStore(reached_faces, ivec2(word, 0), uvec4(faces[word]));"):
+        "after the barrier every invocation of the workgroup reads the same word",
 }
 
 # {(file, line, line): missing case}: neither harmless nor noticed yet. A new one fails the test.
 MISSING = {
-    ("antialiasing/taa/composed.comp",
-     "if (has_composed_transparent) return texelFetch(composed_transparent, pixel, 0).rgb;",
-     "if (false) return texelFetch(composed_transparent, pixel, 0).rgb;"):
-        "antialiasing of a picture with transparent surfaces",
-    ("antialiasing/taa/scene.comp",
-     "vec3 picture(ivec2 pixel) { return texelFetch(scene, min(pixel, textureSize(scene, 0) - 1), 0).rgb; }",
-     "vec3 picture(ivec2 pixel) { return texelFetch(scene, (pixel), 0).rgb; }"):
-        "a picture of a capture without `scene`",
-    ("indirect/indirect_blur/edges.comp",
-     "sum += texelFetch(levels, at, level + 1);",
-     "sum += texelFetch(levels, at, level - 1);"):
-        "a bar that no texel of the coarser level shows",
-    ("indirect/indirect_trace/light.glsl",
-     "at = from + max(sqrt(max(inside2, 0.0)) - along, 0.0) * direction;",
-     "at = from + (sqrt(max(inside2, 0.0)) - along) * direction;"):
-        "a ray that begins outside the sphere about the cube map and points away from it",
-    ("indirect/volume_make/gather.comp",
-     "if (frame.counts.w > 0u && color.a < 1.0)",
-     "if (frame.counts.w > 0u && color.a > 1.0)"):
-        "a volume made of cube maps that show the sky",
-    ("filtering/same_surface.glsl",
-     "return depth_part >= 10.0 || in_plane(way, mat3(frame.view_from_world) * normal, depth_m, depth_part);",
-     "return depth_part >= 20.0 || in_plane(way, mat3(frame.view_from_world) * normal, depth_m, depth_part);"):
-        "depth_part=10, which is no test",
-    ("occlusion/ao_trace/bounds.glsl",
-     "return !(up.x + up.y + up.z - t.lowest + rounding <= lift * t.least_m);",
-     "return !(up.x + up.y - up.z - t.lowest + rounding <= lift * t.least_m);"):
-        "tiles that are skipped, of planes in every direction",
-    ("occlusion/ao_trace/horizon.comp",
-     "side.end = min(at_most > 0.0 ? most / at_most : LARGEST, min(leaves(r.start.x, side.across.x, float(frame.size.x)),",
-     "side.end = min(at_most > 0.0 ? most / at_most : LARGEST, min(leaves(r.start.x, side.across.y, float(frame.size.x)),"):
-        "slices that leave the picture at one side",
-    ("screen_rays/receiver_normal.glsl",
-     "vec3 vertex = texelFetch(vertex_normal_full, min(ivec2(start), size - 1), 0).xyz;",
-     "vec3 vertex = texelFetch(vertex_normal_full, min(ivec2(start), size ), 0).xyz;"):
-        "vertex normals in a picture of odd size",
-    ("picture/compose/brdf.comp",
-     "float rise = fact_fresnel ? texelFetch(fresnel_full, min(pixel, textureSize(fresnel_full, 0) - 1), 0).x : 1.0;",
-     "float rise = fact_fresnel ? texelFetch(fresnel_full, (pixel), 0).x : 1.0;"):
-        "Fresnel factors of a picture of odd size",
-    ("picture/compose/contribution.comp",
-     "return environment_reflectance(f0, surface.w > 0.0 ? min(surface.w, 1.0) : 0.0, cosine, rise); // NaN becomes 0",
-     "return environment_reflectance(f0, surface.w > 0.0 ? (surface.w) : 0.0, cosine, rise); // NaN becomes 0"):
-        "a roughness above 1 with the variant contribution",
-    ("prepare/downsample/mips.glsl",
-     "vec3 vertex = has_vertex ? texelFetch(vertex_normal_full, source, 0).xyz : surface.xyz;",
-     "vec3 vertex = has_vertex ? texelFetch(vertex_normal_full, source, 0).zyx : surface.xyz;"):
-        "vertex normals that are not the shading ones, in three resolutions",
-    ("prepare/downsample/mips.glsl",
-     "vec4(used && reflects(1.0, vertex) ? normalize(vertex) : vec3(0.0), (chosen & 1u) + 8u * (chosen >> 1u)));",
-     "vec4( vec3(0.0), (chosen & 1u) + 8u * (chosen >> 1u)));"):
-        "vertex normals that are not the shading ones, in three resolutions",
-    ("prepare/surface_levels/picked.comp",
-     "ivec2 within = width_of(0) == 1 || picked > 3u ? ivec2(0) : ivec2(picked & 1u, picked >> 1u);",
-     "ivec2 within = width_of(1) == 1 || picked > 3u ? ivec2(0) : ivec2(picked & 1u, picked >> 1u);"):
-        "the finest level at full resolution, where a texel has no other pixel",
-    ("filtering/level_filter.glsl",
-     "float weight = ((i & 1) == 0 ? 3.0 : 1.0) * (i < 2 ? 3.0 : 1.0) * agreement(own, other);",
-     "float weight = ((i & 1) == 0 ? 3.0 : 1.0) * (i > 2 ? 3.0 : 1.0) * agreement(own, other);"):
-        "the weights of the surrounding texels on a thin bar",
-    ("reflection/blur/mips.comp",
-     "level = clamp(level, 0.0, float(textureQueryLevels(chain) - 1));",
-     "level = clamp(level, 0.0, float(textureQueryLevels(chain) + 1));"):
-        "recorded taps of a cone as wide as the coarsest level",
-    ("reflection/blur/upscale_blur.comp",
-     "vec4 open = open_in_block(edges_in_block(min(block, max(last - 1, ivec2(0))), finer), picked_from(texel, level));",
-     "vec4 open = open_in_block(edges_in_block(min(block, (last - 1)), finer), picked_from(texel, level));"):
-        "a picture whose coarser level is one texel wide",
-    ("reflection/cubemap_trace/box.comp",
-     "if (planes == 0 && head.y > 0.0) {",
-     "if (planes == 0 ) {"):
-        "a cube map without a volume beside one with a volume",
-    ("reflection/cubemap_trace/proxy.glsl",
-     "return root < 0.0 ? -ALWAYS : along + vec2(-sqrt(root), sqrt(root));",
-     "return root < 0.0 ? -ALWAYS : along + vec2(sqrt(root), sqrt(root));"):
-        "a recorded interval of a ray within a sphere",
-    ("reflection/resolve/before.glsl",
-     "if (source == SHOWN) found = found_color(record_picture(image, place.xy, 0.0, picture_before(place)));",
-     "if (source == SHOWN) found = found_color(record_picture(image, place.yx, 0.0, picture_before(place)));"):
-        "a recorded colour of the previous picture",
-    ("reflection/resolve/blurred.comp",
-     "ivec2 at = min(ivec2(uv * vec2(frame.size.xy)), ivec2(frame.size.xy) - 1);",
-     "ivec2 at = min(ivec2(uv * vec2(frame.size.xy)), ivec2(frame.size.yx) - 1);"):
-        "hits in the right part of a wide picture, judged by their back faces",
+    ("previous_frame/history.glsl",
+     "if (weight < 1e-3 || any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(frame.size.zw)))) continue;",
+     "if (weight < 0.0 || any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(frame.size.zw)))) continue;"):
+        "a bright texel beside one whose history is reprojected by the cameras to its own centre",
+    ("reflection/resolve/color.glsl",
+     "if (alone) color = vec4(color.rgb / max(color.a, MIN_SHARE), 1.0);",
+     "if (alone) color = vec4(color.rgb / (color.a), 1.0);"):
+        "a coarse level of a cube map that is sky but for a surface of one texel",
+    ("reflection/resolve/color.glsl",
+     "if (level > 0.0 && ray.endless && joint && has_sky_mips && frame.counts.w > 0u) return SKY;",
+     "if (level < 0.0 && ray.endless && joint && has_sky_mips && frame.counts.w > 0u) return SKY;"):
+        "a wide cone that ends in the sky of the picture, where the sky's cube map has another colour",
+    ("reflection/resolve_sharp/hit.comp",
+     "if (neighbours) end = own_end(pixel, texel, end, position, mirror_direction(position, surface.xyz));",
+     "if (neighbours) end = own_end(pixel, texel, end, position, mirror_direction(position, surface.zyx));"):
+        "hits of surrounding rays on surfaces whose normals have unequal components x and z",
+    ("reflection/water/combine.comp",
+     "ivec2 pixel_at(vec2 uv) { return clamp(ivec2(uv * vec2(frame.size.xy)), ivec2(0), ivec2(frame.size.xy) - 1); }",
+     "ivec2 pixel_at(vec2 uv) { return (ivec2(uv * vec2(frame.size.xy))); }"):
+        "refracted rays that leave the picture",
+    ("screen_rays/along.glsl",
+     "vec2 end = clamp(vec2(texel) + 0.5 + ray.end * ray.across / reduction(frame.size), vec2(0.0), vec2(frame.size.zw) - 0.5);",
+     "vec2 end = clamp(vec2(texel)  + ray.end * ray.across / reduction(frame.size), vec2(0.0), vec2(frame.size.zw) - 0.5);"):
+        "a ray whose vanishing point lies in the last half of a texel of sky",
+    ("screen_rays/linear_facets.glsl",
+     "for (int k = 0; k < refinements && crossing.what == CELL_BEHIND && in_front; ++k) {",
+     "for (int k = 0; k < refinements && crossing.what == CELL_BEHIND ; ++k) {"):
+        "steps of a ray that was behind a surface before, by their number",
+    ("survey/reach.comp",
+     "bool all = !(length(from) > 1e-3 * (1.0 + length(origin))); // its direction is undefined",
+     "bool all = !(length(from) > 0.0 * (1.0 + length(origin))); // its direction is undefined"):
+        "a mirror within rounding of a cube map's centre",
 }

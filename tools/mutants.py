@@ -4,6 +4,8 @@
 mutants.py draw -o RECORD                      makes the mutants, for a machine that has no compiler of shaders
 mutants.py run BUILD -o RECORD [--jobs N]      tries each mutant; goes on where a record of the same sources and programs ends
 mutants.py check BUILD -o RECORD               the same, and speaks TAP (./dev test --all)
+mutants.py retry BUILD -o RECORD [--most S]    tries on this device what a record of any device leaves open: mutants that were not tried, and those
+                                               that lack a case; each for S seconds of processor time
 mutants.py page RECORD... -o PAGE              the page of those records
 
 The changed file lies alone in a folder from which the programs take passes ($GLINT_PASSES). A mutant is tried with each program that uses the
@@ -13,6 +15,7 @@ programs changes this order alone, never a result."""
 import argparse
 import collections
 import concurrent.futures
+import datetime
 import hashlib
 import json
 import math
@@ -43,12 +46,13 @@ class Program:
 
     def __init__(self, name, command, selftest=False):
         self.name, self.command, self.selftest = name, [str(c) for c in command], selftest
+        self.case = ""  # ": CASE" if it is the only one
         self.failing = []  # cases that are ignored
 
     def only(self, case):
         """The self-test with only the case of this name."""
         program = Program(self.name, [*self.command[:4], "--only", case], True)
-        program.failing = self.failing
+        program.case, program.failing = f": {case}", self.failing
         return program
 
     def run(self, passes, limit_s, to_end=False):
@@ -192,15 +196,22 @@ def try_host(row, folder, build):
 LOCK, OUTCOMES = threading.Lock(), collections.defaultdict(list)  # of programs, by the slot of what they were tried on
 
 
-OUTCOME = ("verdict", "by", "failed", "seconds", "untried")
+OUTCOME = ("verdict", "by", "failed", "seconds", "untried", "on", "date")
 
 
 def slot_of(file):
     return file if file.startswith("shared/") else file.split("/")[-2]
 
 
-def likeliest(programs, file, report):
-    """The programs that open the file: first those named after its slot, then by their chance to fail per second, as measured so far."""
+def opens(control, row):
+    """Whether a program uses the mutant's file: itself, or a shader that includes it."""
+    return not {row["file"], *(f"{p}.comp" for p in row["passes"])}.isdisjoint(control["files"])
+
+
+def likeliest(programs, row, report):
+    """The programs that use the file: first those named after its slot, then by their chance to fail per second, as measured so far."""
+    file = row["file"]
+
     def is_own(program):
         words = {"shared": "functions", "temporal": "time", "temporal_sharp": "time", "previous_frame": "time", "screen_trace": "geometry",
                  "screen_rays": "geometry", "cubemap_trace": "geometry"}
@@ -212,13 +223,13 @@ def likeliest(programs, file, report):
             found = OUTCOMES[slot_of(file), program.name]
             return (sum(found) + 0.3) / (len(found) + 1) / report[program.name]["seconds"]
 
-    return sorted((p for p in programs if file in report[p.name]["files"]), key=lambda p: (is_own(p), chance(p)), reverse=True)
+    return sorted((p for p in programs if opens(report[p.name], row)), key=lambda p: (is_own(p), chance(p)), reverse=True)
 
 
 def in_order(row, programs, report):
     """The program that failed before, of the self-test only the case that failed; then the others. If it is explained why none fails, they
     get a minute in all."""
-    others, spent_s = likeliest(programs, row["file"], report), 0
+    others, spent_s = likeliest(programs, row, report), 0
     by, failed = row.get("before_by"), row.get("before_failed", [""])
     for program in (p for p in others if p.name == by):
         yield program.only(failed[0]) if program.selftest and failed[0] in program.command else program
@@ -230,8 +241,9 @@ def in_order(row, programs, report):
             yield program
 
 
-def attempt(row, build, programs, report):
-    """The row with its result."""
+def attempt(row, build, programs, report, passes_here=lambda program: True, most_s=math.inf):
+    """The row with its result. passes_here: whether a program passes with unchanged sources; it is asked for those that fail. After most_s seconds of
+    processor time no other program is begun."""
     failed, by, spent_s, tried = [], None, 0, set()
     with tempfile.TemporaryDirectory(prefix="gm") as folder:
         if row["file"].endswith(".c"):
@@ -239,16 +251,19 @@ def attempt(row, build, programs, report):
         else:
             write_mutant(row, folder)
             for program in in_order(row, programs, report):
+                if tried and spent_s + report[program.name]["seconds"] > most_s:
+                    break
                 failed, _, seconds = program.run(folder, max(AT_LEAST_S, SLOWER * report[program.name]["seconds"]))
                 spent_s += seconds
                 by = program.name
                 tried.add(by)
+                failed = failed if failed and passes_here(program) else []
                 with LOCK:
                     OUTCOMES[slot_of(row["file"]), by] += [bool(failed)]
                 if failed:
                     break
     made = {k: v for k, v in row.items() if k not in OUTCOME}
-    untried = sum(row["file"] in report[p.name]["files"] and p.name not in tried for p in programs)
+    untried = sum(opens(report[p.name], row) and p.name not in tried for p in programs)
     return {**made, "verdict": "killed" if failed else "survived", **({"by": by, "failed": failed} if failed else {"untried": untried}),
             "seconds": round(spent_s, 1)}
 
@@ -332,15 +347,59 @@ def run(build, path, jobs):
     return record
 
 
+def carried(path):
+    """The record with the mutants of these sources; those that it has already keep their results."""
+    before = json.loads(path.read_text())
+    record = with_mutants(path)
+    known = {identity(m): m for m in before["mutants"]}
+    for m in record["mutants"]:
+        m.update({k: known[identity(m)][k] for k in OUTCOME if k in known.get(identity(m), {})})
+    return {**before, **record}
+
+
+def retry(build, path, jobs, most_s):
+    build, path = pathlib.Path(build).resolve(), pathlib.Path(path)
+    programs, record = list(programs_of(build)), carried(path)
+    here, asked = record.setdefault("here", {}), threading.Lock()  # controls on this device
+    on = {"on": device_of(build), "date": datetime.date.today().isoformat()}
+
+    def passes_here(program):
+        with asked:
+            version, name = version_of(build, [program]), program.name + program.case
+            if here.get(name, {}).get("version") != version:
+                here[name] = {**control_of(program), "version": version}
+            return not here[name]["failing"]
+
+    for m in record["mutants"]:
+        if "by" in m or "before_by" in m:
+            OUTCOMES[slot_of(m["file"]), m.get("by", m.get("before_by"))].append(True)
+    open_ = [n for n, m in enumerate(record["mutants"]) if "verdict" not in m or m["verdict"] == "survived" and not mutants_page.reason_of(m)]
+    open_.sort(key=lambda n: "verdict" in record["mutants"][n])
+    save(record, path)
+
+    def one(n):
+        found = {**attempt(record["mutants"][n], build, programs, {**record["control"], **here}, passes_here, most_s), **on}
+        with LOCK:
+            record["mutants"][n] = found
+            print(f"{found['file']}:{found['line']}: {found['verdict']} {found.get('by', '')} {found['seconds']} s", file=sys.stderr, flush=True)
+            save(record, path)
+
+    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+        list(pool.map(one, open_))
+    return record
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     commands = parser.add_subparsers(dest="command", required=True)
     commands.add_parser("draw").add_argument("-o", "--record", required=True)
-    for name in ("run", "check"):
+    for name in ("run", "check", "retry"):
         command = commands.add_parser(name)
         command.add_argument("build")
         command.add_argument("-o", "--record", required=True)
         command.add_argument("--jobs", type=int, default=os.cpu_count())
+        if name == "retry":
+            command.add_argument("--most", type=float, default=math.inf, help="seconds of processor time for a mutant")
     page = commands.add_parser("page")
     page.add_argument("records", nargs="+")
     page.add_argument("-o", "--page", required=True)
@@ -351,8 +410,11 @@ def main():
     if arguments.command == "draw":
         with_mutants(pathlib.Path(arguments.record))
         return
-    record = run(arguments.build, arguments.record, arguments.jobs)
-    killed = sum(m["verdict"] == "killed" for m in record["mutants"])
+    if arguments.command == "retry":
+        record = retry(arguments.build, arguments.record, arguments.jobs, arguments.most)
+    else:
+        record = run(arguments.build, arguments.record, arguments.jobs)
+    killed = sum(m.get("verdict") == "killed" for m in record["mutants"])
     print(f"{killed} of {len(record['mutants'])} mutants noticed", file=sys.stderr)
     if arguments.command == "check":
         faults = mutants_page.faults(record)

@@ -73,7 +73,9 @@ def parted(before, after):
 def of_record(record):
     mutants = [m for m in record["mutants"] if "verdict" in m]
     untried, later = len(record["mutants"]) - len(mutants), [m for m in mutants if "on" in m]
+    dates = sorted({m["date"] for m in later if "date" in m})
     survivors = [m for m in mutants if m.get("verdict") != "killed"]
+    partly = sum(m.get("untried", 0) > 0 for m in survivors)
     late = sum(m.get("failed", [""])[0].startswith("no end") for m in mutants)
     rejected = ", ".join(f"{n} {what}" for what, n in sorted(record["rejected"].items()))
     harmless, killed = sum(reason_of(m) is not None for m in survivors), len(mutants) - len(survivors)
@@ -85,7 +87,10 @@ def of_record(record):
              f"{sum(m.get('seconds', 0) for m in mutants) / 60:.0f} minutes of processor time, after {sum(c['seconds'] for c in record['control'].values()) / 60:.0f} "
              f"for unchanged sources; sources {record['sources']}.\n",
              *([f"{untried} more were made and are **not tried** yet.\n"] if untried else []),
-             *([f"{len(later)} of those noticed were tried after this run, on {later[0]['on']}, with the cases written since.\n"] if later else []),
+             *([f"{len(mutants) - len(later)} were tried on this device, of which {sum(m['verdict'] == 'killed' for m in mutants if 'on' not in m)} were noticed, the others "
+                f"later, with the cases written since, on {later[0]['on']} ({', '.join(dates)}): {len(later)}, of which {sum(m['verdict'] == 'killed' for m in later)} were "
+                f"noticed. Sources changed in between; a mutant that is still possible keeps its result.\n"] if later else []),
+             *([f"{partly} of those not noticed were not tried with every program that uses the file.\n"] if partly else []),
              table(["slot", "mutants", "noticed", "noticed, %"], grouped(mutants, lambda m: {p.split("/")[-2] for p in m["passes"]} if not m["file"].startswith("shared/")
                                                               else {"shared"})),
              table(["what was changed", "mutants", "noticed", "noticed, %"], grouped(mutants, lambda m: [m["operator"]])),

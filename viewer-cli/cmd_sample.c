@@ -32,6 +32,7 @@ enum {
     KEY_TRUTH_OF,
     KEY_RADIUS,
     KEY_LENGTH,
+    KEY_CASCADES,
     KEY_ALSO,
     KEY_FINISHED,
     KEY_FOREGROUND,
@@ -70,7 +71,8 @@ static const struct argp_option options[] = {
     {"truth-of",    KEY_TRUTH_OF,    "WHAT,...", 0, "Which truths --truth traces: reflection (default), occlusion, sun, indirect, antialiased, picture", 0},
     {"occlusion-radius", KEY_RADIUS, "M",     0, "How far away surfaces occlude, in metres, in the truth of occlusion (default 1)", 0},
     {"contact-length", KEY_LENGTH,   "M",     0, "How far away surfaces cast contact shadows, in metres, in the truth of the sun (default 0.5)", 0},
-    {"also",        KEY_ALSO,        "WHAT,...", 0, "Also write the engine's own: ao (ambient occlusion), sun (shadow mask), shadow (shadow map), volume (of light), lut (table of colours), dirt (on the lens)", 0},
+    {"also",        KEY_ALSO,        "WHAT,...", 0, "Also write the engine's own: ao (ambient occlusion), sun (shadow mask), shadow (shadow map), volume (of light), lut (table of colours), dirt (on the lens), stipple (mask of stippled pixels), decals (on the ground, in buffers of their own)", 0},
+    {"cascades",    KEY_CASCADES,    "N",     0, "Shadow maps that --also shadow writes, from the finest on, each three times as wide as the one before (default 1, at most 4)", 0},
     {"truth-of-pixels", KEY_TRUTH_OF_PIXELS, NULL, 0, "Average the truth over the area of each pixel, as over the jitter of a static camera, instead of at the frame's single "
         "sample", 0},
     {"finished",    KEY_FINISHED,    "N",     0, "Also write the final image into scene, with N rays per pixel for the reflections of opaque surfaces; the truth then "
@@ -109,7 +111,7 @@ static const struct example examples[] = {
 };
 static const char *const probes[] = {"imperfect", "perfect", "auto", NULL};
 static const char *const truths[] = {"reflection", "occlusion", "sun", "indirect", "antialiased", "picture", NULL};
-static const char *const extras[] = {"ao", "sun", "shadow", "volume", "lut", "dirt", NULL};
+static const char *const extras[] = {"ao", "sun", "shadow", "volume", "lut", "dirt", "stipple", "decals", NULL};
 static const char *const compressions[] = {"zip", "none", "zips", "piz", "pxr24", "rle", NULL};
 
 static const struct arg_target targets[] = {
@@ -125,6 +127,7 @@ static const struct arg_target targets[] = {
     STORED(KEY_TRUTH_OF_PIXELS, struct arguments, sample.truth_of_pixels),
     STORED_NUMBER(KEY_FINISHED, struct arguments, sample.finished_samples, 1, 1 << 20),
     STORED(KEY_FOREGROUND, struct arguments, sample.foreground),
+    STORED_NUMBER(KEY_CASCADES, struct arguments, sample.cascades, 1, 4),
     STORED_NUMBER(KEY_LIGHT, struct arguments, sample.light_samples, 1, 1 << 20),
     STORED(KEY_UNJITTERED, struct arguments, sample.unjittered),
     STORED(KEY_SCATTERED, struct arguments, sample.scattered),

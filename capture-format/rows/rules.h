@@ -19,7 +19,7 @@ RULE(DEPTH,     "depth-encoding",   "The declared depth encoding agrees with the
 RULE(PREVIOUS,  "previous-camera",  "A capture with `previous.gbuffer` has the previous camera.")
 RULE(VOLUME,    "inner-volume",     "An inner volume is complete: a box with min < max, a sphere with a positive radius, a hull with 4 to 64 planes with non-zero normals.")
 RULE(LIGHT,     "lights",           "Point and spot lights are numbered from 000 without a gap, at most 64; the inner angle of a cone is not above the outer one, which is above 0.")
-RULE(SHADOW,    "shadow",           "The ends of a shadow map's range differ and lie in [0, 1]; the map is of the sun or of a light, which the frame has.")
+RULE(SHADOW,    "shadow",           "The ends of a shadow map's range differ and lie in [0, 1]; the map is of the sun or of a light, which the frame has, and of all surfaces or of a stencil class that it has.")
 RULE(GRID,      "volume",           "The height of a volume of light is a whole number of its slices, and its matrix has the last row 0 0 0 1.")
 RULE(SIBLING,   "sibling",          "A sibling is a plain file name in the capture's own folder, its bytes have the stated hash, and it holds a part of the same name with pixels. The part that names it is 1 × 6 pixels, which are black.")
 /* ---- pixels: checked by validate alone ---- */

@@ -59,6 +59,7 @@ static const struct row rows[] = {
     {"shadow", "glint.shadowRange", "range", NUMBERS},
     {"shadow", "glint.shadowBias", "bias", NUMBER},
     {"shadow", "glint.shadowLight", "light", COUNT},
+    {"shadow", "glint.shadowClass", "class", COUNT},
     {"volume", "glint.worldToGrid", "world_to_grid", NUMBERS},
     {"volume", "glint.volumeSlices", "slices", COUNT},
     {"truth", "glint.radius", "radius", NUMBER},

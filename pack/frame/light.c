@@ -54,6 +54,8 @@ bool shadow_read(const struct node *frame, const struct node *part, struct glint
     shadow->bias = node_number(&node, "bias", 0);
     shadow->has_light = node_has(&node, "light");
     shadow->light = (uint32_t)node_count(&node, "light", 0);
+    shadow->has_stencil_class = node_has(&node, "class");
+    shadow->stencil_class = (uint32_t)node_count(&node, "class", 0);
     return matrix_read(frame, &node, "world_to_shadow", shadow->world_to_shadow, err);
 }
 

@@ -154,6 +154,7 @@ OBJECT(SHADOW, "shadow", "how a shadow map lies in the world; the matrix follows
     KEY("range",           NUMBERS, "2", OPTIONAL, "0, 1",    "the depths nearest to the light and farthest from it; 1, 0 when reversed")
     KEY("bias",            NUMBER,  "",  OPTIONAL, "0",       "added to the stored depth, away from the light, before the engine compares")
     KEY("light",           COUNT,   "",  OPTIONAL, "the sun", "place of the light in frame.lights, from 0")
+    KEY("class",           COUNT,   "",  OPTIONAL, "all surfaces", "place of the class in frame.stencil_classes, from 0, whose surfaces alone are compared with it")
 OBJECT(VOLUME, "volume", "how a volume of light lies in the world; the matrix follows the frame's layout and vectors")
     KEY("world_to_grid", MATRIX,  "",       REQUIRED, "", "cell (i, j, k) lies from (i, j, k) to (i + 1, j + 1, k + 1)")
     KEY("slices",        COUNT,   "",       REQUIRED, "", "number of cells along z, whose slices lie one below the other")

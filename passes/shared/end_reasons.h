@@ -1,5 +1,5 @@
 /* Why a ray ended, read by C and GLSL. Rows: name, text. The place in the list is the value. */
-REASON(not_traced,      "no ray: sky, or a surface without a reflection")
+REASON(not_traced,      "no ray: sky, a surface without a reflection, or one that a coarser level traces")
 REASON(hit,             "hit a surface")
 REASON(left_screen,     "left the screen")
 REASON(steps_exhausted, "all steps used")

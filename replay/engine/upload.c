@@ -194,6 +194,30 @@ static bool upload_ids(struct run *run, size_t i, struct glint_error *err) {
     return ok;
 }
 
+/* The maps of the sun, one below the other; texels beside a map that is narrower than others hold the fallback value. */
+static bool upload_shadows(struct run *run, size_t i, struct glint_error *err) {
+    static const char *const depth = "depth.Z";
+    const struct glint_part_info *maps[SHADOW_MAPS];
+    const struct glint_row *row = run->graph->images[i].row;
+    const struct image_desc *desc = &run->images[i]->image.desc;
+    const size_t count = frame_sun_maps(run->source->capture, maps), texels = (size_t)desc->width * desc->height;
+    float *values = malloc(texels * sizeof *values), *at = values;
+    bool ok = values || glint_fail(err, GLINT_ERROR_MEMORY, "image %s: out of memory", row->name);
+    for (size_t t = 0; ok && t < texels; t++) values[t] = (float)row->fallback;
+    for (size_t k = 0; ok && k < count; at += (size_t)maps[k++]->height * desc->width) {
+        const size_t width = maps[k]->width;
+        ok = glint_capture_read(run->source->capture, maps[k], &depth, 1, GLINT_F32, at, 0, err);
+        for (size_t y = maps[k]->height; ok && width < desc->width && y-- > 0;) { /* from the last row on */
+            memmove(at + y * desc->width, at + y * width, width * sizeof *at);
+            for (size_t x = width; x < desc->width; x++) at[y * desc->width + x] = (float)row->fallback;
+        }
+    }
+    ok = ok && upload_values(run, i, values, err);
+    if (ok) run->images[i]->levels[0].bad = bad_floats(row, values, texels);
+    free(values);
+    return ok;
+}
+
 /* Captures fill several images from one part; the first of these images fills the others, too. */
 static bool upload_captured(struct run *run, size_t i, struct glint_error *err) {
     const struct graph_image *image = &run->graph->images[i];
@@ -201,6 +225,7 @@ static bool upload_captured(struct run *run, size_t i, struct glint_error *err) 
     const char *role = image->row->role;
     if (glint_format_is_uint(image->row->format)) return upload_ids(run, i, err);
     if (size_is_array(image->row->size)) return upload_cubemaps(run, role, err);
+    if (image->row->size == GLINT_SIZE_SHADOW) return upload_shadows(run, i, err);
     if (size_has_levels(image->row->size)) return upload_levels(run, i, err);
     struct channels own = {0}, *channels = &own;
     const struct glint_part_info *part = glint_capture_find(source->capture, role);

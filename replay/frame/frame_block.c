@@ -105,8 +105,26 @@ void frame_block_mirror(struct frame_block *block, const struct glint_frame *fra
                                  (float)(planar->plane[2] / length), (float)(offset / length * metres)};
 }
 
+size_t frame_sun_maps(const struct glint_capture *capture, const struct glint_part_info *maps[SHADOW_MAPS]) {
+    size_t count = 0, rows = 0;
+    const size_t parts = glint_capture_part_count(capture);
+    for (int32_t number = 0; count < SHADOW_MAPS; number = maps[count - 1]->index + 1) {
+        const struct glint_part_info *found = NULL; /* the map of the sun with the lowest number from `number` on */
+        for (size_t i = 0; i < parts; i++) {
+            const struct glint_part_info *part = glint_capture_part(capture, i);
+            if (part->has_shadow && !part->shadow.has_light && part->index >= number &&
+                (!found || part->index < found->index))
+                found = part;
+        }
+        if (!found || (rows += found->height) > SHADOW_ROWS) break;
+        maps[count++] = found;
+    }
+    return count;
+}
+
 /* A point p in metres, relative to this camera, is at eye + p/u in the world. The map's x and y are in [-1, 1]. */
-void frame_block_shadow(struct frame_block *block, const struct glint_frame *frame, const struct glint_shadow *shadow) {
+static void fill_shadow(struct frame_block *block, size_t k, const struct glint_frame *frame,
+                        const struct glint_shadow *shadow) {
     const double metres = frame->metres_per_unit > 0 ? frame->metres_per_unit : 1;
     const double down = frame->clip_y == GLINT_CLIP_Y_DOWN ? 1 : -1, *m = shadow->world_to_shadow;
     double eye[3];
@@ -116,14 +134,29 @@ void frame_block_shadow(struct frame_block *block, const struct glint_frame *fra
         for (int r = 0; r < 4; r++)
             of[r] = c < 3 ? m[4 * r + c] / metres
                           : m[4 * r] * eye[0] + m[4 * r + 1] * eye[1] + m[4 * r + 2] * eye[2] + m[4 * r + 3];
-        float *column = block->shadow_uv_from_world.column[c];
+        float *column = block->shadow_uv_from_world[k].column[c];
         column[0] = (float)(0.5 * (of[3] + of[0]));
         column[1] = (float)(0.5 * (of[3] + down * of[1]));
         column[2] = (float)of[2];
         column[3] = (float)of[3];
     }
     const bool falls = shadow->range[0] > shadow->range[1];
-    block->shadow_depth = (vec4){falls ? -1 : 1, (float)shadow->bias, 0, 0};
+    block->shadow_depth[k] = (vec4){falls ? -1 : 1, (float)shadow->bias, 0, 0};
+}
+
+void frame_block_shadows(struct frame_block *block, const struct glint_capture *capture) {
+    const struct glint_part_info *maps[SHADOW_MAPS];
+    const struct glint_frame *frame = glint_capture_frame(capture);
+    const size_t count = frame_sun_maps(capture, maps);
+    uint32_t row = 0;
+    for (size_t k = 0; k < count; row += maps[k++]->height) {
+        const struct glint_shadow *shadow = &maps[k]->shadow;
+        const struct glint_stencil_class *class = &frame->classes[shadow->stencil_class];
+        const uint32_t mask = class->mask & 255 ? class->mask & 255 : 255;
+        fill_shadow(block, k, frame, shadow);
+        block->shadow_place[k] = (uvec4){shadow->has_stencil_class ? (class->value & mask) + 256 * mask : 0, row,
+                                         maps[k]->width, maps[k]->height};
+    }
 }
 
 static vec4 metres_of(const double units[3], const double from[3], double metres) {
@@ -186,12 +219,10 @@ static void fill_sun(struct frame_block *block, const struct glint_frame *frame)
     block->sun_irradiance = (vec4){sun->irradiance[0], sun->irradiance[1], sun->irradiance[2], 0};
 }
 
-/* The stencil class of first-person foreground such as a weapon: what it hides was never rendered. */
-static uvec4 foreground_of(const struct glint_frame *frame) {
+static uvec4 class_of(const struct glint_frame *frame, const char *name) {
     for (uint32_t i = 0; i < frame->class_count; i++) {
         const struct glint_stencil_class *class = &frame->classes[i];
-        if (strcmp(class->name, "foreground") == 0)
-            return (uvec4){class->value, class->mask ? class->mask : UINT32_MAX, 1, 0};
+        if (strcmp(class->name, name) == 0) return (uvec4){class->value, class->mask ? class->mask : UINT32_MAX, 1, 0};
     }
     return (uvec4){0, 0, 0, 0};
 }
@@ -218,7 +249,9 @@ void frame_block_fill(struct frame_block *block, const struct glint_frame *frame
     block->size = (uvec4){sizes->full[0], sizes->full[1], sizes->half[0], sizes->half[1]};
     block->counts = (uvec4){sizes->active, frame->number, sizes->cube_face, sizes->sky_face};
     block->flags = (uvec4){sizes->history, frame->cut, sizes->chain, 0};
-    block->foreground = foreground_of(frame);
+    block->foreground = class_of(frame, "foreground");
+    block->overlaid = class_of(frame, "decal");
+    block->skin = class_of(frame, "skin");
     block->jitter = (vec4){(float)frame->jitter_px[0], (float)frame->jitter_px[1], 0, 0};
 }
 

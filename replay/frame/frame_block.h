@@ -5,6 +5,7 @@
 #include <stdint.h>
 
 #include "glint/capture.h"
+#include "shared/shadow_maps.h"
 
 /* std140, as passes/shared/interface.glsl declares it: column-major matrices. */
 typedef struct {
@@ -34,8 +35,10 @@ int up_axis(enum glint_axis up, double *sign);
 void frame_block_fill(struct frame_block *block, const struct glint_frame *frame, const struct frame_sizes *sizes);
 /* Sets the fields of the planar reflection map, which stay 0 without one. */
 void frame_block_mirror(struct frame_block *block, const struct glint_frame *frame, const struct glint_planar *planar);
-/* Sets the fields of the sun's shadow map, which stay 0 without one. */
-void frame_block_shadow(struct frame_block *block, const struct glint_frame *frame, const struct glint_shadow *shadow);
+/* The shadow maps of the sun that passes use, in the order of their numbers. */
+size_t frame_sun_maps(const struct glint_capture *capture, const struct glint_part_info *maps[SHADOW_MAPS]);
+/* Sets the fields of these maps. */
+void frame_block_shadows(struct frame_block *block, const struct glint_capture *capture);
 /* Sets what the capture says of its part `indirect`, and its exposure. */
 void frame_block_captured_light(struct frame_block *block, const struct glint_capture *capture);
 /* Sets the fields of what rays find that nothing nearer continues: sky, probe, painted ground. */

@@ -60,7 +60,6 @@ bool plan_find_sizes(struct frame_plan *plan, struct glint_error *err) {
     const struct glint_part_info *gbuffer = glint_capture_find(capture, GLINT_PART_GBUFFER),
                                  *sky = glint_capture_find(capture, GLINT_PART_SKY),
                                  *planar = glint_capture_find(capture, GLINT_PART_MIRROR),
-                                 *shadow = glint_capture_find(capture, GLINT_PART_SHADOW),
                                  *table = glint_capture_find(capture, PART_COLORS),
                                  *dirt = glint_capture_find(capture, PART_DIRT),
                                  *grid = glint_capture_find(capture, PART_GRID);
@@ -73,7 +72,9 @@ bool plan_find_sizes(struct frame_plan *plan, struct glint_error *err) {
     double roughness[GLINT_MAX_LEVELS];
     sizes->probe_mips = (uint32_t)glint_capture_probe(capture, 0, levels, roughness);
     if (sizes->probe_mips) sizes->probe_face = levels[0]->width;
-    if (shadow) sizes->shadow[0] = shadow->width, sizes->shadow[1] = shadow->height;
+    const struct glint_part_info *maps[SHADOW_MAPS];
+    for (size_t k = frame_sun_maps(capture, maps); k-- > 0; sizes->shadow[1] += maps[k]->height)
+        if (maps[k]->width > sizes->shadow[0]) sizes->shadow[0] = maps[k]->width;
     if (table) sizes->table[0] = table->width, sizes->table[1] = table->height;
     if (dirt) sizes->dirt[0] = dirt->width, sizes->dirt[1] = dirt->height;
     if (planar) sizes->planar[0] = planar->width, sizes->planar[1] = planar->height;

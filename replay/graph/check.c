@@ -1,6 +1,7 @@
 /* Finds declarations that contradict themselves or one another. */
 #include "graph.h"
 
+#include <stdio.h>
 #include <string.h>
 
 void graph_check_kind(const struct glint_pass *pass, const struct glint_row *binding, const struct glint_row *image,
@@ -87,6 +88,25 @@ static void check_row(const struct glint_pass *pass, const struct glint_row *row
     }
 }
 
+/* A slot whose pass does not read what another pass leaves to it. */
+static void check_reader(const struct graph *graph, const struct glint_pass *pass, const struct glint_row *row,
+                         struct faults *faults) {
+    const struct glint_pass *found = NULL;
+    char readers[200] = "";
+    size_t count, length = 0;
+    const struct glint_pass *all = glint_passes(&count);
+    for (size_t i = 0; i < graph->pass_count; i++)
+        if (!strcmp(graph->passes[i].pass->slot, row->image)) found = graph->passes[i].pass;
+    if (found && glint_pass_row(found, GLINT_ROW_READ, row->name)) return;
+    for (size_t i = 0; i < count && length < sizeof readers; i++)
+        if (!strcmp(all[i].slot, row->image) && glint_pass_row(&all[i], GLINT_ROW_READ, row->name))
+            length +=
+                (size_t)snprintf(readers + length, sizeof readers - length, "%s%s", length ? ", " : "", all[i].variant);
+    faults_add(faults, GLINT_ERROR_USAGE, "%s/%s makes %s, which slot %s has to read (variants: %s), but it %s%s; %s",
+               pass->slot, pass->variant, row->name, row->image, readers, found ? "holds " : "is empty",
+               found ? found->variant : "", row->help);
+}
+
 static void check_rows(const struct glint_pass *pass, struct faults *faults) {
     bool after_dispatch = false; /* the last row of these kinds was a DISPATCH */
     for (size_t r = 0; r < pass->row_count; r++) {
@@ -101,7 +121,10 @@ void graph_check(const struct graph *graph, struct faults *faults) {
         const struct glint_pass *pass = graph->passes[i].pass;
         size_t images = 0;
         check_rows(pass, faults);
-        for (size_t r = 0; r < pass->row_count; r++) images += row_is_image(&pass->rows[r]);
+        for (size_t r = 0; r < pass->row_count; r++) {
+            images += row_is_image(&pass->rows[r]);
+            if (pass->rows[r].kind == GLINT_ROW_NEEDS_READER) check_reader(graph, pass, &pass->rows[r], faults);
+        }
         if (images > PASS_IMAGES_MAX)
             faults_add(faults, GLINT_ERROR_LIMIT, "%s/%s: %zu images, expected at most %d", pass->slot, pass->variant,
                        images, PASS_IMAGES_MAX);
@@ -114,7 +137,7 @@ void graph_check(const struct graph *graph, struct faults *faults) {
                 continue;
             }
             const char *image = pass->rows[r].name;
-            if (capture_row(image))
+            if (capture_row(image) && !glint_pass_row(pass, GLINT_ROW_ALIAS, image))
                 faults_add(faults, GLINT_ERROR_USAGE, "image %s has two producers: %s/%s and the capture", image,
                            pass->slot, pass->variant);
             for (size_t j = i + 1; j < graph->pass_count; j++)

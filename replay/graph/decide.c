@@ -61,17 +61,20 @@ static bool is_read(const struct graph *graph, const struct graph_pass *maker, c
     return read;
 }
 
-/* A dropped pass with a row ALIAS leaves an image of the capture unchanged, so that its own image is an alias of that one. A user's
-   shader may change it, so that such a pass runs all the same. */
-static void use_alias(struct graph_pass *pass) {
-    const struct glint_row *row = glint_pass_row(pass->pass, GLINT_ROW_ALIAS, NULL);
+/* A dropped pass with rows ALIAS leaves images of the capture unchanged, so that its own images are aliases of those. A user's shader may
+   change them, so that such a pass runs all the same. */
+static void use_aliases(struct graph_pass *pass) {
     char text[128];
-    if (!row) return;
+    if (!glint_pass_row(pass->pass, GLINT_ROW_ALIAS, NULL)) return;
     pass->runs = pass->entry->shader != NULL;
-    pass->alias = pass->runs ? NULL : row;
-    if (pass->runs) snprintf(text, sizeof text, "but the shader was replaced by the user");
-    else snprintf(text, sizeof text, "%s is %s", row->image, row->name);
-    text_list(pass->reason, sizeof pass->reason, text);
+    pass->aliased = !pass->runs;
+    if (pass->runs) text_list(pass->reason, sizeof pass->reason, "but the shader was replaced by the user");
+    for (size_t r = 0; pass->aliased && r < pass->pass->row_count; r++) {
+        const struct glint_row *row = &pass->pass->rows[r];
+        if (row->kind != GLINT_ROW_ALIAS || capture_row(row->image)) continue;
+        snprintf(text, sizeof text, "%s is %s", row->image, row->name);
+        text_list(pass->reason, sizeof pass->reason, text);
+    }
 }
 
 /* Of the pass's rows CALLED_BY that count, one has to hold. Those that do, or all if none does, state their figures in the reason. */
@@ -181,7 +184,7 @@ static bool decide_by_facts(const struct graph *graph, struct graph_pass *pass, 
     }
     if (!decide_by_callers(graph, pass, facts, faults, err)) return false;
     run_for_reader(graph, pass, facts);
-    if (!pass->runs) use_alias(pass);
+    if (!pass->runs) use_aliases(pass);
     if (!pass->reason[0]) snprintf(pass->reason, sizeof pass->reason, "always runs");
     return true;
 }
@@ -275,7 +278,7 @@ static void cull_passes(struct graph *graph, const struct glint_replay_options *
     }
     glint_passes_mark_needed(needed, graph->pass_count, calls_for, graph->passes);
     for (size_t i = graph->pass_count; i-- > 0;) {
-        if (!needed[i]) graph->passes[i].alias = NULL;
+        if (!needed[i]) graph->passes[i].aliased = false;
         if (graph->passes[i].runs && !needed[i]) {
             graph->passes[i].runs = false;
             snprintf(graph->passes[i].reason, sizeof graph->passes[i].reason, "no requested image depends on it");

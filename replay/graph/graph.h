@@ -41,9 +41,8 @@ struct graph_pass {
     const struct glint_pass *pass;
     enum rank rank;
     bool runs;
-    const char *unused; /* why no pass uses its images, or NULL */
-    const struct glint_row
-        *alias;           /* its row ALIAS, if the pass was dropped and its image is one of the capture's; or NULL */
+    const char *unused;   /* why no pass uses its images, or NULL */
+    bool aliased;         /* it was dropped, and images of the capture stand for those of its rows ALIAS */
     uint32_t false_facts; /* a bit for each row FACT in order, set if the fact does not hold */
     bool cached_work;     /* depends on cube maps and on nothing that changes with every frame */
     char reason[400];

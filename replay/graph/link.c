@@ -22,11 +22,12 @@ bool graph_capture_has(const struct glint_capture *capture, const struct glint_r
     size_t found = 0;
     char part[64];
     if (!capture) return false;
-    if (!size_is_array(row->size)) return part_has(glint_capture_find(capture, row->role), row);
+    if (!size_is_array(row->size) && row->size != GLINT_SIZE_SHADOW)
+        return part_has(glint_capture_find(capture, row->role), row);
     snprintf(part, sizeof part, "%s.", row->role);
     for (size_t i = 0; i < glint_capture_part_count(capture); i++) {
         const struct glint_part_info *info = glint_capture_part(capture, i);
-        if (strncmp(info->name, part, strlen(part)) != 0) continue;
+        if (strncmp(info->name, part, strlen(part)) != 0 || (info->has_shadow && info->shadow.has_light)) continue;
         found += part_has(info, row);
     }
     return found > 0;
@@ -194,16 +195,22 @@ static void link_passed_on(struct graph *graph, const struct glint_pass *dropped
     }
 }
 
-/* The output of a dropped pass that would not have changed the capture's image is that image. */
-static void link_alias(struct graph *graph, size_t dropped, const struct graph_inputs *inputs, struct faults *faults) {
+/* The outputs of a dropped pass that would not have changed the capture's images are those images. One in place of the capture's own is shown
+   only where it is asked for. */
+static void link_aliases(struct graph *graph, size_t dropped, const struct graph_inputs *inputs,
+                         struct faults *faults) {
     const struct graph_pass *pass = &graph->passes[dropped];
-    if (!pass->alias) return;
-    link_read(graph, dropped, pass->alias->name, NULL, inputs, faults);
-    struct graph_image *image = graph_find(graph, pass->alias->name);
-    if (!image) return;
-    image->alias = glint_pass_output(pass->pass, pass->alias->image);
-    image->alias_pass = pass->pass;
-    image->requested = !inputs->options->outputs || list_has(inputs->options->outputs, pass->alias->image);
+    const char *const *outputs = inputs->options->outputs;
+    for (size_t r = 0; pass->aliased && r < pass->pass->row_count; r++) {
+        const struct glint_row *row = &pass->pass->rows[r];
+        if (row->kind != GLINT_ROW_ALIAS) continue;
+        link_read(graph, dropped, row->name, NULL, inputs, faults);
+        struct graph_image *image = graph_find(graph, row->name);
+        if (!image) return;
+        image->alias = glint_pass_output(pass->pass, row->image);
+        image->alias_pass = pass->pass;
+        image->requested = outputs ? list_has(outputs, row->image) : !capture_row(row->image);
+    }
 }
 
 /* Whether a row FACT names the image, and the fact does not hold. */
@@ -221,7 +228,7 @@ static void link_images(struct graph *graph, const struct graph_inputs *inputs, 
     const struct glint_replay_options *options = inputs->options;
     for (size_t i = 0; i < graph->pass_count; i++) {
         const struct graph_pass *pass = &graph->passes[i];
-        link_alias(graph, i, inputs, faults);
+        link_aliases(graph, i, inputs, faults);
         for (size_t r = 0; pass->runs && r < pass->pass->row_count; r++) {
             const struct glint_row *row = &pass->pass->rows[r];
             const char *names[2];

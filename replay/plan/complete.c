@@ -25,8 +25,7 @@ static bool find_openness(struct frame_plan *plan, struct planner *planner, stru
 
 static void fill_frame_block(struct frame_plan *plan) {
     const struct glint_frame *frame = glint_capture_frame(plan->source->capture);
-    const struct glint_part_info *mirror = glint_capture_find(plan->source->capture, GLINT_PART_MIRROR),
-                                 *shadow = glint_capture_find(plan->source->capture, GLINT_PART_SHADOW);
+    const struct glint_part_info *mirror = glint_capture_find(plan->source->capture, GLINT_PART_MIRROR);
     float classes[2];
     frame_block_fill(&plan->block, frame, &plan->sizes);
     plan->block.flags.w = plan->pipeline->first_ray;
@@ -41,7 +40,7 @@ static void fill_frame_block(struct frame_plan *plan) {
         if (glint_part_has_channel(plan->source->cubemaps[plan->active[i]], "distance.Z"))
             plan->block.distances.x |= 1U << i;
     if (mirror) frame_block_mirror(&plan->block, frame, &mirror->planar);
-    if (shadow && !shadow->shadow.has_light) frame_block_shadow(&plan->block, frame, &shadow->shadow);
+    frame_block_shadows(&plan->block, plan->source->capture);
 }
 
 bool plan_complete(struct frame_plan *plan, struct planner *planner, const struct graph_inputs *inputs,

@@ -43,6 +43,7 @@ bool plan_frame(struct frame_plan *plan, struct planner *planner, const struct g
     plan_begin(plan, planner, pipeline, options);
     struct glint_capture *capture = planner->source->capture;
     if (!capture) return glint_fail(err, GLINT_ERROR_USAGE, "no capture is loaded");
+    planner_renew(planner, pipeline, options);
     if (options->inputs && !(plan->inputs = glint_run_open(options->inputs, err))) return false;
     if (options->history && !glint_capture_frame(capture)->cut) planner->survey.figures.has_history = true;
     struct fact_source source = {planner, pipeline, options};

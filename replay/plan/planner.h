@@ -22,6 +22,9 @@ bool plan_frame(struct frame_plan *plan, struct planner *planner, const struct g
 enum { MISSING_MAX = 64 };
 size_t plan_missing(const struct frame_plan *plan, const struct glint_absence *missing[MISSING_MAX]);
 
+/* survey_device.c: forgets figures that another pipeline's passes have changed, or that those of this one will change. */
+void planner_renew(struct planner *planner, const struct glint_pipeline *pipeline,
+                   const struct glint_replay_options *options);
 /* survey_device.c: counts the figures of the loaded frame unless they are known, with `whole` also those that no plan depends on. */
 bool planner_survey(struct planner *planner, const struct glint_pipeline *pipeline,
                     const struct glint_replay_options *options, bool whole, struct glint_error *err);

@@ -11,14 +11,20 @@ static const struct glint_row *find_along_rays(const struct glint_pass *pass, co
     return NULL;
 }
 
+/* Whether the image is as it is in the capture: no pass that runs makes it in place of that. */
+static bool is_captured(const struct graph *graph, const char *image) {
+    const size_t maker = graph_maker(graph, image);
+    return capture_row(image) && (maker == graph->pass_count || !graph->passes[maker].runs);
+}
+
 /* Whether the pass samples the image only along rays that follow from the capture's own normals. A user's shader may sample anywhere. */
 static bool samples_along_rays(const struct graph *graph, const struct graph_pass *reader, const char *image) {
     const struct glint_row *row = reader->entry->shader ? NULL : find_along_rays(reader->pass, image);
-    if (!row || capture_row(row->image)) return row != NULL;
+    if (!row || is_captured(graph, row->image)) return row != NULL;
     const size_t maker = graph_maker(graph, row->image);
     if (maker == graph->pass_count || !graph->passes[maker].runs || graph->passes[maker].entry->shader) return false;
     row = find_along_rays(graph->passes[maker].pass, row->image);
-    return row && capture_row(row->image);
+    return row && is_captured(graph, row->image);
 }
 
 bool graph_is_along_rays(const struct graph *graph, const char *image) {

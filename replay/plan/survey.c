@@ -51,7 +51,7 @@ void survey_channels(const struct channels *channels, struct glint_survey *surve
         if (!(pixel[at[2]] == 0 && pixel[at[3]] == 0)) count_pixel(&survey->reflecting, roughness);
     }
     survey->sunlit = survey->surfaces.count;
-    survey->luminous = survey->pixels; /* the host does not read the picture */
+    survey->luminous = survey->stippled = survey->pixels; /* the host does not read the picture and its mask */
     survey->light[1] = INFINITY;
 }
 
@@ -60,10 +60,13 @@ void survey_capture_parts(const struct glint_capture *capture, struct glint_surv
         const struct glint_part_info *part = glint_capture_part(capture, i);
         survey->cubemaps += part->has_cubemap;
         survey->volumes += part->has_cubemap && part->cubemap.inner != GLINT_VOLUME_NONE;
+        survey->has_shadows |= part->has_shadow && !part->shadow.has_light;
         survey->distances += part->has_cubemap && glint_part_has_channel(part, "distance.Z");
     }
-#define SURVEY_PART(member, name) survey->member = glint_capture_find(capture, name) != NULL;
+#define SURVEY_PART(member, name) survey->member |= glint_capture_find(capture, name) != NULL;
 #include "survey_parts.h"
+    const struct glint_frame *frame = glint_capture_frame(capture);
+    for (uint32_t i = 0; i < frame->class_count; i++) survey->has_skin |= !strcmp(frame->classes[i].name, "skin");
     const struct glint_part_info *gbuffer = glint_capture_find(capture, GLINT_PART_GBUFFER);
     survey->has_fresnel = gbuffer && glint_part_has_channel(gbuffer, "material.fresnel");
     survey->has_previous = glint_capture_frame(capture)->has_previous;

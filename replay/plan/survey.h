@@ -17,6 +17,7 @@ struct cube_survey {
 struct survey_state {
     struct glint_survey figures;
     bool done;              /* the pixels of the loaded frame were counted */
+    bool changed;           /* as a pass of the pipeline makes them in place of the capture's */
     struct glint_time time; /* n = 0: on the host */
     uint64_t traced_key;    /* hash of what figures.active_traced depends on */
     struct glint_time trace_time;

@@ -40,6 +40,7 @@ static void read_figures(struct glint_survey *survey, const uint32_t *f, bool wh
     survey->open = f[at_open];
     survey->sunlit = f[at_sunlit];
     survey->luminous = f[at_luminous];
+    survey->stippled = f[at_stippled];
     survey->water = f[at_water];
     survey->transparent = f[at_transparent];
     survey->moved = f[at_moved];
@@ -167,6 +168,37 @@ static bool read_gbuffer(struct planner *planner, const struct glint_pipeline *p
     return channels_read(gbuffer, capture, err);
 }
 
+/* Whether the pass makes an image in place of the capture's own, for which the capture has a part beside the G-buffer. */
+static bool changes_capture(const struct glint_pass *pass, const struct glint_capture *capture) {
+    bool makes = false, has = false;
+    for (size_t r = 0; r < pass->row_count; r++) {
+        const struct glint_row *row = &pass->rows[r], *image = capture_row(row->name);
+        if (glint_row_is_output(row)) makes |= image != NULL;
+        else if (row->kind == GLINT_ROW_READ && image && strcmp(image->role, GLINT_PART_GBUFFER) != 0)
+            has |= graph_capture_has(capture, image);
+    }
+    return makes && has;
+}
+
+/* The pass of the pipeline that does so and will run, or NULL: the survey counts what it makes. */
+static const struct pipeline_pass *changing_pass(const struct planner *planner, const struct glint_pipeline *pipeline,
+                                                 const struct glint_replay_options *options) {
+    for (size_t p = 0; planner->engine && p < pipeline->count; p++) {
+        const char *slot = pipeline->passes[p].pass->slot;
+        const bool runs = !list_has(options->skip, slot) && (!options->passes || list_has(options->passes, slot));
+        if (runs && changes_capture(pipeline->passes[p].pass, planner->source->capture)) return &pipeline->passes[p];
+    }
+    return NULL;
+}
+
+void planner_renew(struct planner *planner, const struct glint_pipeline *pipeline,
+                   const struct glint_replay_options *options) {
+    const bool changed = changing_pass(planner, pipeline, options), history = planner->survey.figures.has_history;
+    if (changed || planner->survey.changed) planner_load(planner);
+    planner->survey.figures.has_history = history;
+    planner->survey.changed = changed;
+}
+
 bool planner_survey(struct planner *planner, const struct glint_pipeline *pipeline,
                     const struct glint_replay_options *options, bool whole, struct glint_error *err) {
     struct survey_state *survey = &planner->survey;
@@ -181,7 +213,8 @@ bool planner_survey(struct planner *planner, const struct glint_pipeline *pipeli
     if (!counting_pass(planner)) survey_channels(&planner->source->gbuffer, &survey->figures);
     else {
         const enum glint_pass_role figures = GLINT_ROLE_SURVEY_FIGURES;
-        uint32_t *found = survey_run(planner, NULL, NULL, &figures, 1, whole, options, &survey->time, err);
+        const struct pipeline_pass *before = changing_pass(planner, pipeline, options);
+        uint32_t *found = survey_run(planner, before, NULL, &figures, 1, whole, options, &survey->time, err);
         if (!found) return false;
         read_figures(&survey->figures, found, whole);
         free(found);

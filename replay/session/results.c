@@ -21,7 +21,7 @@ static void store_pass(const struct run *run, size_t p, struct results *results)
     struct glint_pass_result *result = &results->passes[p];
     *result = (struct glint_pass_result){.pass = pass->pass,
                                          .ran = pass->runs,
-                                         .shown = pass->runs || pass->alias,
+                                         .shown = pass->runs || pass->aliased,
                                          .cached_work = pass->cached_work,
                                          .texels = run->plan->whole[p].texels};
     memcpy(result->reason, pass->reason, sizeof result->reason);

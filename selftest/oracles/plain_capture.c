@@ -38,24 +38,41 @@ static void fill_planes(const struct plain *plain, float *values) {
     }
 }
 
+/* What not every G-buffer has. */
+enum { MORE = 4 };
+static bool add_more(const struct plain *plain, struct glint_channel *channels, size_t *count, float *planes) {
+    static const char *const names[MORE] = {"material.fresnel", "vertexNormal.X", "vertexNormal.Y", "vertexNormal.Z"};
+    const size_t pixels = (size_t)plain->width * plain->height;
+    if (!planes) return false;
+    for (size_t i = 0; i < pixels; ++i) {
+        float normal[3] = {0};
+        if (plain->fresnel) planes[i] = *plain->fresnel;
+        if (plain->vertex_normal)
+            plain->vertex_normal(plain, (uint32_t)(i % plain->width), (uint32_t)(i / plain->width), normal);
+        for (size_t k = 0; k < 3; ++k) planes[(1 + k) * pixels + i] = normal[k];
+    }
+    for (size_t k = 0; k < MORE; ++k)
+        if (k ? plain->vertex_normal != NULL : plain->fresnel != NULL)
+            channels[(*count)++] =
+                (struct glint_channel){.name = names[k], .type = GLINT_F32, .data = planes + k * pixels};
+    return true;
+}
+
 /* ids: NULL, or stencil ids too */
 static bool add_part(struct glint_writer *writer, const char *name, const struct plain *plain, const char *const *names,
                      const float *values, size_t count, const uint32_t *ids, struct glint_error *err) {
-    struct glint_channel channels[PLAIN_CHANNELS + 2] = {{0}};
+    struct glint_channel channels[PLAIN_CHANNELS + MORE + 1] = {{0}};
     const size_t pixels = (size_t)plain->width * plain->height;
-    float *fresnel = plain->fresnel && strcmp(name, "gbuffer") == 0 ? malloc(pixels * sizeof *fresnel) : NULL;
-    for (size_t i = 0; fresnel && i < pixels; ++i) fresnel[i] = *plain->fresnel;
-    if (fresnel)
-        channels[count] = (struct glint_channel){.name = "material.fresnel", .type = GLINT_F32, .data = fresnel};
+    const bool gbuffer = strcmp(name, "gbuffer") == 0;
     for (size_t k = 0; k < count; ++k)
-        channels[k] = (struct glint_channel){
-            .name = names[k], .type = GLINT_F32, .data = &values[k * plain->width * plain->height]};
-    count += fresnel != NULL;
+        channels[k] = (struct glint_channel){.name = names[k], .type = GLINT_F32, .data = &values[k * pixels]};
+    float *planes = gbuffer ? malloc(MORE * pixels * sizeof *planes) : NULL;
+    if (gbuffer && !add_more(plain, channels, &count, planes)) return no_memory(err);
     if (ids) channels[count++] = (struct glint_channel){.name = "stencil.id", .type = GLINT_U32, .data = ids};
     const struct glint_part part = {
         .name = name, .width = plain->width, .height = plain->height, .channels = channels, .channel_count = count};
     const bool ok = glint_writer_add_part(writer, &part, err);
-    free(fresnel);
+    free(planes);
     return ok;
 }
 
@@ -189,7 +206,10 @@ static struct glint_frame frame_of(const struct plain *plain) {
         frame.camera.view_to_clip[i ? 6 : 2] = clip * plain->jitter_px[i];
         frame.previous.view_to_clip[i ? 6 : 2] = clip * plain->previous_jitter_px[i];
     }
-    if (plain->foreground) frame.classes[frame.class_count++] = (struct glint_stencil_class){4, 4, "foreground"};
+    if (plain->foreground) frame.classes[frame.class_count++] = (struct glint_stencil_class){4, 4, ""};
+    if (plain->foreground)
+        snprintf(frame.classes[0].name, sizeof frame.classes[0].name, "%s",
+                 plain->class_name ? plain->class_name : "foreground");
     return frame;
 }
 
@@ -226,6 +246,8 @@ static bool add_pictures(struct glint_writer *writer, const struct plain *plain,
     return ok;
 }
 
+enum { MAP = 256 }; /* width of the first shadow map */
+
 /* One plane of values. */
 static bool add_plane(struct glint_writer *writer, struct glint_part part, const char *channel, const float *values,
                       struct glint_error *err) {
@@ -235,8 +257,23 @@ static bool add_plane(struct glint_writer *writer, struct glint_part part, const
     return glint_writer_add_part(writer, &part, err);
 }
 
+static bool add_cascades(struct glint_writer *writer, const struct plain *plain, float *values,
+                         struct glint_error *err) {
+    bool ok = true;
+    for (uint32_t k = 1; ok && k <= plain->cascade_count; ++k) {
+        const uint32_t wide = MAP >> k;
+        char name[32];
+        snprintf(name, sizeof name, "shadow.%03u", k);
+        for (uint32_t i = 0; i < wide * wide; ++i)
+            values[i] = plain->cascade(plain, k, (i % wide + 0.5) / wide, (i / wide + 0.5) / wide);
+        ok = add_plane(
+            writer, (struct glint_part){.name = name, .width = wide, .height = wide, .shadow = &plain->cascades[k - 1]},
+            "depth.Z", values, err);
+    }
+    return ok;
+}
+
 static bool add_shadows(struct glint_writer *writer, const struct plain *plain, struct glint_error *err) {
-    enum { MAP = 256 };
     const uint32_t pixels = plain->width * plain->height;
     float *values = malloc((pixels > MAP * MAP ? pixels : MAP * MAP) * sizeof *values);
     bool ok = values || no_memory(err);
@@ -251,6 +288,7 @@ static bool add_shadows(struct glint_writer *writer, const struct plain *plain, 
         ok = add_plane(writer,
                        (struct glint_part){.name = "shadow.000", .width = MAP, .height = MAP, .shadow = &plain->shadow},
                        "depth.Z", values, err);
+    ok = ok && add_cascades(writer, plain, values, err);
     free(values);
     return ok;
 }
@@ -270,7 +308,8 @@ bool plain_write(const char *path, const struct plain *plain, struct glint_error
          (!plain->pane || add_over(writer, plain, "transparent", plain->pane, err));
     for (uint32_t i = 0; ok && plain->cube && i < plain->cube_count; ++i) ok = add_cube(writer, plain, i, err);
     for (uint32_t i = 0; ok && plain->distance && i < plain->cube_count; ++i) ok = add_distances(writer, plain, i, err);
-    ok = ok && (!plain->part || glint_writer_add_part(writer, plain->part, err));
+    for (uint32_t i = 0; ok && plain->part && i < (plain->part_count ? plain->part_count : 1); ++i)
+        ok = glint_writer_add_part(writer, &plain->part[i], err);
     ok = ok && (!plain->sky || add_cube(writer, plain, plain->cube_count, err)) && glint_writer_finish(writer, err);
     glint_writer_destroy(&writer);
     return ok;

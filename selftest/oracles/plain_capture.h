@@ -38,9 +38,11 @@ struct plain {
     void (*spoil)(const struct plain *plain, float *values);
     const float *scene;   /* R G B of the finished picture everywhere; NULL: none */
     const float *fresnel; /* material.fresnel everywhere; NULL: none */
-    bool foreground;      /* the right half has stencil id 5, which is of the class `foreground`; the left one 1 */
-    uint32_t frame;       /* number; 0: 1 */
-    bool first;           /* the number is 0 */
+    void (*vertex_normal)(const struct plain *plain, uint32_t x, uint32_t y, float out[3]); /* NULL: none */
+    bool foreground;        /* the right half has stencil id 5, which is of the class `foreground`; the left one 1 */
+    const char *class_name; /* the class of that id; NULL: foreground */
+    uint32_t frame;         /* number; 0: 1 */
+    bool first;             /* the number is 0 */
     bool cut;
     double exposure;                             /* of the frame; 0: 1 */
     double jitter_px[2], previous_jitter_px[2];  /* of the projection; the wall's motion says both */
@@ -52,6 +54,10 @@ struct plain {
     /* The sun's shadow map, 256 wide; NULL: none. */
     float (*shadow_map)(const struct plain *plain, double u, double v);
     struct glint_shadow shadow;
+    /* More maps, from shadow.001 on, each half as wide as the one before; 0: none. */
+    float (*cascade)(const struct plain *plain, uint32_t number, double u, double v);
+    const struct glint_shadow *cascades;
+    uint32_t cascade_count;
     enum glint_axis up;
     enum glint_compression compression;
     const void *user; /* for `spoil` */
@@ -66,7 +72,8 @@ struct plain {
        the pane's roughness; a depth of +inf: nothing there. */
     void (*water)(uint32_t x, uint32_t y, float out[9]);
     void (*pane)(uint32_t x, uint32_t y, float out[9]);
-    const struct glint_part *part; /* one part more; NULL: none */
+    const struct glint_part *part; /* one part more, or part_count of them; NULL: none */
+    uint32_t part_count;
 };
 bool plain_write(const char *path, const struct plain *plain, struct glint_error *err);
 

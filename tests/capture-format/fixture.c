@@ -126,6 +126,8 @@ void fixture_init(struct fixture *f) {
     }
     f->shadow[1].range[0] = 1; /* reversed */
     f->shadow[1].bias = 0.002;
+    f->shadow[1].has_stencil_class = true;
+    f->shadow[1].stencil_class = 1;
     f->shadow[1].has_light = true;
     f->shadow[1].light = 1;
     for (int i = 0; i < 3; i++) f->volume.world_to_grid[5 * i] = 0.005, f->volume.world_to_grid[4 * i + 3] = 1 + i;

@@ -55,6 +55,7 @@ static void what_parts_carry_comes_back(UNUSED void **state) {
         assert_memory_equal(a->world_to_shadow, b->world_to_shadow, sizeof a->world_to_shadow);
         assert_true(a->range[0] == i && a->range[1] == !i && a->bias == b->bias);
         assert_true(a->has_light == (i == 1) && (!i || a->light == 1));
+        assert_true(a->has_stencil_class == (i == 1) && (!i || a->stencil_class == 1));
     }
     const struct glint_part_info *volume = glint_capture_find(capture, "volume.000");
     assert_true(volume->has_volume && volume->volume.slices == FIX_CELLS_Z && volume->width == FIX_CELLS_X);
@@ -138,6 +139,9 @@ static void high_range(struct rewrite *r) {
 static void no_such_light(struct rewrite *r) {
     broken_numbers(r, "shadow.001", "glint.shadowLight", 0, 2);
 }
+static void no_such_class(struct rewrite *r) {
+    broken_numbers(r, "shadow.001", "glint.shadowClass", 0, 9);
+}
 static void no_sun(struct rewrite *r) {
     static const char *const names[] = {"glint.sunDirection", "glint.sunAngularRadius", "glint.sunIrradiance"};
     for (int i = 0; i < 3; i++) rewrite_remove_attribute(r, "gbuffer", names[i]);
@@ -210,6 +214,7 @@ static const struct broken_case cases[] = {
     {"shadow", {"glint.shadowRange", "found 1 and 1"}, empty_range, false},
     {"shadow", {"glint.shadowRange", "found 0 and 2"}, high_range, false},
     {"shadow", {"shadow.001: glint.shadowLight", "the frame's 2 lights, found 2"}, no_such_light, false},
+    {"shadow", {"shadow.001: glint.shadowClass", "classes of glint.stencilClasses, found 9"}, no_such_class, false},
     {"shadow", {"shadow.000", "glint.sunDirection on gbuffer"}, no_sun, false},
     {"attributes", {"shadow.000: glint.depth", "parts with such channels only"}, shadow_encoding, false},
     {"volume", {"glint.volumeSlices", "found 8 and 3 slices"}, uneven_slices, false},

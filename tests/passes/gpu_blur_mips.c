@@ -1,4 +1,5 @@
-/* blur/mips compared with its definition in double precision: box-filtered levels, between which a pixel's cone selects. */
+/* blur/mips compared with its definition in double precision: box-filtered levels, between which a pixel's cone selects; and what blur/upscale_blur
+   takes from coarser levels where they are narrow or of other surfaces. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -123,7 +124,122 @@ static void a_cone_chooses_between_boxes(void **state) {
     }
 }
 
+static void sharing(struct gpu *gpu, const struct plain *plain, const char *const *settings) {
+    char path[256];
+    plain_capture(gpu_path(gpu, "sharing", path), plain);
+    gpu_load(gpu, "sharing");
+    gpu_reset(gpu);
+    gpu->float_precision = true;
+    gpu_use(gpu, "downsample=mips");
+    gpu_use(gpu, "blur=upscale_blur");
+    for (; *settings; ++settings) gpu_set(gpu, *settings);
+    gpu_shader(gpu, "resolve", "stand_in.comp");
+    gpu_set(gpu, "resolve.texel_scale=1");
+    gpu_run(gpu);
+}
+
+/* Texels of another roughness, one in each 8 x 8. */
+static void specks(const struct plain *plain, float *values) {
+    const uint32_t pixels = plain->width * plain->height;
+    for (uint32_t i = 0; i < pixels; ++i)
+        values[PLAIN_ROUGHNESS * pixels + i] = i % SIZE / 2 % 8 == 3 && i / SIZE / 2 % 8 == 4 ? 0.9f : 0.5f;
+}
+
+/* A texel of whose surface the coarser level has none is interpolated from those around it, if their lobes agree: bilinearly where they all do. */
+static void lone_texels_are_interpolated(void **state) {
+    static const char *const settings[] = {"blur.width=8", "blur.roughness_part=1", NULL};
+    struct gpu *gpu = *state;
+    enum { COARSE = HALF / 2 };
+    sharing(gpu,
+            &(struct plain){.width = SIZE,
+                            .height = SIZE,
+                            .fov_y_degrees = 60,
+                            .spoil = specks,
+                            .cube_size = 8,
+                            .cube_count = 1,
+                            .cube = far_away},
+            settings);
+    float *coarse = gpu_floats(gpu, "reflection_levels.level1", NULL, NULL),
+          *surface = gpu_floats(gpu, "normal_levels.level1", NULL, NULL),
+          *fine = gpu_floats(gpu, "reflection_blurred", NULL, NULL);
+    int count = 0;
+    for (int y = 4; y < HALF; y += 8)
+        for (int x = 3; x < HALF; x += 8) {
+            double expected = 0;
+            for (int i = 0; i < 4;
+                 ++i) { /* an even row is nearer to the parents above it, an odd column to those at its right */
+                const int at_x = x / 2 + (i & 1), at_y = y / 2 - (i >> 1), at = at_y * COARSE + at_x;
+                assert_true(surface[4 * at + 3] < 0.6f);
+                expected += (i & 1 ? 0.25 : 0.75) * (i >> 1 ? 0.25 : 0.75) * (double)coarse[4 * at];
+            }
+            assert_true(fabs((double)fine[4 * (y * HALF + x)] - expected) < 1e-5);
+            count++;
+        }
+    assert_int_equal(count, 64);
+    free(coarse), free(surface), free(fine);
+}
+
+/* Four pixels wide: both coarser levels are one texel wide. Without blur a texel is the mean of the four, or two, of the finer level. */
+static void narrow_levels_are_means(void **state) {
+    static const char *const settings[] = {"blur.width=0", "blur.radius=0", NULL};
+    static const char *const names[] = {"reflection_levels", "reflection_levels.level1", "reflection_levels.level2"};
+    struct gpu *gpu = *state;
+    sharing(gpu, &(struct plain){.width = 4, .height = 64, .fov_y_degrees = 60, .roughness = 0.5f}, settings);
+    uint32_t width, height, finer_width;
+    float *finer = gpu_floats(gpu, names[0], &finer_width, NULL);
+    for (int level = 1; level < 3; ++level) {
+        float *found = gpu_floats(gpu, names[level], &width, &height);
+        assert_true(width == 1 && height == (uint32_t)(32 >> level));
+        for (uint32_t y = 0; y < height; ++y) {
+            double sum = 0;
+            for (uint32_t i = 0; i < 2 * finer_width; ++i) sum += (double)finer[4 * (2 * y * finer_width + i)];
+            assert_true(fabs((double)found[4 * y] - sum / (2 * finer_width)) < 1e-6);
+        }
+        free(finer);
+        finer = found, finer_width = width;
+    }
+    free(finer);
+}
+
+/* A Gaussian of σ 1.5 texels within the picture, up to 3 texels to either side, along rows and then along columns. */
+static double gaussian(const double *values, int count, int at, int step) {
+    double sum = 0, total = 0;
+    for (int i = 0; i < count; ++i) {
+        const double weight = abs(i - at) > 3 ? 0 : exp(-2.0 / 9 * (i - at) * (i - at));
+        sum += weight * values[i * step], total += weight;
+    }
+    return sum / total;
+}
+static void the_coarsest_level_is_blurred_within_the_picture(void **state) {
+    enum { WIDE = 10, HIGH = 7 };
+    static const char *const settings[] = {"blur.width=0", "blur.radius=3", NULL};
+    struct gpu *gpu = *state;
+    double level[HIGH][WIDE], rows[HIGH][WIDE];
+    sharing(gpu, &(struct plain){.width = 8 * WIDE, .height = 8 * HIGH, .fov_y_degrees = 60, .roughness = 0.5f},
+            settings);
+    float *finer = gpu_floats(gpu, "reflection_levels.level1", NULL, NULL),
+          *across = gpu_floats(gpu, "reflection_across", NULL, NULL),
+          *both = gpu_floats(gpu, "reflection_levels.level2", NULL, NULL);
+    for (int y = 0; y < HIGH; ++y)
+        for (int x = 0; x < WIDE; ++x) {
+            level[y][x] = 0;
+            for (int i = 0; i < 4; ++i)
+                level[y][x] += 0.25 * (double)finer[4 * ((2 * y + i / 2) * 2 * WIDE + 2 * x + i % 2)];
+        }
+    for (int y = 0; y < HIGH; ++y)
+        for (int x = 0; x < WIDE; ++x) {
+            rows[y][x] = gaussian(level[y], WIDE, x, 1);
+            assert_true(fabs((double)across[4 * (y * WIDE + x)] - rows[y][x]) < 1e-5);
+        }
+    for (int y = 0; y < HIGH; ++y)
+        for (int x = 0; x < WIDE; ++x)
+            assert_true(fabs((double)both[4 * (y * WIDE + x)] - gaussian(&rows[0][x], HIGH, y, WIDE)) < 1e-5);
+    free(finer), free(across), free(both);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_cone_chooses_between_boxes)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_cone_chooses_between_boxes), cmocka_unit_test(lone_texels_are_interpolated),
+        cmocka_unit_test(narrow_levels_are_means), cmocka_unit_test(the_coarsest_level_is_blurred_within_the_picture)};
     return cmocka_run_group_tests_name("gpu_blur_mips", tests, gpu_set_up, gpu_tear_down);
 }

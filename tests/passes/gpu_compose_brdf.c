@@ -227,10 +227,40 @@ static void rough_surfaces_may_reflect_nothing(void **state) {
     free(composed[0]), free(composed[1]), free(lit);
 }
 
+/* A roughness above 1 is 1. */
+static void no_surface_is_rougher_than_one(void **state) {
+    static const char *const variants[] = {"compose=brdf", "compose=contribution"};
+    struct gpu *gpu = *state;
+    for (int v = 0; v < 2; ++v) {
+        float *composed[2];
+        for (int i = 0; i < 2; ++i) {
+            char path[256];
+            plain_capture(
+                gpu_path(gpu, "rougher", path),
+                &(struct plain){
+                    .width = WIDE, .height = HIGH, .fov_y_degrees = 60, .roughness = i ? 1.5F : 1, .floor = true});
+            gpu_load(gpu, "rougher");
+            gpu_reset(gpu);
+            gpu->float_precision = true;
+            gpu_use(gpu, variants[v]);
+            gpu_shader(gpu, "resolve", "stand_in.comp");
+            gpu_set(gpu, "resolve.texel_scale=3");
+            gpu_run(gpu);
+            composed[i] = gpu_floats(gpu, "composed", NULL, NULL);
+        }
+        float *lit = gpu_part(gpu, "lit", (const char *[]){"R", "G", "B"}, 3);
+        assert_memory_equal(composed[0], composed[1], WIDE * HIGH * 4 * sizeof(float));
+        assert_true(composed[0][2] != lit[2]); /* it reflects */
+        free(composed[0]), free(composed[1]), free(lit);
+    }
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(matte_stays_lit), cmocka_unit_test(matte_was_traced),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(matte_stays_lit),
+                                       cmocka_unit_test(matte_was_traced),
                                        cmocka_unit_test(materials_say_how_reflectance_rises),
                                        cmocka_unit_test(mirrors_compose_by_schlick),
-                                       cmocka_unit_test(rough_surfaces_may_reflect_nothing)};
+                                       cmocka_unit_test(rough_surfaces_may_reflect_nothing),
+                                       cmocka_unit_test(no_surface_is_rougher_than_one)};
     return cmocka_run_group_tests_name("gpu_compose_brdf", tests, gpu_set_up, gpu_tear_down);
 }

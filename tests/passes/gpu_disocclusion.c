@@ -161,12 +161,42 @@ static void a_mirror_has_no_history_of_what_stood_before_it(void **state) {
     }
 }
 
+/* Where a still picture shows another surface in part, as jitter does at edges, a mirror keeps its history. */
+static void a_still_mirror_keeps_its_history_at_edges(void **state) {
+    struct gpu *gpu = *state;
+    struct shot shot = {.number = 800, .still = true, .floor = true, .mirror = true};
+    size_t partly = 0, alone = 0;
+    gpu_reset(gpu);
+    gpu_use(gpu, "disocclusion=depth");
+    gpu_set(gpu, "disocclusion.together=0");
+    gpu_use(gpu, "temporal_sharp=clamped");
+    gpu_set(gpu, "temporal_sharp.clamp_history=false");
+    for (int n = 0; n < 6; n++, shot.number++) {
+        memcpy(shot.previous_jitter_px, shot.jitter_px, sizeof shot.jitter_px);
+        shot.jitter_px[0] = n % 3 * 0.45 - 0.45;
+        float *mask = mask_of(gpu, &shot);
+        if (n < 2) { /* without a history the filter is left out */
+            free(mask);
+            continue;
+        }
+        float *stable = gpu_floats(gpu, "reflection_stable", NULL, NULL),
+              *now = gpu_floats(gpu, "reflection", NULL, NULL);
+        for (size_t i = 0; i < W * H; i++)
+            if (mask[i] >= 0.1F && mask[i] < 1)
+                partly++, alone += !memcmp(stable + 4 * i, now + 4 * i, 3 * sizeof *now);
+        free(mask), free(stable), free(now);
+    }
+    print_message("# of %zu pixels that were hidden in part %zu show this frame alone\n", partly, alone);
+    assert_true(partly > 5 && alone < partly - 3); /* what reflects the even surroundings is the same in every frame */
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_the_square_left_was_hidden),
         cmocka_unit_test(a_still_picture_hides_nothing),
         cmocka_unit_test(edges_of_a_still_picture_hide_nothing),
         cmocka_unit_test(a_mirror_has_no_history_of_what_stood_before_it),
+        cmocka_unit_test(a_still_mirror_keeps_its_history_at_edges),
     };
     return cmocka_run_group_tests(tests, gpu_set_up, gpu_tear_down);
 }

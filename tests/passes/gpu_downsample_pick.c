@@ -1,4 +1,5 @@
-/* downsample/pick: the distribution of its normals, and the pixel that it chooses; downsample/mips_sparse: which texels have a ray. */
+/* downsample/pick: the distribution of its normals, and the pixel that it chooses; downsample/mips: its vertex normals;
+   downsample/mips_sparse: which texels have a ray. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -294,6 +295,62 @@ static void rough_surfaces_are_traced_at_coarser_levels(void **state) {
     }
 }
 
+/* Rays that are drawn from the whole lobe are the same for every share, and the tangents of their cones are proportional to what they leave. */
+static void cones_cover_what_rays_leave(void **state) {
+    static const char *const shares[] = {"downsample.share=0", "downsample.share=0.5", "downsample.share=1"};
+    struct gpu *gpu = *state;
+    float *cone[3];
+    double widest = 0;
+    load_plane(gpu, 0.6F);
+    gpu_set(gpu, "downsample.split=solid_angle");
+    gpu_set(gpu, "downsample.horizon=false");
+    for (int s = 0; s < 3; ++s) {
+        gpu_set(gpu, shares[s]);
+        gpu_run(gpu);
+        cone[s] = gpu_floats(gpu, "cone_half", NULL, NULL);
+    }
+    for (size_t i = 0; i < DRAWS; ++i) {
+        widest = fmax(widest, (double)cone[0][i]);
+        assert_true(cone[2][i] == 0);
+        if (cone[0][i] > 1.5F) continue; /* whose tangents are above 14 */
+        assert_true(fabs(tan((double)cone[1][i]) / tan((double)cone[0][i]) - 0.5) < 1e-4);
+    }
+    print_message("# cones up to %.3f rad\n", widest);
+    assert_true(widest > 0.3);
+    for (int s = 0; s < 3; ++s) free(cone[s]);
+}
+
+/* The levels of downsample/mips keep the geometric normals of their pixels, which are not those that shade. */
+static void turning(const struct plain *plain, uint32_t x, uint32_t y, float out[3]) {
+    out[0] = 0.6F * (float)x / (float)plain->width, out[1] = 0.5F * (float)y / (float)plain->height;
+    out[2] = sqrtf(1 - out[0] * out[0] - out[1] * out[1]);
+}
+static void levels_hold_vertex_normals(void **state) {
+    static const char *const levels[] = {"", ".level1", ".level2"};
+    struct gpu *gpu = *state;
+    char path[256];
+    const struct plain plain = {.width = 32, .height = 24, .fov_y_degrees = 60, .vertex_normal = turning};
+    plain_capture(gpu_path(gpu, "turning", path), &plain);
+    gpu_load(gpu, "turning");
+    gpu_reset(gpu);
+    gpu->float_precision = true;
+    gpu_use(gpu, "downsample=mips");
+    gpu_run(gpu);
+    for (uint32_t l = 0; l < 3; ++l) {
+        char name[64];
+        uint32_t width, height;
+        snprintf(name, sizeof name, "vertex_normal_levels%s", levels[l]);
+        float *found = gpu_floats(gpu, name, &width, &height);
+        for (uint32_t i = 0; i < width * height; ++i) {
+            const uint32_t place = (uint32_t)found[4 * i + 3];
+            float right[3];
+            turning(&plain, (i % width << (l + 1)) + (place & 7), (i / width << (l + 1)) + (place >> 3), right);
+            for (uint32_t k = 0; k < 3; ++k) assert_true(fabsf(found[4 * i + k] - right[k]) < 1e-6F);
+        }
+        free(found);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(blinn_phong_is_the_slides),
@@ -306,6 +363,8 @@ int main(void) {
         cmocka_unit_test(odd_sizes_pick_inside),
         cmocka_unit_test(odd_borders_are_worth_what_their_pixels_are),
         cmocka_unit_test(rough_surfaces_are_traced_at_coarser_levels),
+        cmocka_unit_test(cones_cover_what_rays_leave),
+        cmocka_unit_test(levels_hold_vertex_normals),
     };
     return cmocka_run_group_tests_name("gpu_downsample_pick", tests, gpu_set_up, gpu_tear_down);
 }

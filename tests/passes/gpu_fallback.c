@@ -141,6 +141,96 @@ static void the_fallback_ends_where_the_ray_leaves_the_cocoon(void **state) {
     assert_true(2 * in_box.right > in_box.known); /* the same texel moves walls away by up to 12 % */
 }
 
+/* Cube maps are filtered over the edges of their faces: colours that are directions stay those of the mirror rays, here where three faces meet. */
+static const double leaning[3] = {-0.46, -0.46, 0.76};
+static void lean(const struct plain *plain, float *values) {
+    const size_t pixels = (size_t)plain->width * plain->height;
+    for (size_t i = 0; i < 3 * pixels; ++i) values[PLAIN_NORMAL_X * pixels + i] = (float)leaning[i / pixels];
+}
+static void direction_as_colour(UNUSED uint32_t number, const double d[3], float out[5]) {
+    for (int k = 0; k < 3; ++k) out[k] = (float)(1 + d[k]);
+    out[3] = 1, out[4] = 100;
+}
+static void faces_are_filtered_over_their_edges(void **state) {
+    struct gpu *gpu = *state;
+    char path[256];
+    uint32_t width, height;
+    double worst = 0;
+    plain_capture(gpu_path(gpu, "faces", path), &(struct plain){.width = 96,
+                                                                .height = 54,
+                                                                .fov_y_degrees = 60,
+                                                                .cube_size = 128,
+                                                                .cube_count = 1,
+                                                                .cube = direction_as_colour,
+                                                                .spoil = lean});
+    gpu_load(gpu, "faces");
+    gpu_reset(gpu);
+    gpu->float_precision = true;
+    gpu_use(gpu, "cubemap_trace=lookup");
+    gpu_set(gpu, "screen_trace.length_m=0");
+    gpu_set(gpu, "downsample.jitter=false");
+    gpu_run(gpu);
+    float *color = gpu_floats(gpu, "reflection_half", &width, &height);
+    uint32_t *pick = gpu_uints(gpu, "pick", NULL, NULL), faces = 0;
+    for (uint32_t i = 0; i < width * height; ++i) {
+        double at[3], straight[3], ray[3], far = 0, along = 0, square = 0, most = 0;
+        int face = 0;
+        ray_of(i, width, pick[i], 0, at, straight);
+        for (int k = 0; k < 3; ++k)
+            far += at[k] * at[k], along += at[k] * leaning[k], square += leaning[k] * leaning[k];
+        for (int k = 0; k < 3; ++k) {
+            ray[k] = (at[k] - 2 * along / square * leaning[k]) / sqrt(far);
+            worst = fmax(worst, fabs((double)color[4 * i + (uint32_t)k] - 1 - ray[k]));
+            if (fabs(ray[k]) > most) most = fabs(ray[k]), face = 2 * k + (ray[k] < 0);
+        }
+        faces |= 1u << face;
+    }
+    print_message("# faces %x, worst difference %.5f\n", faces, worst);
+    assert_true((faces & 0xA) == 0xA && worst < 2e-3); /* -X and -Y; a quarter of a texel where both meet */
+    free(color), free(pick);
+}
+
+/* A cube map without an inner volume has the same box as any other without one, whether or not another cube map has a volume. */
+static void white_ball(UNUSED uint32_t number, UNUSED const double d[3], float out[5]) {
+    for (int k = 0; k < 4; ++k) out[k] = 1;
+    out[4] = 3;
+}
+static void a_cube_map_without_a_volume_has_its_own_box(void **state) {
+    struct gpu *gpu = *state;
+    const double half_m = 4;
+    for (int other = 0; other < 2; ++other) {
+        char path[256];
+        struct plain plain = {.width = 96,
+                              .height = 54,
+                              .fov_y_degrees = 60,
+                              .cube_size = 8,
+                              .cube_count = other ? 2 : 1,
+                              .cube = white_ball};
+        plain.cubes[0].center[2] = -2;
+        plain.cubes[1] = (struct glint_cubemap){
+            .center = {0, 0, 60}, .inner = GLINT_VOLUME_BOX, .box_min = {-1, -1, -1}, .box_max = {1, 1, 1}};
+        plain_capture(gpu_path(gpu, "boxes", path), &plain);
+        gpu_load(gpu, "boxes");
+        gpu_reset(gpu);
+        gpu->float_precision = true;
+        gpu_use(gpu, "cubemap_trace=box");
+        gpu_set(gpu, "cubemap_trace.default_m=4");
+        gpu_set(gpu, "screen_trace.length_m=0");
+        gpu_run(gpu);
+        uint32_t width, height, *pick = gpu_uints(gpu, "pick", &width, &height);
+        float *travelled = gpu_floats(gpu, "travelled", NULL, NULL);
+        for (uint32_t i = 0; i < width * height; ++i) {
+            double start[3], d[3], leaves = INFINITY;
+            ray_of(i, width, pick[i], -2, start, d);
+            for (int k = 0; k < 3; ++k)
+                if (d[k] != 0) leaves = fmin(leaves, ((d[k] < 0 ? -half_m : half_m) - start[k]) / d[k]);
+            if (leaves > 0) assert_true(fabs((double)travelled[i] - leaves) < 1e-4 * leaves + 1e-4);
+            else assert_true(isinf(travelled[i]));
+        }
+        free(pick), free(travelled);
+    }
+}
+
 /* A box of twice the size with screens in front of its walls, every other one near the centre. */
 static void screens(uint32_t number, const double d[3], float out[5]) {
     int sector = (int)floor(10 * (d[0] + 1));
@@ -288,6 +378,8 @@ static void a_mirrors_ray_ends_in_the_sky_where_a_cap_is(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_fallback_ends_where_the_ray_leaves_the_cocoon),
+        cmocka_unit_test(a_cube_map_without_a_volume_has_its_own_box),
+        cmocka_unit_test(faces_are_filtered_over_their_edges),
         cmocka_unit_test(a_ray_that_stopped_inside_of_something_ends_there),
         cmocka_unit_test(a_mirrors_ray_ends_in_the_sky_where_a_cap_is),
     };

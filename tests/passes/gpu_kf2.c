@@ -2,6 +2,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "glint/probe.h"
 #include "gpu.h"
 #include "plain_capture.h"
 #include "unit.h"
@@ -48,7 +49,9 @@ struct end {
     double distance; /* m */
     double toward;   /* cosine between the ray and the direction to the viewer */
     double facing;   /* cosine between the wall's normal and the reversed ray */
+    double turned;   /* and that of the normal `turned` */
 };
+static const double turned[3] = {0.6, 0, 0.8};
 static bool floor_ray(uint32_t i, struct end *end) {
     const double half =
         tan(degrees * 3.14159265358979323846 / 360) / HIGH; /* metres a half pixel, at a metre of depth */
@@ -56,9 +59,22 @@ static bool floor_ray(uint32_t i, struct end *end) {
     if (down * wall_m <= 1) return false; /* the wall itself */
     const double step = sqrt(1 + side * side + down * down), depth = 1 / down;
     const double height = -1 + down * (wall_m - depth);
-    *end = (struct end){(side / half + WIDE) / 2, (-height / wall_m / half + HIGH) / 2, (wall_m - depth) * step,
-                        -(side * side - down * down + 1) / (step * step), 1 / step};
+    *end = (struct end){(side / half + WIDE) / 2,
+                        (-height / wall_m / half + HIGH) / 2,
+                        (wall_m - depth) * step,
+                        -(side * side - down * down + 1) / (step * step),
+                        1 / step,
+                        (turned[2] - turned[0] * side) / step};
     return end->x > 0 && end->x < WIDE && end->y > 0 && end->y < HIGH && height > -0.9;
+}
+
+/* The right part of the wall has another normal. */
+enum { TURNED_X = 72 };
+static void turn(const struct plain *plain, float *values) {
+    const size_t pixels = (size_t)plain->width * plain->height;
+    for (size_t i = 0; i < pixels; ++i)
+        for (size_t k = 0; k < 3 && i % plain->width >= TURNED_X && values[PLAIN_NORMAL_Z * pixels + i] != 0; ++k)
+            values[(PLAIN_NORMAL_X + k) * pixels + i] = (float)turned[k];
 }
 
 static double smooth(double none, double full, double at) {
@@ -83,8 +99,13 @@ static void images_free(struct images *images) {
 
 static void each_attenuation_and_their_product(void **state) {
     struct gpu *gpu = *state;
+    char path[256];
     set_up(gpu);
-    capture(gpu, "floor", NULL, true);
+    plain_capture(
+        gpu_path(gpu, "turned", path),
+        &(struct plain){
+            .width = WIDE, .height = HIGH, .fov_y_degrees = degrees, .floor = true, .spoil = turn, .foreground = true});
+    gpu_load(gpu, "turned");
     gpu_set(gpu, "resolve.viewer_from=-1");
     gpu_set(gpu, "resolve.viewer_to=-0.5");
     gpu_set(gpu, "resolve.back_from=0.7");
@@ -98,8 +119,10 @@ static void each_attenuation_and_their_product(void **state) {
         if (!floor_ray(i, &end)) continue;
         const double u = end.x / WIDE, v = end.y / HIGH;
         const double expected[4] = {smooth(-0.5, -1, end.toward), smooth(0, 0.25, fmin(fmin(u, 1 - u), fmin(v, 1 - v))),
-                                    smooth(0.7, 1, end.facing), end.x < WIDE / 2.0 ? 1 : 0};
+                                    smooth(0.7, 1, end.x < TURNED_X ? end.facing : end.turned),
+                                    end.x < WIDE / 2.0 ? 1 : 0};
         if (fabs(end.x - WIDE / 2.0) < 0.01) continue; /* the border of the foreground */
+        if (fabs(end.x - TURNED_X) < 0.01) continue;
         double product = 1;
         for (uint32_t k = 0; k < 4; ++k) {
             product *= expected[k];
@@ -272,6 +295,60 @@ static void the_last_texel_is_worth_its_own_material(void **state) {
     free(rejected);
 }
 
+/* Nothing moves but what the last column shows, which was a quarter of the picture to the left: the previous picture is sampled where this one
+   shows the end of a ray, or there. */
+static void last_column_moves(const struct plain *plain, float *values) {
+    for (size_t y = 0; y < plain->height; ++y)
+        values[(PLAIN_MOTION_X * plain->height + y) * plain->width + WIDE - 1] = -0.25F;
+}
+static void the_previous_picture_is_recorded_where_it_is_sampled(void **state) {
+    static const char *const slots[] = {"cubemap_active=nearest", "cubemap_select=nearest", "cubemap_trace=lookup",
+                                        "resolve=previous", "compose=none"};
+    static const uint32_t columns[] = {2, 30, 60, 90, WIDE - 1};
+    enum { COLUMNS = 5, TOP = 40, COUNT = COLUMNS * (HIGH - TOP) };
+    struct gpu *gpu = *state;
+    struct glint_error err = {0};
+    char path[256];
+    static float light[WIDE * HIGH];
+    const struct glint_channel channels[] = {{.name = "R", .type = GLINT_F32, .data = light},
+                                             {.name = "G", .type = GLINT_F32, .data = light},
+                                             {.name = "B", .type = GLINT_F32, .data = light}};
+    const struct glint_part before = {
+        .name = "previous.lit", .width = WIDE, .height = HIGH, .channels = channels, .channel_count = 3};
+    uint32_t pixels[COUNT][2];
+    size_t recorded[2] = {0};
+    for (uint32_t i = 0; i < COUNT; ++i) pixels[i][0] = columns[i % COLUMNS], pixels[i][1] = TOP + i / COLUMNS;
+    set_up(gpu);
+    for (size_t i = 0; i < sizeof slots / sizeof *slots; ++i) gpu_use(gpu, slots[i]);
+    plain_capture(gpu_path(gpu, "before", path), &(struct plain){.width = WIDE,
+                                                                 .height = HIGH,
+                                                                 .fov_y_degrees = degrees,
+                                                                 .floor = true,
+                                                                 .spoil = last_column_moves,
+                                                                 .part = &before});
+    gpu_load(gpu, "before");
+    const struct glint_replay_options options = {.probes = (const uint32_t(*)[2])pixels, .probe_count = COUNT};
+    if (!glint_replay_run(gpu->replay, gpu->pipeline, &options, NULL, NULL, &err)) fail_msg("%s", err.message);
+    for (size_t i = 0; i < COUNT; ++i) {
+        struct glint_probe_trace trace;
+        struct end end;
+        if (!floor_ray(pixels[i][1] * WIDE + pixels[i][0], &end)) continue;
+        const bool last = pixels[i][0] == WIDE - 1; /* a ray stays in its column */
+        if (!glint_replay_probe(gpu->replay, i, &trace, &err)) fail_msg("%s", err.message);
+        for (size_t r = 0; r < trace.count; ++r) {
+            const struct glint_probe_record *record = &trace.records[r];
+            if (!glint_probe_is(record, "color")) continue;
+            assert_string_equal(glint_probe_label("image", glint_probe_value(record, "image")).name, "previous_lit");
+            assert_true(fabs((double)glint_probe_value(record, "x") - end.x + (last ? WIDE / 4 : 0)) < 0.02);
+            assert_true(fabs((double)glint_probe_value(record, "y") - end.y) < 0.02);
+            ++recorded[last];
+        }
+        free(trace.records);
+    }
+    print_message("# %zu recorded, %zu in the last column\n", recorded[0], recorded[1]);
+    assert_true(recorded[0] > 30 && recorded[1] > 5);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_attenuation_and_their_product),
@@ -281,6 +358,7 @@ int main(void) {
         cmocka_unit_test(alpha_stays_within_one_and_the_picture_a_mixture),
         cmocka_unit_test(rejected_tiles_contribute_nothing),
         cmocka_unit_test(the_last_texel_is_worth_its_own_material),
+        cmocka_unit_test(the_previous_picture_is_recorded_where_it_is_sampled),
     };
     return cmocka_run_group_tests_name("gpu_kf2", tests, gpu_set_up, gpu_tear_down);
 }

@@ -225,6 +225,77 @@ static void cube_maps_give_mean_direction_and_mask(void **state) {
     assert_true(worst < 0.01); /* 16 taps along a face of light up to 4.2 */
 }
 
+/* A quarter of each texel is a surface, whose colour counts by that already, and the rest shows the sky: 1/4 + 3/4 · 2. */
+static void quarter_light(UNUSED uint32_t number, UNUSED const double direction[3], float out[5]) {
+    for (int k = 0; k < 4; k++) out[k] = 0.25F;
+    out[4] = (float)ball_m;
+}
+static void bright_sky(UNUSED const double direction[3], float out[3]) {
+    for (int k = 0; k < 3; k++) out[k] = 2;
+}
+static void the_sky_shines_through_cube_maps(void **state) {
+    struct gpu *gpu = *state;
+    const struct plain plain = {.width = WIDE,
+                                .height = HIGH,
+                                .roughness = 0.5F,
+                                .fov_y_degrees = 60,
+                                .spoil = shapes_spoil,
+                                .user = &corner,
+                                .cube = quarter_light,
+                                .sky = bright_sky,
+                                .cube_size = 8,
+                                .cube_count = 1};
+    const char *words[] = {MISSED, "volume_make=gather", "volume_make.taps=4", NULL};
+    uint32_t width, height;
+    indirect_load(gpu, &plain);
+    indirect_arrange(gpu, words);
+    gpu_run(gpu);
+    float *mean = gpu_floats(gpu, "volume_radiance", &width, &height);
+    for (uint32_t i = 0; i < width * height; i++) assert_true(fabs((double)mean[4 * i] - 1.75) < 1e-5);
+    free(mean);
+}
+
+/* Rays from the wall towards the viewer, away from a ball of 3 m about the centre of a cube map 40 m behind the wall, meet nothing that it shows: they
+   see what lies in the direction of their start, and never what is behind them. */
+static void colour_is_direction(UNUSED uint32_t number, const double direction[3], float out[5]) {
+    for (int k = 0; k < 3; k++) out[k] = (float)(1 + direction[k]);
+    out[3] = 1;
+    out[4] = (float)ball_m;
+}
+static void rays_out_of_a_cube_map_look_ahead(void **state) {
+    struct gpu *gpu = *state;
+    const double away_m = 40;
+    struct plain plain = {.width = WIDE,
+                          .height = HIGH,
+                          .roughness = 0.5F,
+                          .fov_y_degrees = 60,
+                          .spoil = shapes_spoil,
+                          .user = &corner,
+                          .cube = colour_is_direction,
+                          .cube_size = 64,
+                          .cube_count = 1};
+    const char *words[] = {MISSED, "indirect_trace.fallback=cubemaps", "indirect_trace.directions=1", NULL};
+    plain.cubes[0].center[2] = corner.wall_z - away_m;
+    indirect_load(gpu, &plain);
+    indirect_arrange(gpu, words);
+    gpu_run(gpu);
+    float *found = gpu_floats(gpu, "indirect", NULL, NULL);
+    double mean = 0;
+    int judged = 0;
+    for (uint32_t i = 0; i < WIDE * HIGH; i++) {
+        double at[3], normal[3];
+        if (!shapes_pixel(&corner, &plain, i % WIDE, i / WIDE, at, normal) || normal[2] < 0.5) continue;
+        const double far = sqrt(at[0] * at[0] + at[1] * at[1] + away_m * away_m);
+        const double right[3] = {1 + at[0] / far, 1 + at[1] / far, 1 + away_m / far};
+        for (int k = 0; k < 3; k++) mean += fabs((double)found[4 * i + (uint32_t)k] - right[k]) / 3;
+        judged++;
+    }
+    free(found);
+    print_message("# mean difference %.5f of %d pixels\n", mean / judged, judged);
+    /* Colours of texels 1/32 wide. One ray in a hundred runs so flat that it nears the ball, by a tenth of the way. */
+    assert_true(judged > 5000 && mean < 0.002 * judged);
+}
+
 /* What a cell sees of a lit spot on the ball grows as it comes nearer: moved, not from the centre. */
 static void spot_light(UNUSED uint32_t number, const double direction[3], float out[5]) {
     for (int k = 0; k < 3; k++) out[k] = direction[0] > 0.9 ? 1 : 0;
@@ -271,6 +342,8 @@ int main(void) {
         cmocka_unit_test(directions_see_their_sides),
         cmocka_unit_test(invalid_cells_do_not_count),
         cmocka_unit_test(cube_maps_give_mean_direction_and_mask),
+        cmocka_unit_test(the_sky_shines_through_cube_maps),
+        cmocka_unit_test(rays_out_of_a_cube_map_look_ahead),
         cmocka_unit_test(what_a_cube_map_shows_lies_at_its_distances),
     };
     return cmocka_run_group_tests_name("gpu_light_volume", tests, gpu_set_up, gpu_tear_down);

@@ -234,6 +234,65 @@ static void an_open_plain_is_fully_visible(void **state) {
             }
 }
 
+/* A picture of odd size, whose last texels lie on its border. Of a wall nothing hides itself where it has its own vertex normals, here in the last
+   row and column alone, and the leaning shading normals elsewhere see the wall. */
+static void lean(const struct plain *plain, float *values) {
+    const uint32_t pixels = plain->width * plain->height;
+    shapes_spoil(plain, values);
+    for (uint32_t i = 0; i < pixels; i++)
+        values[PLAIN_NORMAL_X * pixels + i] = -0.6F, values[PLAIN_NORMAL_Z * pixels + i] = 0.8F;
+}
+static void at_border(const struct plain *plain, uint32_t x, uint32_t y, float out[3]) {
+    out[0] = out[1] = 0;
+    out[2] = x + 1 == plain->width || y + 1 == plain->height;
+}
+static void vertex_normals_count_at_the_border(void **state) {
+    static const struct shapes wall = {.wall_z = -5, .wall_top = INFINITY};
+    static const char *const words[] = {"downsample=bilinear", "ao_trace=horizon", "ao_trace.normals=vertex", NULL};
+    struct gpu *gpu = *state;
+    struct plain plain = occlusion_frame(&wall, 60);
+    uint32_t width, height;
+    plain.width = 33, plain.height = 25;
+    plain.spoil = lean;
+    plain.vertex_normal = at_border;
+    occlusion_load(gpu, &plain);
+    occlusion_arrange(gpu, words);
+    gpu_run(gpu);
+    float *found = gpu_floats(gpu, "occlusion_half", &width, &height);
+    assert_true(width == 17 && height == 13);
+    for (uint32_t i = 0; i < width * height; i++) {
+        const bool last = i % width + 1 == width || i / width + 1 == height;
+        if (last || i % width > 3) assert_true((found[i] == 1) == last); /* nothing is seen left of the picture */
+    }
+    free(found);
+}
+
+/* ---- the picture's border ---- */
+
+/* Left and right are alike: how far a slice reaches upward does not depend on which border is near. */
+static void both_borders_are_alike(void **state) {
+    static const char *const words[] = {FINE, FINE_HORIZON, NULL};
+    struct gpu *gpu = *state;
+    const struct plain plain = occlusion_frame(&corner, 60);
+    double sum[2] = {0};
+    int count = 0;
+    occlusion_load(gpu, &plain);
+    occlusion_arrange(gpu, words);
+    gpu_run(gpu);
+    float *found = gpu_floats(gpu, "occlusion", NULL, NULL);
+    for (uint32_t y = 0; y < HIGH; y++)
+        for (uint32_t x = 0; x < 3; x++) {
+            double at[3], normal[3];
+            shapes_pixel(&corner, &plain, x, y, at, normal);
+            if (normal[1] < 0.5 || at[2] + 5 > 0.5) continue;
+            sum[0] += (double)found[y * WIDE + x], sum[1] += (double)found[y * WIDE + WIDE - 1 - x];
+            count++;
+        }
+    free(found);
+    print_message("# %d pixels: %.4f at the left, %.4f at the right\n", count, sum[0] / count, sum[1] / count);
+    assert_true(count > 3 && fabs(sum[0] - sum[1]) < 0.02 * count && sum[1] < 0.9 * count);
+}
+
 /* ---- noise ---- */
 
 /* The mean over many frames of one slice of two steps is that of many slices of two steps. */
@@ -330,6 +389,8 @@ int main(void) {
         cmocka_unit_test(a_plate_opposite_leaves_the_horizon_open),
         cmocka_unit_test(a_ball_hides_the_floor_that_it_lies_on),
         cmocka_unit_test(an_open_plain_is_fully_visible),
+        cmocka_unit_test(vertex_normals_count_at_the_border),
+        cmocka_unit_test(both_borders_are_alike),
         cmocka_unit_test(noise_is_mean_free),
         cmocka_unit_test(every_texel_has_its_own_numbers),
         cmocka_unit_test(invalid_pixels_are_visible_and_spoil_no_others),

@@ -98,6 +98,27 @@ static void a_pixel_takes_texels_of_its_own_plane(void **state) {
     }
 }
 
+/* A depth_part of 10 is no test, however far apart planes are. */
+static void far_bars(const struct plain *plain, float *values) {
+    for (uint32_t i = 0; i < plain->width * plain->height; i++) values[i] = is_near(i % plain->width) ? 0.25F : 50;
+}
+static void a_part_of_ten_is_no_test(void **state) {
+    static const char *const ways[][2] = {{"ao_apply=planes", "ao_apply.depth_part=10"}, {"ao_apply=bilinear", NULL}};
+    struct gpu *gpu = *state;
+    float *found[2];
+    occlusion_load(
+        gpu, &(struct plain){.width = WIDE, .height = HIGH, .roughness = 0.5F, .fov_y_degrees = 60, .spoil = far_bars});
+    for (int w = 0; w < 2; w++) {
+        const char *const words[] = {"downsample=pick", "ao_trace=horizon", ways[w][0], ways[w][1], NULL};
+        occlusion_arrange(gpu, words);
+        gpu_shader(gpu, "ao_trace", "occlusion_pattern.comp");
+        gpu_run(gpu);
+        found[w] = gpu_floats(gpu, "occlusion", NULL, NULL);
+    }
+    for (uint32_t i = 0; i < WIDE * HIGH; i++) assert_true(fabsf(found[0][i] - found[1][i]) < 1e-5F);
+    free(found[0]), free(found[1]);
+}
+
 static void intensity_and_power_are_neutral_at_one(void **state) {
     float *plain = applied(*state, "ao_apply=planes", NULL);
     float *half = applied(*state, "ao_apply=planes", "ao_apply.intensity=0.5");
@@ -145,6 +166,40 @@ static void skipped_texels_would_have_been_visible(void **state) {
             assert_true(v == 1 || s == 2 || fetches[0] < 0.8 * fetches[1]);
             free(found[0]), free(found[1]);
         }
+}
+
+/* The same in a world that is turned by an eighth about x, whose floor falls away from the viewer's side. */
+static const double eighth = 0.70710678118654752;
+static void turn_world(const struct plain *plain, float *values) {
+    const uint32_t pixels = plain->width * plain->height;
+    float *y = values + PLAIN_NORMAL_Y * pixels, *z = values + PLAIN_NORMAL_Z * pixels;
+    shapes_spoil(plain, values);
+    for (uint32_t i = 0; i < pixels; i++) {
+        const double was_y = (double)y[i], was_z = (double)z[i];
+        y[i] = (float)(eighth * (was_y + was_z)), z[i] = (float)(eighth * (was_z - was_y));
+    }
+}
+static void skipped_texels_are_the_same_in_a_turned_world(void **state) {
+    static const struct shapes scene = {.floor_y = -1, .sphere = {0, -0.5, -5, 0.5}};
+    static const double to_view[16] = {1, 0, 0, 0, 0, eighth, -eighth, 0, 0, eighth, eighth, 0, 0, 0, 0, 1};
+    struct gpu *gpu = *state;
+    struct plain plain = occlusion_frame(&scene, 60);
+    float *found[2];
+    int hidden = 0;
+    plain.spoil = turn_world;
+    plain.world_to_view = to_view;
+    occlusion_load(gpu, &plain);
+    for (int all = 0; all < 2; all++) {
+        const char *const words[] = {"downsample=pick", "ao_bounds=boxes", "ao_trace=horizon",
+                                     all ? "ao_trace.cull=false" : NULL, NULL};
+        occlusion_arrange(gpu, words);
+        gpu_run(gpu);
+        found[all] = gpu_floats(gpu, "occlusion_half", NULL, NULL);
+    }
+    for (uint32_t i = 0; i < WIDE * HIGH / 4; i++) hidden += found[1][i] < 0.9F;
+    assert_memory_equal(found[0], found[1], WIDE * HIGH / 4 * sizeof **found);
+    assert_true(hidden > 30);
+    free(found[0]), free(found[1]);
 }
 
 /* ---- switches ---- */
@@ -201,8 +256,10 @@ int main(void) {
         cmocka_unit_test(the_blur_averages_a_surface_and_no_other),
         cmocka_unit_test(a_blur_of_nothing_changes_nothing),
         cmocka_unit_test(a_pixel_takes_texels_of_its_own_plane),
+        cmocka_unit_test(a_part_of_ten_is_no_test),
         cmocka_unit_test(intensity_and_power_are_neutral_at_one),
         cmocka_unit_test(skipped_texels_would_have_been_visible),
+        cmocka_unit_test(skipped_texels_are_the_same_in_a_turned_world),
         cmocka_unit_test(every_switch_has_an_effect),
     };
     return cmocka_run_group_tests_name("gpu_occlusion_filters", tests, gpu_set_up, gpu_tear_down);

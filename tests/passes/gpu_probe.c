@@ -99,8 +99,26 @@ static void check_ray(const struct glint_probe_record *screen, const struct glin
     assert_near_sum(world.along_m, view.along_m, view.far_m);
 }
 
+/* The depths of the ray are those of its points. */
+static void check_depths_of_ray(const struct glint_probe_record *record, const struct glint_probe_record *ray) {
+    static const char *const ways[2] = {"from_m", "travelled_m"}, *const depths[2] = {"ray_from_m", "ray_m"};
+    for (int k = 0; k < 2; k++) {
+        const double way = (double)glint_probe_value(record, ways[k]), z = (double)glint_probe_value(ray, "z"),
+                     part = way * (double)glint_probe_value(ray, "direction_z");
+        if (way < 1e4) /* 1/z is linear on screen, so that far away depths are rounded */
+            assert_true(fabs((double)glint_probe_value(record, depths[k]) - fabs(z + part)) < 1e-3 * (fabs(z) + way));
+    }
+}
+
+/* A ray misses the proxy, or is within it for some distance, up to its end. */
+static bool crosses_proxy(const struct glint_probe_record *record) {
+    const float enters = glint_probe_value(record, "enters_m"), leaves = glint_probe_value(record, "leaves_m");
+    assert_true(enters != leaves);
+    return enters < leaves;
+}
+
 struct tally {
-    size_t traces, rays, depths, screen_hits, cube_hits;
+    size_t traces, rays, depths, screen_hits, cube_hits, proxies;
 };
 
 static void check_trace(const struct glint_probe_trace *trace, const struct images *images, const uint32_t pixel[2],
@@ -111,8 +129,11 @@ static void check_trace(const struct glint_probe_trace *trace, const struct imag
     tally->traces += trace->count > 0;
     for (size_t i = 0; i < trace->count; i++) {
         const struct glint_probe_record *record = &trace->records[i];
+        if (ray && (glint_probe_is(record, "screen_texel") || glint_probe_is(record, "screen_cell")))
+            check_depths_of_ray(record, ray);
         const bool texel = glint_probe_is(record, "screen_texel") || glint_probe_is(record, "cubemap_texel");
         check_depth(record, images);
+        if (glint_probe_is(record, "cubemap_proxy")) tally->proxies += crosses_proxy(record);
         if (glint_probe_is(record, "screen_ray")) ray = record;
         if (glint_probe_is(record, "cubemap_ray") && ray) check_ray(ray, record), tally->rays++;
         if (texel || glint_probe_is(record, "screen_cell")) {
@@ -134,7 +155,7 @@ static void test_stories(void **state) {
     struct gpu *gpu = *state;
     static uint32_t pixels[PIXELS][2];
     static struct images plain, probed;
-    size_t rays = 0;
+    size_t rays = 0, proxies = 0;
     probed_scene(gpu, "street");
     draw_pixels(pixels);
     for (size_t w = 0; w < WAYS; w++) {
@@ -153,11 +174,11 @@ static void test_stories(void **state) {
         print_message("# %s: %zu stories, %zu depths, hits %zu on screen, %zu in cube maps\n", ways[w][0], tally.traces,
                       tally.depths, tally.screen_hits, tally.cube_hits);
         assert_true(tally.traces == PIXELS && tally.cube_hits + tally.screen_hits > 0);
-        rays += tally.rays;
+        rays += tally.rays, proxies += tally.proxies;
         free_images(&plain);
         free_images(&probed);
     }
-    assert_true(rays > 0);
+    assert_true(rays > 0 && proxies > 100);
 }
 
 /* ---- Records of later passes sum up to the pass's result ---- */

@@ -248,6 +248,8 @@ static size_t check_water(const struct recorded_pixel *p) {
     }
     same_rgb(layers[0], below, find_kept(p->images, "water_color"), p->pixel[0], p->pixel[1]);
     same_rgb(layers[1], rgb, find_kept(p->images, "planar_reflection"), p->pixel[0], p->pixel[1]);
+    for (int c = 0; c < 3; c++) /* nothing lies behind what the planar map covers whole */
+        assert_true(recorded(layers[1], "alpha_r") < 1 || recorded(layers[1], below[c]) == 0);
     const struct layered through = layered(layers[0]), mirrored = layered(layers[1]), all = layered(layers[2]);
     for (int c = 0; c < 3; c++) {
         assert_near_sum(through.color[c], recorded(layers[2], below[c]), through.largest);

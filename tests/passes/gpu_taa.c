@@ -20,6 +20,7 @@ struct shot {
     double bad;        /* the light of the pixel BAD_X, BAD_Y if it is not 0 */
     float specular;
     bool cut, red, striped; /* instead of color: red, or columns of green and blue */
+    const float *scene;     /* the finished picture; NULL: none */
 };
 enum { BAD_X = 13, BAD_Y = 9 };
 
@@ -48,6 +49,7 @@ static void run(struct gpu *gpu, const struct shot *shot, uint32_t lineage) {
                                 .fov_y_degrees = 60,
                                 .frame = shot->number,
                                 .cut = shot->cut,
+                                .scene = shot->scene,
                                 .jitter_px = {shot->jitter_px[0], shot->jitter_px[1]},
                                 .previous_jitter_px = {shot->previous_jitter_px[0], shot->previous_jitter_px[1]},
                                 .spoil = paint,
@@ -314,6 +316,24 @@ static void what_is_not_finite_does_not_spread(void **state) {
         }
 }
 
+/* The captured picture, not the composed one; black without one. Two frames count alike. */
+static void the_captured_picture_is_antialiased(void **state) {
+    static const float scenes[2][3] = {{0.125F, 2, 4}, {0.25F, 1, 0}}, black[3] = {0};
+    struct gpu *gpu = *state;
+    RESET(gpu, "use taa=scene", "taa.outlier=1e6");
+    gpu->float_precision = true;
+    for (uint32_t n = 0; n < 3; n++) {
+        const struct shot shot = {.number = 900 + n, .cut = n == 2, .scene = n < 2 ? scenes[n] : NULL};
+        run(gpu, &shot, 0);
+        float *found = gpu_floats(gpu, "antialiased", NULL, NULL);
+        for (size_t i = 0; i < 3 * W * H; i++) {
+            const float now = (n < 2 ? scenes[n] : black)[i % 3], before = scenes[0][i % 3];
+            assert_true(fabsf(found[i / 3 * 4 + i % 3] - (n == 1 ? (now + before) / 2 : now)) < 1e-6F);
+        }
+        free(found);
+    }
+}
+
 /* Without motion and jitter every frame is the same. Catches: means that round, in halves and in floats. */
 static void a_picture_like_its_history_stays_as_it_is(void **state) {
     struct gpu *gpu = *state;
@@ -363,6 +383,7 @@ int main(void) {
         cmocka_unit_test(a_history_is_clamped_along_its_axes),
         cmocka_unit_test(one_bright_sample_does_not_last),
         cmocka_unit_test(what_is_not_finite_does_not_spread),
+        cmocka_unit_test(the_captured_picture_is_antialiased),
         cmocka_unit_test(a_picture_like_its_history_stays_as_it_is),
         cmocka_unit_test(planned_frames_are_those_of_all),
     };

@@ -203,6 +203,26 @@ static void panes_lie_over_water(void **state) {
     free(all), free(composed);
 }
 
+/* Antialiasing takes the last picture, with panes and water; without a history it passes it on. */
+static void antialiasing_has_panes_and_water(void **state) {
+    static const char *const last[] = {"composed", "composed_water", "composed_transparent"};
+    struct gpu *gpu = *state;
+    for (int panes = 0; panes < 2; ++panes) {
+        load_plain(gpu, true, 0, NULL);
+        if (!panes) gpu_use(gpu, "transparency=none");
+        gpu_use(gpu, "water=combine");
+        gpu_use(gpu, "taa=composed");
+        gpu_run(gpu);
+        float *antialiased = gpu_floats(gpu, "antialiased", NULL, NULL),
+              *picture = gpu_floats(gpu, last[1 + panes], NULL, NULL),
+              *below = gpu_floats(gpu, last[panes], NULL, NULL);
+        for (uint32_t i = 0; i < SIDE * SIDE; ++i)
+            assert_memory_equal(antialiased + 4 * i, picture + 4 * i, 3 * sizeof *picture);
+        assert_true(memcmp(picture, below, 4 * SIDE * SIDE * sizeof *picture));
+        free(antialiased), free(picture), free(below);
+    }
+}
+
 /* A pane in a matte scene: the images that its rays are traced in are written nevertheless. */
 static void panes_reflect_in_a_matte_scene(void **state) {
     struct gpu *gpu = *state;
@@ -229,6 +249,10 @@ static void panes_have_their_roughness(void **state) {
         assert_true(normal[4 * i] == 0 && normal[4 * i + 1] == 0 && normal[4 * i + 2] == there);
     }
     free(normal);
+    const struct glint_survey *survey = NULL;
+    struct glint_error err = {0};
+    if (!glint_replay_survey(gpu->replay, &survey, NULL, &err)) fail_msg("%s", err.message);
+    assert_true(survey->transparent == SIDE * SIDE && survey->transparent_roughness == 0);
     for (int many = 0; many < 2; ++many) {
         load_plain(gpu, false, 0.4f, NULL);
         gpu_set(gpu, "transparent_screen_trace.length_m=0");
@@ -248,6 +272,31 @@ static void panes_have_their_roughness(void **state) {
     print_message("# variance of a rough pane's reflection: one ray %.5f, 16 rays %.5f\n", variance[0], variance[1]);
     /* A sixteenth; the variance of 64 texels is accurate to a fifth, and the image has a slope. */
     assert_true(variance[0] > 1e-3 && variance[1] < variance[0] / 6);
+}
+
+/* A pane on the floor, whose rays meet the wall: each frame begins its steps elsewhere. */
+static void on_floor(UNUSED uint32_t x, uint32_t y, float out[9]) {
+    const double down = (2 * (y + 0.5) / SIDE - 1) * 0.57735027;
+    const float values[9] = {0, 0, 0, 0.5f, 0, 1, 0, down > 0.3 ? (float)(1 / down) : INFINITY, 0};
+    memcpy(out, values, sizeof values);
+}
+static void each_frame_of_a_pane_steps_elsewhere(void **state) {
+    struct gpu *gpu = *state;
+    float *travelled[2];
+    size_t found = 0, apart = 0;
+    for (uint32_t i = 0; i < 2; ++i) {
+        load_panes(
+            gpu, &(struct plain){.width = SIDE, .height = SIDE, .fov_y_degrees = 60, .frame = 7 + i, .pane = on_floor});
+        gpu_set(gpu, "transparent_screen_trace.refine=false");
+        gpu_set(gpu, "transparent_downsample.jitter=false");
+        gpu_run(gpu);
+        travelled[i] = gpu_floats(gpu, "transparent_screen_travelled", NULL, NULL);
+    }
+    for (size_t i = 0; i < SIDE * SIDE / 4; ++i)
+        if (travelled[0][i] > 0 && travelled[1][i] > 0) found++, apart += travelled[0][i] != travelled[1][i];
+    print_message("# %zu rays end on screen in both frames, %zu elsewhere\n", found, apart);
+    assert_true(found > 300 && apart > found / 2);
+    free(travelled[0]), free(travelled[1]);
 }
 
 /* In the left column of each block a pane at 2 m without a normal, in the right one a valid pane at 3 m. */
@@ -329,8 +378,10 @@ int main(void) {
         cmocka_unit_test(panes_find_their_colour_in_the_previous_frame),
         cmocka_unit_test(a_frame_without_glass_leaves_it_out),
         cmocka_unit_test(panes_lie_over_water),
+        cmocka_unit_test(antialiasing_has_panes_and_water),
         cmocka_unit_test(panes_reflect_in_a_matte_scene),
         cmocka_unit_test(panes_have_their_roughness),
+        cmocka_unit_test(each_frame_of_a_pane_steps_elsewhere),
         cmocka_unit_test(a_pane_without_a_normal_has_no_ray),
         cmocka_unit_test(a_pane_shows_its_own_reflection),
     };

@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "fixture.h"
-#include "frame_plan.h"
 #include "graph.h"
 #include "survey.h"
 #include "unit.h"
@@ -245,6 +244,31 @@ static void a_cycle_names_its_members_only(void **state) {
     assert_null(strstr(err.message, "behind"));
 }
 
+/* The slot blur is known: one of its variants reads untraced. */
+static void what_a_pass_leaves_to_another_has_to_be_read_by_it(void **state) {
+    static const char why[] = "holes would stay";
+    DEFINE_PASS(sparse, "v", WRITES("untraced"), WRITES("z"),
+                {.kind = GLINT_ROW_NEEDS_READER, .name = "untraced", .image = "blur", .help = why});
+    DEFINE_PASS(lists, "v", READS("untraced"), WRITES("l"));
+    DEFINE_PASS(blur, "made", READS("z"), WRITES("b"));
+    DEFINE_PASS(filler, "filling", READS("z"), READS("untraced"), WRITES("b"));
+    struct glint_pass filling = filler;
+    struct pipeline made;
+    struct graph graph;
+    struct glint_error err;
+    filling.slot = "blur";
+    MAKE(&made, &sparse, &lists);
+    assert_false(build(state, &graph, &made, (struct glint_replay_options){0}, &err));
+    fixture_says(&err, "sparse/v makes untraced, which slot blur has to read (variants: upscale_blur), but it is "
+                       "empty; holes would stay");
+    MAKE(&made, &sparse, &lists, &blur);
+    assert_false(build(state, &graph, &made, (struct glint_replay_options){0}, &err));
+    fixture_says(&err, "but it holds made; holes would stay");
+    MAKE(&made, &sparse, &filling);
+    if (!build(state, &graph, &made, (struct glint_replay_options){0}, &err)) fail_msg("%s", err.message);
+    graph_finish(&graph);
+}
+
 static void all_faults_come_together(void **state) {
     DEFINE_PASS(odd, "v", READS("gone"), WRITES("z"), NEEDED("maybe"));
     struct pipeline made;
@@ -436,49 +460,10 @@ static void what_another_image_takes_the_place_of_is_left_out(void **state) {
     }
 }
 
-/* Full is 7 x 5 here, and half of it 4 x 3, or 7 x 5 where every pixel is traced. */
-static void pictures_are_divided_by_powers_of_two(void **state) {
-    static const struct {
-        int size;
-        uint32_t half[2], whole[2], levels, whole_levels; /* whole: while half is full */
-    } cases[] = {{GLINT_SIZE_FULL, {7, 5}, {7, 5}, 1, 1},
-                 {GLINT_SIZE_HALF, {4, 3}, {7, 5}, 1, 1},
-                 {GLINT_SIZE_QUARTER, {2, 1}, {3, 2}, 1, 1},
-                 {GLINT_SIZE_EIGHTH, {1, 1}, {1, 1}, 1, 1},
-                 {GLINT_SIZE_PICTURE(7, 1), {1, 1}, {1, 1}, 1, 1},
-                 {GLINT_SIZE_FULL_MIPS, {7, 5}, {7, 5}, 3, 3},
-                 {GLINT_SIZE_HALF_MIPS, {4, 3}, {7, 5}, 3, 3},
-                 {GLINT_SIZE_HALF_MIPS(2), {4, 3}, {7, 5}, 2, 2},
-                 {GLINT_SIZE_QUARTER_MIPS(3), {2, 1}, {3, 2}, 2, 2},
-                 {GLINT_SIZE_QUARTER_MIPS, {2, 1}, {3, 2}, 2, 2}};
-    (void)state;
-    const struct glint_replay_options options = {0};
-    struct tables tables = {0};
-    for (size_t i = 0; i < 2 * sizeof cases / sizeof *cases; i++) {
-        const size_t at = i / 2;
-        const bool whole = i % 2;
-        const struct glint_row row = {
-            .kind = GLINT_ROW_WRITE, .name = "x", .size = (enum glint_size_class)cases[at].size};
-        const struct graph_image image = {.name = "x", .row = &row, .source = SOURCE_MADE};
-        const struct frame_plan plan = {
-            .options = &options, .tables = &tables, .sizes = {.full = {7, 5}, .half = {whole ? 7 : 4, whole ? 5 : 3}}};
-        const uint32_t *expected = whole ? cases[at].whole : cases[at].half;
-        struct image_desc desc;
-        struct glint_error err = {0};
-        assert_true(plan_describe(&plan, &image, &desc, &err));
-        assert_int_equal(desc.width, expected[0]);
-        assert_int_equal(desc.height, expected[1]);
-        assert_int_equal(desc.levels, whole ? cases[at].whole_levels : cases[at].levels);
-    }
-    assert_false(glint_size_is_picture(GLINT_SIZE_CUBEMAPS));
-    assert_false(glint_size_is_picture(GLINT_SIZE_LIST));
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(one_image_of_several_calls_for_a_pass),
         cmocka_unit_test(what_another_image_takes_the_place_of_is_left_out),
-        cmocka_unit_test(pictures_are_divided_by_powers_of_two),
         cmocka_unit_test(smooth_and_rough_pixels_are_facts),
         cmocka_unit_test(passes_for_each_ray_stand_together),
         cmocka_unit_test(passes_run_in_the_order_of_their_images),
@@ -489,6 +474,7 @@ int main(void) {
         cmocka_unit_test(diagnostic_images_exist_only_on_request),
         cmocka_unit_test(a_missing_input_names_the_pass_that_makes_it),
         cmocka_unit_test(two_producers_are_a_fault),
+        cmocka_unit_test(what_a_pass_leaves_to_another_has_to_be_read_by_it),
         cmocka_unit_test(a_cycle_names_its_members_only),
         cmocka_unit_test(all_faults_come_together),
         cmocka_unit_test(images_are_read_as_what_they_are),

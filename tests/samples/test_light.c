@@ -98,6 +98,31 @@ static void test_occlusion_beside_a_wall(UNUSED void **state) {
     }
 }
 
+/* A piece dy dz of the wall at height y has the form factor y d / (π r⁴) from the floor's point. Over all z, ∫ r dF is
+   (d / π) ∫ 2 y / (d² + y²) dy = (d / π) ln(1 + h² / d²), and ∫ r² dF is d ∫ y / √(d² + y²) dy = d (√(d² + h²) - d). Over F these are
+   the mean distance of what occludes and the mean of its square. */
+static void test_distance_of_an_occluding_wall(UNUSED void **state) {
+    const float high = 1;
+    struct picture p;
+    build_wall(&p, high, 0);
+    trace(&p, &(struct light_rays){.samples = 1024, .radius = 1e5f, .kinds = GLINT_TRUTH_OCCLUSION});
+    double sum = 0;
+    size_t n = 0;
+    for (uint32_t k = 0; k < W * H; k++) {
+        vec3 at;
+        if (!on_floor(&p, k, &at)) continue;
+        const double d = (double)at.x, h = (double)high, factor = wall_factor(d, h);
+        const double mean = d / M_PI * log(1 + h * h / (d * d)) / factor;
+        const double variance = d * (sqrt(d * d + h * h) - d) / factor - mean * mean;
+        const double off = ((double)p.truth[k].occluder_m - mean) / sqrt(variance / (1024 * factor));
+        assert_true(fabs(off) < 5); /* standard deviations of as many independent directions */
+        sum += off;
+        n++;
+    }
+    assert_true(n > 300 && fabs(sum / (double)n) < 0.1);
+    end(&p);
+}
+
 static void test_nothing_within_the_radius(UNUSED void **state) {
     struct picture p;
     build_wall(&p, 1, 0);
@@ -106,8 +131,8 @@ static void test_nothing_within_the_radius(UNUSED void **state) {
     for (uint32_t k = 0; k < W * H; k++) {
         vec3 at;
         if (!on_floor(&p, k, &at)) continue;
-        if (at.x > 0.801f) assert_true(p.truth[k].occlusion == 1), far++;
-        else if (at.x < 0.5f) assert_true(p.truth[k].occlusion < 1), near++;
+        if (at.x > 0.801f) assert_true(p.truth[k].occlusion == 1 && p.truth[k].occluder_m == INFINITY), far++;
+        else if (at.x < 0.5f) assert_true(p.truth[k].occlusion < 1 && p.truth[k].occluder_m <= 0.8f), near++;
     }
     assert_true(far > 100 && near > 20);
     end(&p);
@@ -271,13 +296,10 @@ static void test_a_pixel_is_its_covered_area(UNUSED void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_occlusion_beside_a_wall),
-        cmocka_unit_test(test_nothing_within_the_radius),
-        cmocka_unit_test(test_indirect_light_of_wall_and_sky),
-        cmocka_unit_test(test_a_furnace_keeps_its_radiance),
-        cmocka_unit_test(test_the_shadow_of_a_box),
-        cmocka_unit_test(test_the_penumbra_of_a_box),
-        cmocka_unit_test(test_turned_away_from_the_sun),
+        cmocka_unit_test(test_occlusion_beside_a_wall),      cmocka_unit_test(test_distance_of_an_occluding_wall),
+        cmocka_unit_test(test_nothing_within_the_radius),    cmocka_unit_test(test_indirect_light_of_wall_and_sky),
+        cmocka_unit_test(test_a_furnace_keeps_its_radiance), cmocka_unit_test(test_the_shadow_of_a_box),
+        cmocka_unit_test(test_the_penumbra_of_a_box),        cmocka_unit_test(test_turned_away_from_the_sun),
         cmocka_unit_test(test_a_pixel_is_its_covered_area),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -247,13 +247,14 @@ class Tests:
 
     def test_light_comes_back(self):
         frame = glint.Frame(glint.Camera(EYE, CLIP), sun=glint.Sun([0, 0.6, -0.8], 0.005, [6, 5, 4]),
-                            lights=[glint.Light([1e6, 2, 3], [1, 2, 3], range=9), glint.Light([0, 1, 0], [1, 1, 1], cone=glint.Cone([0, -1, 0], 0.25, 0.5))])
+                            lights=[glint.Light([1e6, 2, 3], [1, 2, 3], range=9), glint.Light([0, 1, 0], [1, 1, 1], cone=glint.Cone([0, -1, 0], 0.25, 0.5))],
+                            classes=[glint.StencilClass(4, 12, "character")])
         matrix = np.diag([0.1, 0.2, -0.5, 1.0])
         faces_of = " ".join(f"{side}{axis}.{c}" for axis in "xyz" for side in "pn" for c in "RGB")
         one = dict(channels={"visibility": np.full((4, 6), 0.5, "f2")})
         more = [("indirect", dict(channels=self.lit, indirect=glint.Indirect(True))), ("ao", one), ("sun", one),
                 ("shadow.000", dict(channels={"depth.Z": np.full((2, 2), 0.25, "f4")}, shadow=glint.Shadow(matrix))),
-                ("shadow.001", dict(channels={"depth.Z": np.full((2, 2), 0.25, "f4")}, shadow=glint.Shadow(matrix, [1, 0], 0.001, 1))),
+                ("shadow.001", dict(channels={"depth.Z": np.full((2, 2), 0.25, "f4")}, shadow=glint.Shadow(matrix, [1, 0], 0.001, 1, 0))),
                 ("volume.000", dict(channels={faces_of: np.ones((6, 2, 18), "f2")}, volume=glint.LightVolume(matrix, 3))),
                 ("truth.occlusion", dict(**one, truth=glint.Truth(radius=2.0)))]
         capture = self.write("light.exr", frame=frame, more=more)
@@ -265,6 +266,7 @@ class Tests:
         first, second = capture["shadow.000"].shadow, capture["shadow.001"].shadow
         assert np.array_equal(first.world_to_shadow, matrix) and np.array_equal(first.range, [0, 1]) and first.light is None
         assert np.array_equal(second.range, [1, 0]) and second.bias == 0.001 and second.light == 1
+        assert first.stencil_class is None and second.stencil_class == 0
         assert capture["volume.000"].volume.slices == 3 and capture["indirect"].indirect.occluded and capture["truth.occlusion"].truth.radius == 2
         assert capture["ao"].shadow is None and capture["sun"].truth is None
 

@@ -57,6 +57,7 @@ static const char *value_of(const char *key, const char *form) {
         {"worldToShadow", "0.5,0,0,1,0,0.5,0,2,0,0,-0.25,1,0,0,-1,0"}, /* a perspective */
         {"shadowRange", "1,0.25"},
         {"shadowLight", "0"},
+        {"shadowClass", "0"},
         {"worldToGrid", "0,0,0.5,1,0,0.25,0,2,-0.5,0,0,3,0,0,0,1"},
         {"volumeSlices", "2"},
     };
@@ -219,6 +220,7 @@ static void bad_values_are_refused(void **state) {
         {1, "sunDirection=", "missing"},
         {1, "shadowRange=0.5,0.5", "two different depths"},
         {1, "shadowLight=7", "one of the frame's 2 lights, found 7"},
+        {1, "shadowClass=9", "classes of glint.stencilClasses, found 9"},
         {1, "volumeSlices=3", "a whole number of slices"},
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {

@@ -231,7 +231,7 @@ static void classes_are_those_of_the_effect(UNUSED void **state) {
                   "--vary=ao_trace.steps=2,4"));
     char *text = checked(run_program("cat", in_folder("occlusion/points.csv"), NULL), 0, __FILE__, __LINE__);
     assert_contains(text, "truth all rmse");
-    assert_contains(text, "truth enclosed rmse");
+    assert_contains(text, "truth near rmse");
     assert_contains(text, "truth open rmse");
     assert_null(strstr(text, "glossy"));
     free(text);
@@ -252,7 +252,7 @@ static void classes_are_those_of_the_effect(UNUSED void **state) {
     text = glint_ok("tune", in_folder("shaded.exr"), "-o", in_folder("occlusion.json"), PLAIN, "--use=ao_trace=horizon",
                     "--use=ao_apply=bilinear", "--effect=occlusion", "--reference=truth", "--repeat=0",
                     "--budget-fetches=80%", "--tries=4", "--vary=ao_trace.steps=2..8");
-    assert_contains(text, "enclosed   shaded");
+    assert_contains(text, "near  farther     open");
     assert_null(strstr(text, "mirror-like"));
     free(text);
 }

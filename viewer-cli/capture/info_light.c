@@ -8,7 +8,7 @@
 #include "options/args.h"
 
 static void print_shadows(const struct glint_capture *capture) {
-    static const char *const titles[] = {"<shadow map", ">size", "<of", ">near", ">far", ">bias", NULL};
+    static const char *const titles[] = {"<shadow map", ">size", "<of", "<surfaces", ">near", ">far", ">bias", NULL};
     struct table *table = table_create(titles);
     for (size_t i = 0; i < glint_capture_part_count(capture); i++) {
         const struct glint_part_info *part = glint_capture_part(capture, i);
@@ -17,6 +17,10 @@ static void print_shadows(const struct glint_capture *capture) {
         table_cell(table, "%u × %u", part->width, part->height);
         if (part->shadow.has_light) table_cell(table, "light %03u", part->shadow.light);
         else table_cell(table, "the sun");
+        table_cell(table, "%s",
+                   part->shadow.has_stencil_class
+                       ? glint_capture_frame(capture)->classes[part->shadow.stencil_class].name
+                       : "all");
         for (int k = 0; k < 2; k++) table_cell(table, "%s", number_text(part->shadow.range[k]));
         table_cell(table, "%s", number_text(part->shadow.bias));
     }
@@ -78,6 +82,8 @@ void light_part_json(const struct glint_part_info *part, json_t *json) {
         json_t *shadow = json_pack("{s:o, s:o, s:f}", "world_to_shadow", json_numbers(part->shadow.world_to_shadow, 16),
                                    "range", json_numbers(part->shadow.range, 2), "bias", part->shadow.bias);
         if (part->shadow.has_light) json_object_set_new(shadow, "light", json_integer(part->shadow.light));
+        if (part->shadow.has_stencil_class)
+            json_object_set_new(shadow, "class", json_integer(part->shadow.stencil_class));
         json_object_set_new(json, "shadow", shadow);
     }
     if (part->has_volume)

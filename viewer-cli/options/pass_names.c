@@ -51,7 +51,7 @@ const char *size_name(enum glint_size_class size) {
         [GLINT_SIZE_VOLUME - FIRST] = "volume × active",
         [GLINT_SIZE_FIGURES - FIRST] = "512 × 1",
         [GLINT_SIZE_PLANAR - FIRST] = "planar",
-        [GLINT_SIZE_SHADOW - FIRST] = "shadow map",
+        [GLINT_SIZE_SHADOW - FIRST] = "shadow maps",
         [GLINT_SIZE_TABLE - FIRST] = "table of colours",
         [GLINT_SIZE_DIRT - FIRST] = "dirt",
         [GLINT_SIZE_GRID - FIRST] = "grid of light",

@@ -216,7 +216,8 @@ void probe_print(const struct probe *probe) {
         if (x != probe->pixel[0] || y != probe->pixel[1])
             printf("The texel's ray was sampled for pixel %.0f,%.0f of the block.\n", x, y);
     } else if (!probe_last(&probe->own, "cubemap_trace", "cubemap_ray"))
-        printf("The texel has no ray: it is sky, or a surface without reflection.\n");
+        printf("The texel has no ray: it is sky, a surface without reflection, or one that the pipeline leaves to a "
+               "coarser level.\n");
     print_side(&probe->own);
     if (probe->own.trace.dropped)
         printf("\n%zu further steps exceeded the recording buffer.\n", probe->own.trace.dropped);

@@ -234,8 +234,9 @@ struct glint_shadow {
     double world_to_shadow[16]; /* row-major, for column vectors, invertible: orthographic or perspective */
     double range[2];            /* the depths nearest to the light and farthest from it, in [0, 1]; both 0: 0 and 1 */
     double bias;                /* added to the stored depth, away from the light, before the engine compares */
-    bool has_light;             /* false: the sun's */
-    uint32_t light;             /* number of the light in glint_frame */
+    bool has_light, has_stencil_class; /* false: the sun's; of all surfaces */
+    /* Numbers in glint_frame. Surfaces of the class are compared with this map and with the light's other maps, those of others are not. */
+    uint32_t light, stencil_class;
 };
 
 /* A grid of ambient cubes, slices one below the other: a part of cells_x × (cells_y · slices) pixels. Cell (i, j, k) lies from (i, j, k) to
@@ -455,7 +456,6 @@ bool glint_capture_validate(const char *path, const struct glint_limits *limits,
 #define GLINT_PART_PROBE "probe.000" /* the only probe that passes use */
 #define GLINT_PART_WATER "water"
 #define GLINT_PART_TRANSPARENT "transparent"
-#define GLINT_PART_SHADOW "shadow.000" /* the only shadow map that passes use */
 #define GLINT_PART_MIRROR "planar.000" /* the only planar map that passes use */
 
 /* ---- The registry of roles, which writer, reader, validation and the tables of FORMAT.md are generated from ---- */

@@ -39,7 +39,7 @@ void main() {
     if (any(greaterThanEqual(pixel, imageSize(composed)))) return;
     float depth_m = texelFetch(depth_full, pixel, 0).x;
     vec4 surface = texelFetch(normal_full, pixel, 0);
-    vec3 color = with_terms(pixel, texelFetch(lit, pixel, 0).rgb, depth_m, surface.xyz);
+    vec3 color = with_terms(pixel, diffuse_light(pixel), depth_m, surface.xyz);
     if (has_reflection && tile_works && reflects(depth_m, surface.xyz)) {
         vec3 weight = intensity * weight_of(pixel, depth_m, surface);
         probe_pixel(pixel);

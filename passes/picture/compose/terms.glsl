@@ -12,6 +12,8 @@ float kept_part(ivec2 pixel) {
     return kept_light(texelFetch(occlusion, pixel, 0).x, darkened ? texelFetch(engine_ao, pixel, 0).x : 1.0);
 }
 
+vec3 diffuse_light(ivec2 pixel) { return has_lit_scattered && scatter ? texelFetch(lit_scattered, pixel, 0).rgb : texelFetch(lit, pixel, 0).rgb; }
+
 vec3 with_terms(ivec2 pixel, vec3 color, float depth_m, vec3 normal) {
     bool traced = has_indirect && bounce && (ambient || is_replaced()), shaded = has_sun_shadow && shade,
          captured = has_captured() && ((has_occlusion && occlude) || is_replaced());
@@ -22,7 +24,9 @@ vec3 with_terms(ivec2 pixel, vec3 color, float depth_m, vec3 normal) {
         sun.irradiance = frame.sun_irradiance.rgb;
         sun.cosine = dot(normalize(normal), frame.sun_direction.xyz);
         sun.mask = has_sun_mask ? texelFetch(sun_mask, pixel, 0).x : 1.0;
-        if (has_shadow_mask) sun.mask = min(sun.mask, texelFetch(shadow_mask, pixel, 0).x); // it may come from a shadow map
+        // It may come from shadow maps.
+        if (has_shadow_soft) sun.mask = min(sun.mask, texelFetch(shadow_soft, pixel, 0).x);
+        else if (has_shadow_mask) sun.mask = min(sun.mask, texelFetch(shadow_mask, pixel, 0).x);
         sun.shadow = texelFetch(sun_shadow, pixel, 0).x;
     }
     vec3 light = changed_light(color, captured ? texelFetch(indirect_lit, pixel, 0).rgb : vec3(0.0), captured ? kept_part(pixel) : 1.0,

@@ -11,7 +11,9 @@ bool is_turned_away(ivec2 pixel, vec3 shading) {
 
 float sun_at(ivec2 pixel, float depth_m, vec3 normal) {
     if (facing && is_turned_away(pixel, normal)) return 0.0;
-    float mask = has_shadow_mask ? texelFetch(shadow_mask, pixel, 0).x : 1.0;
+    float mask = 1.0;
+    if (has_shadow_soft) mask = texelFetch(shadow_soft, pixel, 0).x;
+    else if (has_shadow_mask) mask = texelFetch(shadow_mask, pixel, 0).x;
     if (!(mask > 0.0)) return 0.0;
     return min(mask, clamp(1.0 - intensity * (1.0 - upscaled(pixel, depth_m, normal)), 0.0, 1.0));
 }

@@ -11,12 +11,14 @@ struct Estimate {
 
 // Whether the sun may light a pixel that the texel is interpolated for (filtering/corners.glsl).
 bool may_be_lit(ivec2 texel) {
-    if (!has_shadow_mask || !skip) return true;
+    if (!(has_shadow_mask || has_shadow_soft) || !skip) return true;
     ivec2 last = ivec2(frame.size.xy) - 1;
     int scale = int(reduction(frame.size)), margin = scale - 1;
     for (int y = -margin; y < scale + margin; ++y)
-        for (int x = -margin; x < scale + margin; ++x)
-            if (texelFetch(shadow_mask, clamp(scale * texel + ivec2(x, y), ivec2(0), last), 0).x > 0.0) return true;
+        for (int x = -margin; x < scale + margin; ++x) {
+            ivec2 pixel = clamp(scale * texel + ivec2(x, y), ivec2(0), last);
+            if ((has_shadow_soft ? texelFetch(shadow_soft, pixel, 0).x : texelFetch(shadow_mask, pixel, 0).x) > 0.0) return true;
+        }
     return false;
 }
 

@@ -6,28 +6,24 @@
 #include "shared/push_begin.glsl"
 #include "map.pass.h"
 };
+#include "shared/bayer.glsl"
 #include "shared/camera.glsl"
 #include "shared/sun.glsl"
+#include "shadow_maps/lookup.glsl"
 
-// The part of the compared texels that let the sun pass; points outside of the map are lit.
-float lit_by_map(vec3 world, vec3 normal) {
-    ivec2 size = textureSize(shadow_map, 0);
-    vec4 at = frame.shadow_uv_from_world * vec4(world, 1.0);
-    vec3 across = vec3(frame.shadow_uv_from_world[0].x, frame.shadow_uv_from_world[1].x, frame.shadow_uv_from_world[2].x);
-    float texel_m = at.w / (length(across) * float(size.x));
-    at = frame.shadow_uv_from_world * vec4(world + offset * texel_m * normal, 1.0);
-    if (!(at.w > 0.0)) return 1.0;
-    vec3 place = at.xyz / at.w;
-    if (!(all(greaterThanEqual(place, vec3(0.0))) && all(lessThan(place, vec3(1.0))))) return 1.0;
-    ivec2 first = ivec2(floor(place.xy * vec2(size) - 0.5 * float(taps - 1)));
-    float deep = place.z * frame.shadow_depth.x, bias = bias_part * frame.shadow_depth.y;
-    int lit_texels = 0;
-    for (int y = 0; y < taps; ++y)
-        for (int x = 0; x < taps; ++x) {
-            float stored = texelFetch(shadow_map, clamp(first + ivec2(x, y), ivec2(0), size - 1), 0).x;
-            if (!(deep > stored * frame.shadow_depth.x + bias)) ++lit_texels;
-        }
-    return float(lit_texels) / float(taps * taps);
+// By the finest map of all surfaces that holds this one, and by each map of its own class; surfaces in none are lit.
+float lit_by_maps(vec3 world, vec3 normal, uint id, vec2 pattern) {
+    bool compared = false;
+    float lit = 1.0;
+    for (int map = 0; is_map(map); ++map) {
+        uint of = frame.shadow_place[map].x;
+        vec3 place, above = world + offset * shadow_texel_m(map, world) * normal; // so that steep surfaces do not shade themselves
+        if (is_of_all(map) ? compared : (id & of >> 8u) != (of & 255u)) continue;
+        if (!place_in_map(map, above, place)) continue;
+        lit = min(lit, lit_by_map(map, place, map == 0 || !is_of_all(map) ? taps : far_taps, dither * pattern, bias_part));
+        compared = compared || is_of_all(map);
+    }
+    return lit;
 }
 
 void main() {
@@ -38,8 +34,9 @@ void main() {
     if (mask == mask_captured && depth_m > 0.0 && depth_m < LARGEST) {
         vec2 uv = (vec2(pixel) + 0.5) / vec2(frame.size.xy);
         vec3 view = view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
+        vec2 pattern = vec2(bayer4(pixel), bayer4(pixel.yx + 2)) - 0.5; // two patterns, so that a block of 4 x 4 pixels is spread over a square
         if (textureSize(sun_mask, 0) == ivec2(frame.size.xy)) visible = valid_mask(texelFetch(sun_mask, pixel, 0).x);
-        else if (reflects(depth_m, normal)) visible = lit_by_map(mat3(frame.world_from_view) * view, normalize(normal));
+        else if (reflects(depth_m, normal)) visible = lit_by_maps(mat3(frame.world_from_view) * view, normalize(normal), texelFetch(stencil_full, pixel, 0).x, pattern);
     }
     imageStore(shadow_mask, pixel, vec4(visible));
 }

@@ -24,14 +24,16 @@ enum glint_truths {
     GLINT_TRUTH_PICTURE = 32      /* lit, with traced in place of baked indirect light, and what surfaces reflect */
 };
 
-/* What the engine writes of its light only when asked. */
+/* What the engine writes only when asked. */
 enum glint_also {
-    GLINT_ALSO_AO = 1,     /* its own, coarse ambient occlusion, over half the radius of the truth */
-    GLINT_ALSO_SUN = 2,    /* its shadow mask, in scenes with a sun */
-    GLINT_ALSO_SHADOW = 4, /* one shadow map, in scenes with a sun */
-    GLINT_ALSO_VOLUME = 8, /* a volume of light */
-    GLINT_ALSO_LUT = 16,   /* the table of colours that it grades with */
-    GLINT_ALSO_DIRT = 32   /* the dirt on its lens */
+    GLINT_ALSO_AO = 1,       /* its own, coarse ambient occlusion, over half the radius of the truth */
+    GLINT_ALSO_SUN = 2,      /* its shadow mask, in scenes with a sun */
+    GLINT_ALSO_SHADOW = 4,   /* shadow maps, in scenes with a sun */
+    GLINT_ALSO_VOLUME = 8,   /* a volume of light */
+    GLINT_ALSO_LUT = 16,     /* the table of colours that it grades with */
+    GLINT_ALSO_DIRT = 32,    /* the dirt on its lens */
+    GLINT_ALSO_STIPPLE = 64, /* where stippled surfaces were drawn */
+    GLINT_ALSO_DECALS = 128  /* decals on the ground, in buffers of their own */
 };
 
 struct glint_sample_options {
@@ -51,6 +53,8 @@ struct glint_sample_options {
     double occlusion_radius; /* m: how far the truth of occlusion looks for occluders; 0: 1 */
     double contact_length;   /* m: how far that of contact shadows does; 0: 0.5 */
     uint32_t also;           /* enum glint_also */
+    uint32_t
+        cascades; /* shadow maps of GLINT_ALSO_SHADOW, each three times as wide as the one before, at most 4; 0: 1 */
     bool truth_of_pixels; /* of their whole areas, as a still camera sees them over its jitter; false: of the samples */
     uint32_t light_samples; /* rays a point for indirect light; 0: the scene's default */
     double fov_y_rad;       /* 0: the scene's */

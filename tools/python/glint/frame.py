@@ -236,6 +236,8 @@ class Shadow:
     """what the engine adds to the stored depth, away from the light, before it compares, ≥ 0"""
     light: int | None = None
     """the number of the light in Frame.lights; None: the sun's"""
+    stencil_class: int | None = None
+    """the number of the class in Frame.classes whose surfaces alone are compared with the map; None: all surfaces"""
 
 
 @mirrors("glint_light_volume")

@@ -1,0 +1,6 @@
+/* How many shadow maps of the sun passes see, for C and GLSL. They lie one below the other in one image, in the order of their numbers. */
+#ifndef GLINT_SHADOW_MAPS_H
+#define GLINT_SHADOW_MAPS_H
+#define SHADOW_MAPS 8
+#define SHADOW_ROWS 16384 /* of all maps; those that lie beyond are not used */
+#endif
