@@ -7,11 +7,8 @@
 #include "composed.pass.h"
 };
 
+#include "this_frame/composed.glsl"
+
 // The last picture that the pipeline writes.
-vec3 picture(ivec2 pixel) {
-    if (has_composed_transparent) return texelFetch(composed_transparent, pixel, 0).rgb;
-    if (has_composed_fog) return texelFetch(composed_fog, pixel, 0).rgb;
-    if (has_composed_water) return texelFetch(composed_water, pixel, 0).rgb;
-    return texelFetch(composed, pixel, 0).rgb;
-}
+vec3 picture(ivec2 pixel) { return has_unstippled ? texelFetch(unstippled, pixel, 0).rgb : composed_picture(pixel).rgb; }
 #include "accumulate.glsl"

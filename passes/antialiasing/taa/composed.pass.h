@@ -2,7 +2,5 @@
 PASS("Of the composed picture", "Mafia DE article, Temporal AA")
 #include "slot.h"
 #line 202
-READ(texture2D, composed)
-OPTIONAL_READ(texture2D, composed_water, RGBA16F, FULL, 0)
-OPTIONAL_READ(texture2D, composed_fog, RGBA16F, FULL, 0)
-OPTIONAL_READ(texture2D, composed_transparent, RGBA16F, FULL, 0)
+OPTIONAL_READ(texture2D, unstippled, RGBA16F, FULL, 0)
+#include "this_frame/composed_rows.h"

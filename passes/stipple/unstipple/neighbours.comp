@@ -6,13 +6,7 @@
 #include "shared/push_begin.glsl"
 #include "neighbours.pass.h"
 };
-
-vec4 picture(ivec2 pixel) {
-    if (has_composed_transparent) return texelFetch(composed_transparent, pixel, 0);
-    if (has_composed_fog) return texelFetch(composed_fog, pixel, 0);
-    if (has_composed_water) return texelFetch(composed_water, pixel, 0);
-    return texelFetch(composed, pixel, 0);
-}
+#include "this_frame/composed.glsl"
 
 bool is_inside(ivec2 pixel) { return all(greaterThanEqual(pixel, ivec2(0))) && all(lessThan(pixel, ivec2(frame.size.xy))); }
 bool is_drawn(ivec2 pixel) {
@@ -23,13 +17,13 @@ bool is_drawn(ivec2 pixel) {
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, imageSize(unstippled)))) return;
-    vec4 color = picture(pixel);
+    vec4 color = composed_picture(pixel);
     ivec2 left = pixel - ivec2(1, 0), right = pixel + ivec2(1, 0);
     bool own = is_drawn(pixel), first = is_drawn(left), second = is_drawn(right);
     if (own ? drawn : gaps && first && second) {
         vec4 others = vec4(0.0);
-        if (is_inside(left) && first != own) others += vec4(picture(left).rgb, 1.0);
-        if (is_inside(right) && second != own) others += vec4(picture(right).rgb, 1.0);
+        if (is_inside(left) && first != own) others += vec4(composed_picture(left).rgb, 1.0);
+        if (is_inside(right) && second != own) others += vec4(composed_picture(right).rgb, 1.0);
         if (others.w > 0.0) color.rgb = 0.5 * (color.rgb + others.rgb / others.w);
     }
     imageStore(unstippled, pixel, color);
