@@ -147,7 +147,8 @@ static void a_start_beside_a_centre_reaches_every_face(void **state) {
                               .cube_count = 1,
                               .cube = sphere,
                               .spoil = one_mirror};
-        plain.cubes[0].center[2] = -5 - (far ? 0.5 : 0.001); /* behind the wall, from which the ray returns through it */
+        plain.cubes[0].center[2] =
+            -5 - (far ? 0.5 : 0.001); /* behind the wall, from which the ray returns through it */
         plain_capture(gpu_path(gpu, "beside", path), &plain);
         gpu_load(gpu, "beside");
         gpu_reset(gpu);

@@ -102,11 +102,9 @@ static void only_the_step_behind_a_surface_is_bisected(void **state) {
     struct gpu *gpu = *state;
     char path[256];
     uint32_t *steps[2], bisected = 0, most = 0;
-    plain_capture(gpu_path(gpu, "bar", path), &(struct plain){.width = BAR_WIDTH,
-                                                              .height = BAR_HEIGHT,
-                                                              .fov_y_degrees = 60,
-                                                              .floor = true,
-                                                              .spoil = bar});
+    plain_capture(
+        gpu_path(gpu, "bar", path),
+        &(struct plain){.width = BAR_WIDTH, .height = BAR_HEIGHT, .fov_y_degrees = 60, .floor = true, .spoil = bar});
     gpu_load(gpu, "bar");
     for (int i = 0; i < 2; ++i) {
         screen_rays(gpu, "screen_trace=linear_facets");

@@ -119,7 +119,8 @@ static void barred_wall(const struct plain *plain, float *values) {
         const bool floor = values[PLAIN_NORMAL_Y * pixels + i] > 0.5f, bar = is_bar((int)(i % SIZE));
         float *normal[3];
         for (uint32_t k = 0; k < 3; ++k) normal[k] = &values[(PLAIN_NORMAL_X + k) * pixels + i];
-        if (plain->world_to_view) { /* the transpose turns directions back: y, z, x of the view are x, y, z of the world */
+        if (plain
+                ->world_to_view) { /* the transpose turns directions back: y, z, x of the view are x, y, z of the world */
             const float seen[3] = {*normal[0], *normal[1], *normal[2]};
             for (int k = 0; k < 3; ++k) *normal[k] = seen[(k + 1) % 3];
         }
