@@ -143,7 +143,7 @@ static void a_start_beside_a_centre_reaches_every_face(void **state) {
         struct plain plain = {.width = 33,
                               .height = 33,
                               .fov_y_degrees = 60,
-                              .cube_size = 64,
+                              .cube_size = 16,
                               .cube_count = 1,
                               .cube = sphere,
                               .spoil = one_mirror};
