@@ -154,9 +154,12 @@ static void a_start_beside_a_centre_reaches_every_face(void **state) {
         gpu_reset(gpu);
         gpu_set(gpu, "downsample.jitter=false");
         gpu_set(gpu, "screen_trace.length_m=0");
-        gpu_run(gpu);
         const struct glint_survey *survey = NULL;
-        if (!glint_replay_survey(gpu->replay, &survey, NULL, &err)) fail_msg("%s", err.message);
+        const struct glint_plan_entry *entries;
+        size_t count;
+        if (!glint_replay_plan(gpu->replay, gpu->pipeline, NULL, &entries, &count, &err) ||
+            !glint_replay_survey(gpu->replay, &survey, NULL, &err))
+            fail_msg("%s", err.message);
         assert_int_equal(survey->active_traced, 1);
         assert_int_equal(survey->active[0].crossed, far ? 1 << 4 : 0x3F); /* +Z alone */
     }
