@@ -174,37 +174,4 @@ HARMLESS = {
 }
 
 # {(file, line, line): missing case}: neither harmless nor noticed yet. A new one fails the test.
-MISSING = {
-    ("previous_frame/history.glsl",
-     "if (weight < 1e-3 || any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(frame.size.zw)))) continue;",
-     "if (weight < 0.0 || any(lessThan(texel, ivec2(0))) || any(greaterThanEqual(texel, ivec2(frame.size.zw)))) continue;"):
-        "a bright texel beside one whose history is reprojected by the cameras to its own centre",
-    ("reflection/resolve/color.glsl",
-     "if (alone) color = vec4(color.rgb / max(color.a, MIN_SHARE), 1.0);",
-     "if (alone) color = vec4(color.rgb / (color.a), 1.0);"):
-        "a coarse level of a cube map that is sky but for a surface of one texel",
-    ("reflection/resolve/color.glsl",
-     "if (level > 0.0 && ray.endless && joint && has_sky_mips && frame.counts.w > 0u) return SKY;",
-     "if (level < 0.0 && ray.endless && joint && has_sky_mips && frame.counts.w > 0u) return SKY;"):
-        "a wide cone that ends in the sky of the picture, where the sky's cube map has another colour",
-    ("reflection/resolve_sharp/hit.comp",
-     "if (neighbours) end = own_end(pixel, texel, end, position, mirror_direction(position, surface.xyz));",
-     "if (neighbours) end = own_end(pixel, texel, end, position, mirror_direction(position, surface.zyx));"):
-        "hits of surrounding rays on surfaces whose normals have unequal components x and z",
-    ("reflection/water/combine.comp",
-     "ivec2 pixel_at(vec2 uv) { return clamp(ivec2(uv * vec2(frame.size.xy)), ivec2(0), ivec2(frame.size.xy) - 1); }",
-     "ivec2 pixel_at(vec2 uv) { return (ivec2(uv * vec2(frame.size.xy))); }"):
-        "refracted rays that leave the picture",
-    ("screen_rays/along.glsl",
-     "vec2 end = clamp(vec2(texel) + 0.5 + ray.end * ray.across / reduction(frame.size), vec2(0.0), vec2(frame.size.zw) - 0.5);",
-     "vec2 end = clamp(vec2(texel)  + ray.end * ray.across / reduction(frame.size), vec2(0.0), vec2(frame.size.zw) - 0.5);"):
-        "a ray whose vanishing point lies in the last half of a texel of sky",
-    ("screen_rays/linear_facets.glsl",
-     "for (int k = 0; k < refinements && crossing.what == CELL_BEHIND && in_front; ++k) {",
-     "for (int k = 0; k < refinements && crossing.what == CELL_BEHIND ; ++k) {"):
-        "steps of a ray that was behind a surface before, by their number",
-    ("survey/reach.comp",
-     "bool all = !(length(from) > 1e-3 * (1.0 + length(origin))); // its direction is undefined",
-     "bool all = !(length(from) > 0.0 * (1.0 + length(origin))); // its direction is undefined"):
-        "a mirror within rounding of a cube map's centre",
-}
+MISSING = {}

@@ -129,10 +129,47 @@ static void a_start_in_a_centre_has_a_score(void **state) {
     free(best), free(index);
 }
 
+/* One mirror, whose ray starts within rounding of a cube map's centre: the face that it starts at is uncertain, so that all count as reached. */
+static void one_mirror(const struct plain *plain, float *values) {
+    const uint32_t pixels = plain->width * plain->height;
+    for (uint32_t i = 0; i < pixels; ++i)
+        if (i != pixels / 2) values[PLAIN_DEPTH * pixels + i] = INFINITY;
+}
+static void a_start_beside_a_centre_reaches_every_face(void **state) {
+    struct gpu *gpu = *state;
+    char path[256];
+    struct glint_error err = {0};
+    for (int far = 0; far < 2; ++far) {
+        struct plain plain = {.width = 33,
+                              .height = 33,
+                              .fov_y_degrees = 60,
+                              .cube_size = 16,
+                              .cube_count = 1,
+                              .cube = sphere,
+                              .spoil = one_mirror};
+        plain.cubes[0].center[2] =
+            -5 - (far ? 0.5 : 0.001); /* behind the wall, from which the ray returns through it */
+        plain_capture(gpu_path(gpu, "beside", path), &plain);
+        gpu_load(gpu, "beside");
+        gpu_reset(gpu);
+        gpu_set(gpu, "downsample.jitter=false");
+        gpu_set(gpu, "screen_trace.length_m=0");
+        const struct glint_survey *survey = NULL;
+        const struct glint_plan_entry *entries;
+        size_t count;
+        if (!glint_replay_plan(gpu->replay, gpu->pipeline, NULL, &entries, &count, &err) ||
+            !glint_replay_survey(gpu->replay, &survey, NULL, &err))
+            fail_msg("%s", err.message);
+        assert_int_equal(survey->active_traced, 1);
+        assert_int_equal(survey->active[0].crossed, far ? 1 << 4 : 0x3F); /* +Z alone */
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_term_alone_and_together_decides),
         cmocka_unit_test(a_start_in_a_centre_has_a_score),
+        cmocka_unit_test(a_start_beside_a_centre_reaches_every_face),
     };
     return cmocka_run_group_tests_name("gpu_cubemap_select", tests, gpu_set_up, gpu_tear_down);
 }

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "end_reason_names.h"
 #include "gpu.h"
 #include "plain_capture.h"
 #include "unit.h"
@@ -333,6 +334,77 @@ static void bad_pixels_do_not_spread(void **state) {
     }
 }
 
+/* ---- colours at the ends of wide rays ---- */
+
+/* A floor whose left half is a mirror and whose right half is rough, below a sky that is red in the picture. */
+static void red_sky(const struct plain *plain, float *values) {
+    const uint32_t pixels = plain->width * plain->height;
+    for (uint32_t i = 0; i < pixels; ++i) {
+        const bool floor = values[PLAIN_NORMAL_Y * pixels + i] > 0.5f;
+        if (!floor) values[PLAIN_DEPTH * pixels + i] = INFINITY;
+        if (i % plain->width >= plain->width / 2) values[PLAIN_ROUGHNESS * pixels + i] = 0.5f;
+        for (uint32_t c = 0; c < 3; ++c) values[(PLAIN_LIT_R + c) * pixels + i] = floor ? 0 : c == 0 ? 2 : 0.125f;
+    }
+}
+
+/* The picture shows a part of the sky, which a wide ray exceeds, so that its colour is that of the sky's cube map; a mirror's is in the picture. */
+static void wide_rays_into_the_sky_see_its_cube_map(void **state) {
+    static const float sky[3] = {0.25f, 0.5f, 1.0f}, seen[3] = {2, 0.125f, 0.125f};
+    struct gpu *gpu = *state;
+    struct plain plain = {.width = 64,
+                          .height = 48,
+                          .fov_y_degrees = 60,
+                          .floor = true,
+                          .spoil = red_sky,
+                          .cube_size = 8,
+                          .sky = gray_sky};
+    load_capture(gpu, "red", &plain);
+    gpu_use(gpu, "downsample=none");
+    gpu_set(gpu, "downsample.jitter=false");
+    gpu_use(gpu, "screen_trace=dda");
+    gpu_run(gpu);
+    uint32_t *end = gpu_uints(gpu, "screen_end", NULL, NULL), wide = 0, narrow = 0;
+    float *color = gpu_floats(gpu, "reflection_half", NULL, NULL);
+    for (uint32_t i = 0; i < 64 * 48; ++i) {
+        if (end[i] != END_sky) continue;
+        const bool rough = i % 64 >= 32;
+        *(rough ? &wide : &narrow) += 1;
+        for (uint32_t c = 0; c < 3; ++c) assert_true(fabsf(color[4 * i + c] - (rough ? sky : seen)[c]) < 1e-5f);
+    }
+    print_message("# %u wide rays, %u narrow ones\n", wide, narrow);
+    assert_true(wide > 300 && narrow > 300);
+    free(end), free(color);
+}
+
+/* Sky, but for a square of 2 x 2 texels of 64 on the face +Z. */
+static void small_lamp(UNUSED uint32_t number, const double d[3], float out[5]) {
+    const bool lamp = d[2] > 0 && fabs(d[0]) < 0.032 * d[2] && fabs(d[1]) < 0.032 * d[2];
+    for (int k = 0; k < 4; ++k) out[k] = lamp ? 1 : 0;
+    out[4] = lamp ? 4 : INFINITY;
+}
+
+/* Where less than a 64th of a level is surfaces, their colour is not divided by more than that. The ray of the central pixel ends on the lamp. */
+static void a_small_share_of_surfaces_is_not_enlarged(void **state) {
+    struct gpu *gpu = *state;
+    enum { WIDTH = 21, HEIGHT = 13, MIDDLE = HEIGHT / 2 * WIDTH + WIDTH / 2 };
+    struct plain plain = plain_with(64, small_lamp);
+    plain.width = WIDTH, plain.height = HEIGHT, plain.roughness = 1;
+    load_capture(gpu, "lamp", &plain);
+    gpu_use(gpu, "downsample=none");
+    gpu_set(gpu, "downsample.jitter=false");
+    gpu_set(gpu, "screen_trace.length_m=0");
+    gpu_use(gpu, "cubemap_trace=sphere");
+    gpu_set(gpu, "cubemap_trace.default_m=4");
+    gpu_run(gpu);
+    float *coarsest = level_of(gpu, "cubemap_color_mips", 6, NULL, NULL),
+          *color = gpu_floats(gpu, "reflection_half", NULL, NULL);
+    const float share = coarsest[4 * 4 + 3], *found = color + 4 * MIDDLE;
+    print_message("# of a share of %g: %g\n", (double)share, (double)found[0]);
+    assert_true(share > 0 && share < 1.0f / 128);
+    for (int c = 0; c < 3; ++c) assert_true(fabsf(found[c] / (64 * share) - 1) < 0.02f); /* weights of 8 bits */
+    free(coarsest), free(color);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_constant_environment_stays_constant),
@@ -342,6 +414,8 @@ int main(void) {
         cmocka_unit_test(the_picture_is_filtered_with_29_taps),
         cmocka_unit_test(every_level_of_the_picture_is_as_wide_as_its_cone),
         cmocka_unit_test(bad_pixels_do_not_spread),
+        cmocka_unit_test(wide_rays_into_the_sky_see_its_cube_map),
+        cmocka_unit_test(a_small_share_of_surfaces_is_not_enlarged),
     };
     return cmocka_run_group_tests_name("gpu_mips", tests, gpu_set_up, gpu_tear_down);
 }

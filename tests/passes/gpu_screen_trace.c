@@ -382,6 +382,38 @@ static void from_the_floor_to_the_wall(void **state) {
     }
 }
 
+/* Below the middle a floor that reflects every pixel to the row as far above it, a quarter of a pixel to the left of its centre, so that a ray stays
+   in its column. Above it the left half is a wall, the right one the sky. */
+static void wall_beside_the_sky(const struct plain *plain, float *values) {
+    for (uint32_t i = 0; i < WIDE * HIGH; ++i) {
+        const double across = slope_of(i % WIDE, WIDE), down = slope_of(i / WIDE, HIGH);
+        if (i % WIDE >= WIDE / 2) plane_of(plain, values, PLAIN_DEPTH)[i] = INFINITY;
+        if (!(down > 0)) continue;
+        const double to[3] = {slope_of(i % WIDE - 0.25, WIDE), down, -1}, from[3] = {across, -down, -1};
+        const double far = hypot(hypot(to[0], down), 1), near = hypot(hypot(across, down), 1);
+        double normal[3], square = 0;
+        for (int k = 0; k < 3; ++k) normal[k] = to[k] / far - from[k] / near, square += normal[k] * normal[k];
+        plane_of(plain, values, PLAIN_DEPTH)[i] = (float)(1 / down);
+        for (int k = 0; k < 3; ++k)
+            plane_of(plain, values, PLAIN_NORMAL_X + (enum plain_channel)k)[i] = (float)(normal[k] / sqrt(square));
+    }
+}
+
+static void a_ray_ends_in_the_sky_of_its_vanishing_point(void **state) {
+    struct gpu *gpu = *state;
+    char path[256];
+    struct plain plain = {.width = WIDE, .height = HIGH, .fov_y_degrees = degrees, .spoil = wall_beside_the_sky};
+    plain_capture(gpu_path(gpu, "vanishing", path), &plain);
+    gpu_load(gpu, "vanishing");
+    for (int v = 0; v < 2; ++v) {
+        load_screen_trace(gpu, walkers[v]);
+        struct traced t = trace_screen(gpu);
+        for (uint32_t i = (HIGH / 2 + 1) * WIDE; i < HIGH * WIDE; ++i)
+            assert_true((t.end[i] == END_sky) == (i % WIDE >= WIDE / 2));
+        traced_free(&t);
+    }
+}
+
 /* ---- linear_binary ---- */
 
 static double median_error(struct gpu *gpu, const char *setting, size_t *hits) {
@@ -453,6 +485,7 @@ int main(int argc, UNUSED char **argv) {
         cmocka_unit_test(towards_the_camera_nothing_is_hit),
         cmocka_unit_test(past_the_camera_it_ends_at_the_near_plane),
         cmocka_unit_test(from_the_floor_to_the_wall),
+        cmocka_unit_test(a_ray_ends_in_the_sky_of_its_vanishing_point),
         cmocka_unit_test(bisections_bring_a_hit_to_its_texel),
         cmocka_unit_test(with_infinite_thickness_all_is_solid),
     };

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "gpu.h"
+#include "plain_capture.h"
 #include "unit.h"
 
 /* The end of each ray and its cube map, which is NULL for screen rays. */
@@ -83,6 +84,47 @@ static void finer_steps_on_screen_end_as_texel_by_texel(void **state) {
     ends_free(&walked);
 }
 
+/* A bar near the camera, in front of a wall and its floor. */
+enum { BAR_WIDTH = 81, BAR_HEIGHT = 121, BELOW_THE_BAR = 85 };
+static void bar(const struct plain *plain, float *values) {
+    const uint32_t pixels = plain->width * plain->height;
+    for (uint32_t i = 0; i < pixels; ++i) {
+        const double down = 2 * (i / plain->width + 0.5) / plain->height - 1;
+        if (down < -0.05 || down > 0.3) continue;
+        values[PLAIN_DEPTH * pixels + i] = 0.5F;
+        values[PLAIN_NORMAL_Y * pixels + i] = 0, values[PLAIN_NORMAL_Z * pixels + i] = 1;
+    }
+}
+
+/* A ray from the floor goes behind the bar once: one step of it is bisected, however many more end behind the bar. */
+static void only_the_step_behind_a_surface_is_bisected(void **state) {
+    static const char *const halvings[] = {"screen_trace.refinements=0", "screen_trace.refinements=4"};
+    struct gpu *gpu = *state;
+    char path[256];
+    uint32_t *steps[2], bisected = 0, most = 0;
+    plain_capture(
+        gpu_path(gpu, "bar", path),
+        &(struct plain){.width = BAR_WIDTH, .height = BAR_HEIGHT, .fov_y_degrees = 60, .floor = true, .spoil = bar});
+    gpu_load(gpu, "bar");
+    for (int i = 0; i < 2; ++i) {
+        screen_rays(gpu, "screen_trace=linear_facets");
+        gpu_set(gpu, "screen_trace.dither=false");
+        gpu_set(gpu, "screen_trace.growth=1");
+        gpu_set(gpu, "screen_trace.steps=24");
+        gpu_set(gpu, "screen_trace.solid=1");
+        gpu_set(gpu, halvings[i]);
+        gpu_run(gpu);
+        steps[i] = gpu_uints(gpu, "screen_steps", NULL, NULL);
+    }
+    for (uint32_t i = BELOW_THE_BAR * BAR_WIDTH; i < BAR_HEIGHT * BAR_WIDTH; ++i) {
+        const uint32_t more = steps[1][i] > steps[0][i] ? steps[1][i] - steps[0][i] : 0;
+        bisected += more > 0, most = more > most ? more : most;
+    }
+    print_message("# %u rays bisect, in at most %u more steps\n", bisected, most);
+    assert_true(bisected > 1000 && most <= 4);
+    free(steps[0]), free(steps[1]);
+}
+
 static void cube_map_rays(struct gpu *gpu, const char *variant) {
     gpu_reset(gpu);
     gpu_use(gpu, "downsample=none");
@@ -138,6 +180,7 @@ static void finer_steps_through_cube_maps_end_as_by_texels(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(finer_steps_on_screen_end_as_texel_by_texel),
+        cmocka_unit_test(only_the_step_behind_a_surface_is_bisected),
         cmocka_unit_test(finer_steps_through_cube_maps_end_as_by_texels),
     };
     return cmocka_run_group_tests_name("gpu_step_limits", tests, gpu_set_up, gpu_tear_down);

@@ -232,7 +232,7 @@ static double refracted_length(const double from[3], const double ray[3], int x,
 }
 
 /* The bottom has constant light, of which half is left after each metre, so that the image shows the length of the refracted ray: for
-   the pixel where it ends, after two lookups. */
+   the pixel where it ends, after two lookups; outside of the picture, for the nearest pixel. */
 static void depth_is_looked_up_at_the_refracted_position(void **state) {
     struct gpu *gpu = *state;
     load_plain(gpu, lake_at);
@@ -240,7 +240,7 @@ static void depth_is_looked_up_at_the_refracted_position(void **state) {
     gpu_set(gpu, "compose.intensity=0");
     gpu_run(gpu);
     float *seen = gpu_floats(gpu, "composed_water", NULL, NULL);
-    int count = 0;
+    int count = 0, beyond = 0;
     for (int i = 0; i < SIDE * SIDE; ++i) {
         const double across = (2 * (i % SIDE + 0.5) / SIDE - 1) * half_view, down = down_at(i / SIDE);
         if (!(down > 0.1)) continue;
@@ -250,21 +250,25 @@ static void depth_is_looked_up_at_the_refracted_position(void **state) {
         const double from[3] = {across / down, -1, -1 / down};
         const double ray[3] = {flat[0], -sqrt(1 - flat[0] * flat[0] - flat[1] * flat[1]), flat[1]};
         double place[2], way = refracted_length(from, ray, i % SIDE, i / SIDE, place);
-        bool sure = true;
+        bool sure = true, left = false;
         for (int k = 0; k < 2 && sure; ++k) {
-            for (int c = 0; c < 2; ++c) /* rounding may lead to the next pixel; pixels without water are ignored */
-                sure = sure && fabs(place[c] - round(place[c])) > 1e-3 && place[c] > 0 && place[c] < SIDE;
-            sure = sure && down_at(floor(place[1])) > 0.1;
-            if (sure) way = refracted_length(from, ray, (int)place[0], (int)place[1], place);
+            int there[2];
+            for (int c = 0; c < 2; ++c) { /* rounding may lead to the next pixel; pixels without water are ignored */
+                sure = sure && fabs(place[c] - round(place[c])) > 1e-3;
+                left = left || place[c] < 0 || place[c] > SIDE;
+                there[c] = (int)fmin(fmax(place[c], 0), SIDE - 1);
+            }
+            sure = sure && down_at(there[1]) > 0.1;
+            if (sure) way = refracted_length(from, ray, there[0], there[1], place);
         }
-        sure = sure && place[0] > 0 && place[0] < SIDE && place[1] < SIDE && down_at(floor(place[1])) > 0.11;
+        sure = sure && down_at(fmin(floor(place[1]), SIDE - 1)) > 0.11;
         if (!sure) continue;
         /* pow: 16 ULP of an exponent below 1, and a dozen roundings of the length before */
         assert_true(fabs((double)seen[4 * i + 1] - 0.5 * pow(0.5, way)) < 1e-5);
-        ++count;
+        ++count, beyond += left;
     }
-    print_message("# %d pixels\n", count);
-    assert_true(count > SIDE * SIDE / 8);
+    print_message("# %d pixels, %d of them with rays that leave the picture\n", count, beyond);
+    assert_true(count > SIDE * SIDE / 8 && beyond > SIDE);
     free(seen);
 }
 
