@@ -28,6 +28,14 @@ static size_t row_count(const struct exchange *slot, int mode) {
     return pass ? pass->row_count : 0;
 }
 
+/* The capture has it where no pass makes it in its place. */
+static bool is_captured(const char *image) {
+    size_t count, i = 0;
+    const struct glint_row *rows = glint_capture_images(&count);
+    while (i < count && strcmp(rows[i].name, image)) i++;
+    return i < count;
+}
+
 /* These functions test a reason for exchanging two slots together and describe it in `text`, which may be NULL. */
 static bool needs_image(const struct exchange *reader, const struct exchange *maker, char *text, size_t size) {
     for (int mode = 0; mode < MODES; mode++)
@@ -37,7 +45,7 @@ static bool needs_image(const struct exchange *reader, const struct exchange *ma
             for (size_t n = row->optional ? 0 : glint_row_reads(row, names); n-- > 0;) {
                 const bool own = makes_image(maker, MODE_OWN, names[n]),
                            theirs = makes_image(maker, MODE_REFERENCE, names[n]);
-                if (own == theirs) continue;
+                if (own == theirs || is_captured(names[n])) continue;
                 const struct glint_pass *pass = reader->pass[mode], *by = maker->pass[own ? MODE_OWN : MODE_REFERENCE];
                 if (text)
                     snprintf(text, size, "%s/%s reads %s, which only %s/%s makes", pass->slot, pass->variant, names[n],

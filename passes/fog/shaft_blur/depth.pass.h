@@ -2,8 +2,7 @@
 PASS("Rows, columns, up", "GTA V article, light-shaft map")
 #include "slot.h"
 #line 202
-REFERENCE
-REFERENCE_SET(shaft_blur, radius, 0)
+REFERENCE_NONE("the reference has no fog")
 WRITE(image2D, shaft_across, R16F, "1", HALF, "lit", 1, "shaft_half after the blur along rows")
 WRITE(image2D, shaft_blurred, R16F, "1", HALF, "lit", 1, "shaft_across after the blur along columns")
 READ_OWN(texture2D, across, shaft_across)

@@ -3,7 +3,7 @@
 PASS("Rows, then columns", "Mafia DE article, Subsurface Scattering")
 #include "slot.h"
 #line 202
-REFERENCE
+REFERENCE_NONE("the truths of a capture are of light that does not scatter under surfaces")
 WRITE(image2D, lit_across, RGBA16F, "radiance", FULL, "R G B A", 0, "lit after the blur along rows")
 READ_OWN(texture2D, across, lit_across)
 DISPATCH(lit_across)
