@@ -32,6 +32,6 @@ float lit_by_map(int map, vec3 place, int wide, vec2 shift, float bias_part) {
 }
 
 // Whether the map is of all surfaces, not of a stencil class alone.
-bool is_of_all(int map) { return frame.shadow_place[map].x == 0u; }
+bool is_of_all(int map) { return frame.shadow_class[map].z == 0u; }
 bool is_map(int map) { return map < SHADOW_MAPS && frame.shadow_place[map].z != 0u; }
 #endif

@@ -105,6 +105,11 @@ void frame_block_mirror(struct frame_block *block, const struct glint_frame *fra
                                  (float)(planar->plane[2] / length), (float)(offset / length * metres)};
 }
 
+/* As shaders compare ids with a class: (id & y) == x. */
+static uvec4 class_ids(const struct glint_stencil_class *class) {
+    return (uvec4){class->value, class->mask ? class->mask : UINT32_MAX, 1, 0};
+}
+
 size_t frame_sun_maps(const struct glint_capture *capture, const struct glint_part_info *maps[SHADOW_MAPS]) {
     size_t count = 0, rows = 0;
     const size_t parts = glint_capture_part_count(capture);
@@ -151,11 +156,9 @@ void frame_block_shadows(struct frame_block *block, const struct glint_capture *
     uint32_t row = 0;
     for (size_t k = 0; k < count; row += maps[k++]->height) {
         const struct glint_shadow *shadow = &maps[k]->shadow;
-        const struct glint_stencil_class *class = &frame->classes[shadow->stencil_class];
-        const uint32_t mask = class->mask & 255 ? class->mask & 255 : 255;
         fill_shadow(block, k, frame, shadow);
-        block->shadow_place[k] = (uvec4){shadow->has_stencil_class ? (class->value & mask) + 256 * mask : 0, row,
-                                         maps[k]->width, maps[k]->height};
+        block->shadow_place[k] = (uvec4){0, row, maps[k]->width, maps[k]->height};
+        if (shadow->has_stencil_class) block->shadow_class[k] = class_ids(&frame->classes[shadow->stencil_class]);
     }
 }
 
@@ -220,10 +223,8 @@ static void fill_sun(struct frame_block *block, const struct glint_frame *frame)
 }
 
 static uvec4 class_of(const struct glint_frame *frame, const char *name) {
-    for (uint32_t i = 0; i < frame->class_count; i++) {
-        const struct glint_stencil_class *class = &frame->classes[i];
-        if (strcmp(class->name, name) == 0) return (uvec4){class->value, class->mask ? class->mask : UINT32_MAX, 1, 0};
-    }
+    for (uint32_t i = 0; i < frame->class_count; i++)
+        if (strcmp(frame->classes[i].name, name) == 0) return class_ids(&frame->classes[i]);
     return (uvec4){0, 0, 0, 0};
 }
 

@@ -24,7 +24,7 @@ float visibility_at(ivec2 texel) {
 
 // Whether all pixels within the radius are lit, so that the blur would change none of them.
 bool is_lit_around(ivec2 pixel) {
-    int wide = frame.size.xy == frame.size.zw ? 4 : 8; // of the blocks of shadow_early
+    int wide = 4 * int(reduction(frame.size)); // of the blocks of shadow_early
     if (!has_shadow_early || radius > wide) return false;
     return texelFetch(shadow_early, min(pixel / wide, textureSize(shadow_early, 0) - 1), 0).x >= 1.0;
 }

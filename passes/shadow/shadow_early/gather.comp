@@ -6,10 +6,11 @@
 #include "shared/push_begin.glsl"
 #include "gather.pass.h"
 };
+#include "shared/camera.glsl"
 
 // The last texels take what is left of the picture.
 float least_of_block(ivec2 texel, ivec2 size) {
-    int wide = frame.size.xy == frame.size.zw ? 4 : 8; // EIGHTH is a quarter of HALF, which may be all of the picture
+    int wide = 4 * int(reduction(frame.size)); // EIGHTH is a quarter of HALF, which may be all of the picture
     ivec2 last = ivec2(frame.size.xy) - 1, from = texel * wide, to = min(from + wide - 1, last);
     if (texel.x == size.x - 1) to.x = last.x;
     if (texel.y == size.y - 1) to.y = last.y;

@@ -16,9 +16,10 @@ float lit_by_maps(vec3 world, vec3 normal, uint id, vec2 pattern) {
     bool compared = false;
     float lit = 1.0;
     for (int map = 0; is_map(map); ++map) {
-        uint of = frame.shadow_place[map].x;
-        vec3 place, above = world + offset * shadow_texel_m(map, world) * normal; // so that steep surfaces do not shade themselves
-        if (is_of_all(map) ? compared : (id & of >> 8u) != (of & 255u)) continue;
+        uvec4 of = frame.shadow_class[map];
+        vec3 place;
+        if (is_of_all(map) ? compared : (id & of.y) != of.x) continue;
+        vec3 above = world + offset * shadow_texel_m(map, world) * normal; // so that steep surfaces do not shade themselves
         if (!place_in_map(map, above, place)) continue;
         lit = min(lit, lit_by_map(map, place, map == 0 || !is_of_all(map) ? taps : far_taps, dither * pattern, bias_part));
         compared = compared || is_of_all(map);
