@@ -158,11 +158,15 @@ static bool create_pipeline(struct program *program, struct gpu *gpu, const stru
                             struct glint_error *err) {
     /* A CPU device compiles the shader without the code of probes in a third of the time; a GPU runs some passes up to a tenth slower from it. */
     const bool whole = constants->probed || !gpu->info.is_cpu;
-    const VkShaderModuleCreateInfo module_info = {.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO,
-                                                  .codeSize = whole ? spirv->bytes : spirv->unprobed_bytes,
-                                                  .pCode = whole ? spirv->words : spirv->unprobed};
+    VkShaderModuleCreateInfo module_info = {.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
+    uint32_t *words = whole ? spirv_exact(spirv->words, spirv->bytes, &module_info.codeSize)
+                            : spirv_exact(spirv->unprobed, spirv->unprobed_bytes, &module_info.codeSize);
+    if (!words) return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", name);
+    module_info.pCode = words;
     VkShaderModule module;
-    if (!vk_ok(vkCreateShaderModule(gpu->device, &module_info, NULL, &module), name, err)) return false;
+    const bool made = vk_ok(vkCreateShaderModule(gpu->device, &module_info, NULL, &module), name, err);
+    free(words);
+    if (!made) return false;
     device_set_name(gpu, VK_OBJECT_TYPE_SHADER_MODULE, (uint64_t)(uintptr_t)module, name);
     const VkSpecializationInfo values = {constants->count, constants->entries, constants->count * sizeof(uint32_t),
                                          constants->data};

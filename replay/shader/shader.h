@@ -40,6 +40,9 @@ bool spirv_check_bindings(const struct spirv *spirv, const struct glint_pass *pa
 /* Sets frame_words and probes. */
 void spirv_find_uses(struct spirv *spirv);
 
+/* exact.c: a copy of a module in which each operation on floats is rounded by itself. The caller frees it; NULL: out of memory. */
+uint32_t *spirv_exact(const uint32_t *words, size_t bytes, size_t *exact_bytes);
+
 /* flatten.c: the text of a user's shader with includes inlined and #line directives that preserve files and line numbers. Includes are looked
    up beside the file, then in `folder` (may be NULL), then among the built-in files. The caller frees the text. */
 char *shader_flatten(const char *path, const struct glint_pass *pass, const char *folder, struct glint_error *err);

@@ -134,13 +134,18 @@ static void edges_of_a_still_picture_hide_nothing(void **state) {
     }
 }
 
+/* Whether a pixel reflects the surroundings, which are the same in every frame; a device may weigh their texels with eight bits. */
+static bool is_even(const float *reflected) {
+    return fabs((double)reflected[0] - 7) <= 7.0 / 256;
+}
+
 /* Of a mirror's filter: where the square was, the reflection of this frame alone. Without the test of hidden history the square's reflection remains.
    Catches: a mask that the filter does not read, or reads elsewhere. */
 static void a_mirror_has_no_history_of_what_stood_before_it(void **state) {
     struct gpu *gpu = *state;
     for (int off = 0; off < 2; off++) {
         struct shot shot = {.number = 300u + 100u * (uint32_t)off, .square = true, .floor = true, .mirror = true};
-        size_t hidden = 0, alone = 0, others = 0;
+        size_t hidden = 0, lit = 0, alone = 0, others = 0;
         gpu_reset(gpu);
         gpu_use(gpu, "disocclusion=depth");
         gpu_use(gpu, "temporal_sharp=clamped");
@@ -151,12 +156,14 @@ static void a_mirror_has_no_history_of_what_stood_before_it(void **state) {
               *now = gpu_floats(gpu, "reflection", NULL, NULL);
         for (size_t i = 0; i < W * H; i++) {
             const bool same = !memcmp(stable + 4 * i, now + 4 * i, 3 * sizeof *now);
-            if (mask[i] == 1) hidden++, alone += same;
+            hidden += mask[i] == 1;
+            if (is_even(now + 4 * i)) continue;
+            if (mask[i] == 1) lit++, alone += same;
             else others += !same;
         }
         print_message("# %s the test: %zu of %zu hidden pixels show this frame alone, %zu others do not\n",
-                      off ? "without" : "with", alone, hidden, others);
-        assert_true(hidden == 15 && others > 100 && (off ? alone < hidden / 2 : alone == hidden));
+                      off ? "without" : "with", alone, lit, others);
+        assert_true(hidden == 15 && lit > 3 && others > 100 && alone == (off ? 0 : lit));
         free(mask), free(stable), free(now);
     }
 }

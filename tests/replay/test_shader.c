@@ -98,6 +98,83 @@ static void every_pass_compiles_to_what_is_built_in(void **state) {
     }
 }
 
+/* The text that spirv-dis makes of a module, which spirv-val finds valid. */
+static FILE *disassembled(void **state, const uint32_t *words, size_t bytes) {
+    char command[600], path[256];
+    snprintf(path, sizeof path, "%s", write_text(state, "exact.spv", ""));
+    FILE *file = fopen(path, "wb");
+    assert_true(file && fwrite(words, bytes, 1, file) == 1 && fclose(file) == 0);
+    snprintf(command, sizeof command, "spirv-val --target-env vulkan1.3 %s && spirv-dis --raw-id --no-indent %s", path,
+             path);
+    assert_non_null(file = popen(command, "r"));
+    return file;
+}
+
+enum { IDS_MAX = 20000, LINE = 4096 };
+/* How often the result of an instruction is decorated as exact, and which are floats' arithmetic. Other lines are hashed. */
+struct listing {
+    int exact[IDS_MAX];
+    bool arithmetic[IDS_MAX];
+    uint64_t rest;
+};
+static struct listing *list(void **state, const uint32_t *words, size_t bytes) {
+    static const char *const operations[] = {"OpFAdd",
+                                             "OpFSub",
+                                             "OpFMul",
+                                             "OpFDiv",
+                                             "OpFNegate",
+                                             "OpFMod",
+                                             "OpDot",
+                                             "OpVectorTimesScalar",
+                                             "OpVectorTimesMatrix",
+                                             "OpMatrixTimesVector",
+                                             "OpMatrixTimesMatrix",
+                                             "OpExtInst"};
+    static const char *const functions[] = {"FMix",  "Step",     "SmoothStep", "Fma",     "Length",
+                                            "Cross", "Distance", "Normalize",  "Reflect", "Refract"};
+    struct listing *found = calloc(1, sizeof *found);
+    static char line[LINE];
+    FILE *file = disassembled(state, words, bytes);
+    while (fgets(line, sizeof line, file)) {
+        unsigned id;
+        char operation[64], function[64] = "";
+        if (sscanf(line, "OpDecorate %%%u NoContractio%63s", &id, operation) == 2) {
+            found->exact[id]++;
+            continue;
+        }
+        for (const char *c = line; *c; c++) found->rest = found->rest * 31 + (uint8_t)*c;
+        if (sscanf(line, "%%%u = %63s %*s %*s %63s", &id, operation, function) < 2) continue;
+        for (size_t i = 0; i < sizeof operations / sizeof *operations; i++)
+            if (strcmp(operation, operations[i]) == 0) found->arithmetic[id] = strcmp(operation, "OpExtInst") != 0;
+        for (size_t i = 0; i < sizeof functions / sizeof *functions; i++)
+            if (strcmp(operation, "OpExtInst") == 0 && strcmp(function, functions[i]) == 0)
+                found->arithmetic[id] = true;
+    }
+    assert_int_equal(pclose(file), 0);
+    return found;
+}
+
+/* What devices get is the pass's shader, in which each sum and product is exact, once, and nothing else differs. */
+static void arithmetic_is_exact(void **state) {
+    size_t count, marked = 0;
+    const struct glint_pass *passes = glint_passes(&count);
+    for (size_t i = 0; i < count; i += 7 * every) {
+        size_t bytes = 0;
+        if (!passes[i].spirv) continue;
+        uint32_t *words = spirv_exact(passes[i].spirv, passes[i].spirv_bytes, &bytes);
+        assert_non_null(words);
+        struct listing *before = list(state, passes[i].spirv, passes[i].spirv_bytes),
+                       *after = list(state, words, bytes);
+        for (int id = 0; id < IDS_MAX; id++)
+            if (after->exact[id] != (after->arithmetic[id] || before->exact[id]))
+                fail_msg("%s/%s: %%%d is exact %d times", passes[i].slot, passes[i].variant, id, after->exact[id]);
+            else marked += (size_t)(after->exact[id] - before->exact[id]);
+        assert_true(before->rest == after->rest);
+        free(words), free(before), free(after);
+    }
+    assert_true(marked > 100);
+}
+
 static void errors_name_the_users_file_and_line(void **state) {
     struct spirv spirv;
     struct glint_error err;
@@ -275,6 +352,7 @@ int main(int argc, char **argv) {
     assert_true(every > 0);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_pass_compiles_to_what_is_built_in),
+        cmocka_unit_test(arithmetic_is_exact),
         cmocka_unit_test(errors_name_the_users_file_and_line),
         cmocka_unit_test(errors_in_an_included_file_name_that_file),
         cmocka_unit_test(lines_after_an_include_keep_their_numbers),
