@@ -12,6 +12,7 @@ ABSENCE("previous.lit", "", "screen hits show this frame's picture instead of th
 ABSENCE("previous.gbuffer", "", "colours of the previous frame are used also where something else was in front then")
 ABSENCE("indirect", "", "occlusion has nothing to darken: which part of the light is ambient is not known, and light of the sun and of lamps is not to be darkened")
 ABSENCE("volume.000", "", "indirect light that the screen does not show comes from a volume made of the cube maps; without those it is the captured indirect light, or black if that is missing, too")
+ABSENCE("lamps", "", "the lamps light the picture as the engine had it: which part of the light is theirs is not known")
 ABSENCE("emissive", "", "what surfaces emit themselves is not known apart from the light that falls on them")
 ABSENCE("ao", "", "the engine's own occlusion is not there to be compared with, or taken out of the ambient light")
 ABSENCE("decal", "", "decals are not blended into the G-buffer")
