@@ -104,8 +104,7 @@ bool lamps_truth_write(const struct dump *dump, const struct world *world, const
     const uint32_t width = dump->view->width, height = dump->view->height;
     const struct scene *scene = world_scene(world);
     if (!scene->light_count || scene->unlit) return true;
-    const struct glint_attribute attribute = {
-        .name = "truthSamples", .type = GLINT_ATTRIBUTE_INT, .number = samples};
+    const struct glint_attribute attribute = {.name = "truthSamples", .type = GLINT_ATTRIBUTE_INT, .number = samples};
     struct dump_part part;
     struct lamp_truth *truth = calloc((size_t)width * height, sizeof *truth);
     bool ok = truth || glint_fail(err, GLINT_ERROR_MEMORY, "no memory for the truth of lamps");

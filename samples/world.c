@@ -236,7 +236,8 @@ float world_lamp_fade(const struct light *light, vec3 way) {
     const float square = dot(way, way), ratio = square / (light->range * light->range);
     if (square > light->range * light->range) return 0;
     if (light->cos_outer >= 1) return (1 - ratio) * (1 - ratio);
-    return (1 - ratio) * (1 - ratio) * smooth(light->cos_outer, light->cos_inner, -dot(way, light->axis) / sqrtf(square));
+    return (1 - ratio) * (1 - ratio) *
+           smooth(light->cos_outer, light->cos_inner, -dot(way, light->axis) / sqrtf(square));
 }
 
 static struct direct direct_light(const struct world *world, vec3 position, vec3 normal) {

@@ -27,7 +27,8 @@ static void paint_ground(struct surface *s) {
 }
 
 static void paint_bricks(struct surface *s) {
-    const float along_m = s->position.z + s->position.x, row = floorf(s->position.y / 0.09f), course = row - 2 * floorf(row / 2);
+    const float along_m = s->position.z + s->position.x, row = floorf(s->position.y / 0.09f),
+                course = row - 2 * floorf(row / 2);
     const float place = along_m / 0.26f + 0.5f * course, u = place - floorf(place), v = s->position.y / 0.09f - row;
     const float own = cell_random((int32_t)floorf(place), (int32_t)row, 17), far = smooth(0.01f, 0.05f, s->footprint);
     const float joint = (1 - far) * (u < 0.05f || v < 0.13f ? 1.0f : 0.0f);
@@ -36,18 +37,28 @@ static void paint_bricks(struct surface *s) {
     s->roughness = 0.55f + 0.35f * damp;
 }
 
-static const struct material ground = {
-    .albedo = {0.12f, 0.115f, 0.11f}, .roughness = 0.25f, .specular = 0.4f, .stencil = STENCIL_WORLD, .paint = paint_ground};
-static const struct material bricks = {
-    .albedo = {0.30f, 0.15f, 0.10f}, .roughness = 0.75f, .specular = 0.4f, .stencil = STENCIL_WORLD, .paint = paint_bricks};
-static const struct material wood = {.albedo = {0.33f, 0.22f, 0.12f}, .roughness = 0.7f, .specular = 0.4f, .stencil = STENCIL_WORLD};
+static const struct material ground = {.albedo = {0.12f, 0.115f, 0.11f},
+                                       .roughness = 0.25f,
+                                       .specular = 0.4f,
+                                       .stencil = STENCIL_WORLD,
+                                       .paint = paint_ground};
+static const struct material bricks = {.albedo = {0.30f, 0.15f, 0.10f},
+                                       .roughness = 0.75f,
+                                       .specular = 0.4f,
+                                       .stencil = STENCIL_WORLD,
+                                       .paint = paint_bricks};
+static const struct material wood = {
+    .albedo = {0.33f, 0.22f, 0.12f}, .roughness = 0.7f, .specular = 0.4f, .stencil = STENCIL_WORLD};
 static const struct material iron = {
     .albedo = {0.45f, 0.46f, 0.47f}, .roughness = 0.35f, .metalness = 1, .specular = 0.5f, .stencil = STENCIL_WORLD};
 
 /* A bulb that casts no shadow of itself. */
 static void bulb(struct scene *scene, vec3 at, vec3 intensity, float range) {
-    const struct material glow = {
-        .albedo = gray(0.4f), .emission = scale(intensity, 0.25f), .roughness = 0.4f, .specular = 0.4f, .stencil = STENCIL_WORLD};
+    const struct material glow = {.albedo = gray(0.4f),
+                                  .emission = scale(intensity, 0.25f),
+                                  .roughness = 0.4f,
+                                  .specular = 0.4f,
+                                  .stencil = STENCIL_WORLD};
     scene_mesh(scene, &glow, MESH_PLAIN);
     scene_sphere(scene, at, 0.07f, 12);
     scene_lamp(scene, at, intensity, range, 0.08f);
