@@ -1,4 +1,4 @@
-/* light and light_mask on a floor and a box, against closed forms and in double precision; on scenes with many lamps, with and without masks and rectangles. */
+/* light and light_mask on a floor and a box, against closed forms and in double precision. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -299,59 +299,47 @@ static void the_maps_of_a_lamp_shade_its_light_alone(void **state) {
     }
 }
 
-/* ---- Masks and rectangles ---- */
-
-static uint64_t zero_bits(const uint32_t *mask, size_t count, uint32_t lamps) {
-    uint64_t zeros = 0;
-    for (size_t i = 0; i < count; i++)
-        for (uint32_t k = 0; k < lamps && k < 32; k++) zeros += !(mask[i] >> k & 1);
-    return zeros;
+/* Maps of the sun are not compared for lamps, and those of lamps not for the sun, whatever their numbers are. */
+static float squares(UNUSED const struct plain *plain, double u, double v) {
+    return ((int)(16 * u) + (int)(16 * v)) % 2 ? 1.0F : 0.0F;
 }
-/* What masks and rectangles leave out is exactly 0, so that they change no bit. Three lamps cover few pixels, others many. */
-static void masks_and_rectangles_change_no_bit(void **state) {
-    static const char *const scenes[] = {"alley", "desert_night", "street"};
-    static const char *const words[][4] = {
-        {"light_mask=stencil", NULL},
-        {"light_mask=stencil", "light_mask.share=0", "light.quads=false", NULL},
-        {"light_mask=stencil", "light_mask.share=2", NULL},
-        {"light_mask=stencil", "light.mask=false", NULL},
-        {"light_mask=none", "light.quads=false", NULL},
-        {"light_mask=stencil", "light_mask.share=0", "light.taps=1", NULL},
-    };
+static float map_of_either(const struct plain *plain, UNUSED uint32_t number, double u, double v) {
+    return plain->cascades[0].has_light ? lamp_map(plain, u, v) : squares(plain, u, v);
+}
+static void sun_and_lamps_have_maps_of_their_own(void **state) {
+    static const struct glint_sun above = {.direction = {0, 1, 0}, .irradiance = {1, 1, 1}};
+    static const struct glint_shadow of_sun = {
+        .world_to_shadow = {1 / 4.0, 0, 0, 0, 0, 0, -1 / 4.0, -1, 0, -1 / 4.0, 0, 0.5, 0, 0, 0, 1}, .range = {0, 1}};
+    static const char *const words[] = {"shadow_mask=map", "contact_trace=dda", "contact_apply=planes",
+                                        "contact_trace.length_m=0", NULL};
     struct gpu *gpu = *state;
-    for (int s = 0; s < 3; s++) {
-        const struct glint_sample_options options = {
-            .width = 96, .height = 54, .cube_size = 4, .light_samples = 4, .also = GLINT_ALSO_LAMPS};
-        float *first = NULL;
-        uint64_t zeros[2] = {0, 0};
-        gpu_sample(gpu, scenes[s], scenes[s], &options);
-        const uint32_t lamps = glint_capture_frame(gpu->capture)->light_count;
-        for (size_t w = 0; w < sizeof words / sizeof *words; w++) {
-            const char *all[8] = {"light=lambert"};
-            for (size_t k = 0; words[w][k]; k++) all[k + 1] = words[w][k];
-            occlusion_arrange(gpu, all);
-            gpu->all = w == 5;
-            gpu_run(gpu);
-            gpu->all = false;
-            float *found = gpu_floats(gpu, "light", NULL, NULL);
-            if (w < 2) {
-                uint32_t *mask = gpu_uints(gpu, "light_mask", NULL, NULL);
-                zeros[w] = zero_bits(mask, (size_t)96 * 54, lamps);
-                free(mask);
-            }
-            if (first) assert_memory_equal(first, found, (size_t)96 * 54 * 4 * sizeof *first);
-            if (first) free(found);
-            else first = found;
-        }
-        double sum = 0;
-        for (size_t i = 0; i < (size_t)96 * 54 * 4; i++) sum += i % 4 == 3 ? 0 : (double)first[i];
-        print_message("# %s: %u lamps, %.1f %% of the bits of all masks are 0, %.1f %% of those of large lights\n",
-                      scenes[s], lamps, 100.0 * (double)zeros[1] / (96 * 54.0 * lamps),
-                      100.0 * (double)zeros[0] / (96 * 54.0 * lamps));
-        assert_true(sum > 10 && zeros[1] > 0 && zeros[0] <= zeros[1]);
-        free(first);
+    const struct glint_light lamp = lamp_at(from[0], from[1], from[2], 3.5);
+    const struct glint_shadow of_lamp = map_of_lamp(0);
+    float *light[4], *mask[4];
+    for (int kind = 0; kind < 4; kind++) { /* 000 and 001: sun; sun, lamp; lamp, sun; lamp */
+        struct plain plain = frame_with(&boxed, &lamp, 1);
+        plain.sun = &above;
+        plain.shadow_map = kind < 2 ? squares : lamp_map;
+        plain.shadow = kind < 2 ? of_sun : of_lamp;
+        plain.cascade = map_of_either;
+        plain.cascades = kind == 1 ? &of_lamp : &of_sun;
+        plain.cascade_count = kind == 1 || kind == 2;
+        light[kind] = run(gpu, &plain, words);
+        mask[kind] = gpu_floats(gpu, "shadow_mask", NULL, NULL);
     }
+    /* A map of 128 texels has the same squares as one of 256. */
+    size_t dark = 0, shaded = 0;
+    for (uint32_t i = 0; i < PIXELS; i++) {
+        dark += mask[0][i] == 0, shaded += light[1][4 * i] < light[0][4 * i];
+        assert_true(mask[3][i] == 1 && light[2][4 * i] == light[3][4 * i]);
+    }
+    assert_memory_equal(mask[0], mask[1], PIXELS * sizeof *mask[0]);
+    assert_memory_equal(mask[0], mask[2], PIXELS * sizeof *mask[0]);
+    assert_true(dark > 1000 && shaded > 300);
+    for (int kind = 0; kind < 4; kind++) free(light[kind]), free(mask[kind]);
 }
+
+/* ---- Masks and rectangles ---- */
 
 /* Bit k is of the lamp that covers the k-th most of the screen: 1 where the place lies in the range and the cone. */
 static void bits_say_what_a_light_reaches(void **state) {
@@ -481,47 +469,6 @@ static void made_light_takes_the_place_of_the_captured_one(void **state) {
     }
 }
 
-/* ---- Scenes ---- */
-
-/* Shadow maps bring the light of spot lights nearer to the truth, whose shadows are soft. */
-static void light_is_near_its_truth(void **state) {
-    static const char *const scenes[] = {"alley", "street", "desert_night"}, *const rgb[] = {"R", "G", "B"};
-    struct gpu *gpu = *state;
-    for (int s = 0; s < 3; s++) {
-        const struct glint_sample_options options = {.width = 96,
-                                                     .height = 54,
-                                                     .cube_size = 4,
-                                                     .light_samples = 4,
-                                                     .truth_samples = 32,
-                                                     .truths = GLINT_TRUTH_LAMPS,
-                                                     .also = GLINT_ALSO_LAMPS};
-        char name[64];
-        double error[2];
-        snprintf(name, sizeof name, "%s_truth", scenes[s]);
-        gpu_sample(gpu, scenes[s], name, &options);
-        float *truth = gpu_part(gpu, "truth.lamps", rgb, 3);
-        for (int off = 0; off < 2; off++) {
-            const char *const words[] = {"light_mask=stencil", "light=lambert",
-                                         off ? "light.shadows=false" : "light.shadows=true", NULL};
-            occlusion_arrange(gpu, words);
-            gpu_run(gpu);
-            float *found = gpu_floats(gpu, "light", NULL, NULL);
-            double difference = 0, sum = 0;
-            for (size_t i = 0; i < 96 * 54; i++)
-                for (size_t c = 0; c < 3; c++) {
-                    difference += fabs((double)found[4 * i + c] - (double)truth[3 * i + c]);
-                    sum += (double)truth[3 * i + c];
-                }
-            error[off] = difference / sum;
-            free(found);
-        }
-        print_message("# %s: mean difference %.4f of the light with shadows, %.4f without\n", scenes[s], error[0],
-                      error[1]);
-        assert_true(s == 2 ? error[0] == error[1] : error[0] < error[1]);
-        free(truth);
-    }
-}
-
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_lamp_over_a_floor),
@@ -530,11 +477,10 @@ int main(void) {
         cmocka_unit_test(lights_add_up),
         cmocka_unit_test(radius_metalness_and_invalid_surfaces),
         cmocka_unit_test(the_maps_of_a_lamp_shade_its_light_alone),
-        cmocka_unit_test(masks_and_rectangles_change_no_bit),
+        cmocka_unit_test(sun_and_lamps_have_maps_of_their_own),
         cmocka_unit_test(bits_say_what_a_light_reaches),
         cmocka_unit_test(a_light_out_of_reach_leaves_the_passes_out),
         cmocka_unit_test(made_light_takes_the_place_of_the_captured_one),
-        cmocka_unit_test(light_is_near_its_truth),
     };
     return cmocka_run_group_tests_name("gpu_lights", tests, gpu_set_up, gpu_tear_down);
 }
