@@ -266,14 +266,27 @@ static double hidden(const struct shapes *shapes, const double at[3], const doub
     return found[0];
 }
 
+/* A third lamp, of no light, has a map in which all it holds is in shadow, and that holds all that is seen. */
+static float all_dark(UNUSED const struct plain *plain, UNUSED uint32_t number, UNUSED double u, UNUSED double v) {
+    return 0;
+}
 static void the_maps_of_a_lamp_shade_its_light_alone(void **state) {
+    static const struct glint_shadow of_all = {
+        .world_to_shadow = {1e-3, 0, 0, 0, 0, 0, 1e-3, 0, 0, 1e-3, 0, 0.5, 0, 0, 0, 1},
+        .range = {0, 1},
+        .has_light = true,
+        .light = 2};
     static const char *const words[][2] = {{"light.shadows=true", NULL}, {"light.shadows=false", NULL}};
     struct gpu *gpu = *state;
     /* the map is the second lamp's; the first one, nearer to the camera, covers more of the screen */
-    const struct glint_light lamps[] = {lamp_at(0, 0.5, -2, 0), lamp_at(from[0], from[1], from[2], 3.5)};
-    struct plain plain = frame_with(&boxed, lamps, 2);
+    const struct glint_light lamps[] = {
+        lamp_at(0, 0.5, -2, 0), lamp_at(from[0], from[1], from[2], 3.5), {.position = {0, 0, -3}, .range = 0.5}};
+    struct plain plain = frame_with(&boxed, lamps, 3);
     plain.shadow_map = lamp_map;
     plain.shadow = map_of_lamp(1);
+    plain.cascade = all_dark;
+    plain.cascades = &of_all;
+    plain.cascade_count = 1;
     for (int off = 0; off < 2; off++) {
         float *found = run(gpu, &plain, words[off]);
         size_t dark = 0, lit = 0, beside = 0;
@@ -422,20 +435,23 @@ static void matt(const struct plain *plain, float *values) {
 static void a_light_out_of_reach_leaves_the_passes_out(void **state) {
     struct gpu *gpu = *state;
     const struct glint_light lamp = lamp_at(0, 0.5, -4, 1.25), near_lamp = lamp_at(0, 0.5, -4, 1.75);
-    memset(lamps_lit, 0, sizeof lamps_lit);
-    for (int kind = 0; kind < 4; kind++) { /* too far; no lamp; near enough; too far, but it has no end */
+    /* too far; no lamp; near enough; too far, but it has no end, or the engine had it reach the surfaces */
+    for (int kind = 0; kind < 5; kind++) {
+        for (uint32_t i = 0; i < PIXELS; i++)
+            for (int c = 0; c < 3; c++) lamps_lit[c][i] = kind == 4 ? 0.125F : 0;
         struct plain plain = frame_with(&bare, kind == 2 ? &near_lamp : &lamp, kind != 1);
         const char *reasons[3], *const word = kind == 3 ? "light.range=false" : NULL;
         plain.spoil = matt;
         plain.part = &lamps_part;
         float *planned = picture_of(gpu, &plain, word, false);
         const bool lit = has_run(gpu, "light", &reasons[0]), masked = has_run(gpu, "light_mask", &reasons[1]);
-        assert_true(lit == (kind >= 2) && masked == (kind == 2));
+        assert_true(lit == (kind >= 2) && masked == (kind == 2 || kind == 4));
         if (kind == 0) assert_string_equal(reasons[0], "light of 1 lamp may reach 0 of 9600 surfaces");
         if (kind == 1) assert_string_equal(reasons[0], "no lamps");
         float *all = picture_of(gpu, &plain, word, true);
         assert_memory_equal(planned, all, 4 * PIXELS * sizeof *all);
         for (uint32_t i = 0; kind < 2 && i < PIXELS; i++) assert_true(planned[4 * i] == 0.25F);
+        if (kind == 4) assert_true(planned[4 * (PIXELS - 1)] == 0.125F);
         free(planned);
         free(all);
     }
@@ -447,11 +463,11 @@ static void made_light_takes_the_place_of_the_captured_one(void **state) {
     const struct glint_light lamp = lamp_at(0.4, 0.8, -4, 3);
     for (int c = 0; c < 3; c++)
         for (uint32_t i = 0; i < PIXELS; i++) lamps_lit[c][i] = (float)(i % 32) / 256;
-    for (int kind = 0; kind < 3; kind++) { /* with the part; without; switched off */
+    for (int kind = 0; kind < 4; kind++) { /* with the part; without; switched off; without, but the pass runs */
         struct plain plain = frame_with(&bare, &lamp, 1);
         plain.spoil = matt;
-        plain.part = kind == 1 ? NULL : &lamps_part;
-        float *found = picture_of(gpu, &plain, kind == 2 ? "compose.relight=false" : NULL, false),
+        plain.part = kind % 2 ? NULL : &lamps_part;
+        float *found = picture_of(gpu, &plain, kind == 2 ? "compose.relight=false" : NULL, kind == 3),
               *light = kind ? NULL : gpu_floats(gpu, "light", NULL, NULL);
         size_t brighter = 0, darker = 0;
         for (uint32_t i = 0; i < PIXELS; i++)

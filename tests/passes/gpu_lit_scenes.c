@@ -60,6 +60,64 @@ static void masks_and_rectangles_change_no_bit(void **state) {
     }
 }
 
+/* Lamps before, beside and behind the camera, and surfaces anywhere: rectangles and masks hold all that they reach, also at the rims of balls and
+   cones. */
+static uint32_t state_of_draws;
+static double draw(double low, double high) {
+    state_of_draws = state_of_draws * 1664525u + 1013904223u;
+    return low + (high - low) * (state_of_draws >> 8) / 16777216.0;
+}
+static void scatter(UNUSED const struct plain *plain, float *values) {
+    for (uint32_t i = 0; i < PIXELS; i++) {
+        const double up = draw(-1, 1), turn = draw(0, 2 * M_PI), side = sqrt(1 - up * up);
+        values[PLAIN_DEPTH * PIXELS + i] = (float)draw(0.2, 8);
+        values[PLAIN_NORMAL_X * PIXELS + i] = (float)(side * cos(turn));
+        values[PLAIN_NORMAL_Y * PIXELS + i] = (float)up;
+        values[PLAIN_NORMAL_Z * PIXELS + i] = (float)(side * sin(turn));
+    }
+}
+static struct glint_light any_lamp(void) {
+    struct glint_light light = {
+        .position = {draw(-5, 5), draw(-4, 4), draw(-8, 3)}, .intensity = {1, 1, 1}, .range = draw(0.3, 4)};
+    light.has_cone = draw(0, 1) < 0.8;
+    const double up = draw(-1, 1), turn = draw(0, 2 * M_PI), side = sqrt(1 - up * up);
+    light.cone = (struct glint_cone){.axis = {side * cos(turn), up, side * sin(turn)}, .outer_rad = draw(0.1, draw(0, 1) < 0.6 ? 0.8 : 2)};
+    return light;
+}
+static void rectangles_hold_all_that_lamps_reach(void **state) {
+    static const char *const words[][3] = {{"light_mask=none", "light.quads=false", NULL},
+                                           {"light_mask=none", "light.quads=true", NULL},
+                                           {"light_mask=stencil", "light_mask.share=0", NULL}};
+    struct gpu *gpu = *state;
+    size_t lit = 0;
+    for (int round = 0; round < 8; round++) {
+        struct glint_light lamps[24];
+        float *found[3];
+        for (int k = 0; k < 24; k++) lamps[k] = any_lamp();
+        const struct plain plain = {.width = WIDE,
+                                    .height = HIGH,
+                                    .roughness = 0.5F,
+                                    .fov_y_degrees = 70,
+                                    .jitter_px = {0.3, -0.2},
+                                    .spoil = scatter,
+                                    .lights = lamps,
+                                    .light_count = 24};
+        occlusion_load(gpu, &plain);
+        for (int w = 0; w < 3; w++) {
+            const char *const all[] = {"light=lambert", "light.range_law=cut", "light.cone_law=cut",
+                                       words[w][0],     words[w][1],           NULL};
+            occlusion_arrange(gpu, all);
+            gpu_run(gpu);
+            found[w] = gpu_floats(gpu, "light", NULL, NULL);
+        }
+        for (int w = 1; w < 3; w++) assert_memory_equal(found[0], found[w], 4 * PIXELS * sizeof *found[0]);
+        for (int i = 0; i < PIXELS; i++) lit += found[0][4 * i] > 0;
+        for (int w = 0; w < 3; w++) free(found[w]);
+    }
+    print_message("# %zu of %d pixels lit\n", lit, 8 * PIXELS);
+    assert_true(lit > 5000);
+}
+
 /* Shadow maps bring the light of spot lights nearer to the truth, whose shadows are soft. */
 static void light_is_near_its_truth(void **state) {
     static const char *const scenes[] = {"alley", "street", "desert_night"}, *const rgb[] = {"R", "G", "B"};
@@ -101,6 +159,7 @@ static void light_is_near_its_truth(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(masks_and_rectangles_change_no_bit),
+                                       cmocka_unit_test(rectangles_hold_all_that_lamps_reach),
                                        cmocka_unit_test(light_is_near_its_truth)};
     return cmocka_run_group_tests_name("gpu_lit_scenes", tests, gpu_set_up, gpu_tear_down);
 }
