@@ -62,6 +62,12 @@ FACT_BY(bright, PIXELS, 1.00001 * BRIGHTEST > limit || MORE_LIGHT,
 #undef MORE_LIGHT
 #undef BRIGHTEST
 #undef OTHER_LIGHT
+/* Whether lamps light surfaces, or do in the captured picture; the limit is 0 where their light does not end. */
+#define LAMPLIT s->lamps ? SAY("light of %u lamp%s may reach %llu of %llu surfaces", s->lamps, s->lamps == 1 ? "" : "s", N(s->lamplit), N(s->surfaces.count)) : SAY("no lamps")
+FACT(lamplit, PIXELS, s->lamps > 0 && s->lamplit > 0, LAMPLIT)
+FACT_BY(lamplit_within, PIXELS, s->lamps > 0 && (s->lamplit > 0 || limit == 0), LAMPLIT)
+#undef LAMPLIT
+FACT(lamps, PARTS, s->lamps > 0 && s->has_lamps, SAY("%s, %s part of the light that is theirs", s->lamps > 0 ? "lamps" : "no lamps", s->has_lamps ? "a" : "no"))
 FACT(light_volume, PARTS, s->has_volume, SAY("%s volume of light", s->has_volume ? "a" : "no"))
 FACT(no_light_volume, PARTS, !s->has_volume, SAY("%s volume of light", s->has_volume ? "a" : "no"))
 FACT(sun, PARTS, s->has_sun, SAY("%s sun", s->has_sun ? "a" : "no"))

@@ -2,6 +2,7 @@
 SURVEY_PART(has_sky, GLINT_PART_SKY)
 SURVEY_PART(has_probe, GLINT_PART_PROBE)
 SURVEY_PART(has_indirect, "indirect")
+SURVEY_PART(has_lamps, "lamps")
 SURVEY_PART(has_scene, "scene")
 SURVEY_PART(has_overlays, "decal.albedo")
 SURVEY_PART(has_overlays, "decal.normal")

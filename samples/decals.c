@@ -59,6 +59,7 @@ void decals_light(const struct decal *decals, const struct view *view, struct pi
         const vec3 now = mix(pixel->albedo, decals[i].albedo, decals[i].alpha);
         pixel->lit = add(pixel->emission, relit(sub(pixel->lit, pixel->emission), pixel->albedo, now));
         pixel->indirect = relit(pixel->indirect, pixel->albedo, now);
+        pixel->lamps = relit(pixel->lamps, pixel->albedo, now);
     }
 }
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "dump_part.h"
+#include "lamps.h"
 #include "light_truth.h"
 #include "noise.h"
 
@@ -303,5 +304,6 @@ bool light_write(const struct dump *dump, const struct world *world, const struc
            (!(also & GLINT_ALSO_SUN && has_sun(scene)) || write_mask(dump, world, job, err)) &&
            (!(also & GLINT_ALSO_SHADOW && has_sun(scene)) ||
             write_shadows(dump, world, options->cascades, options->offset, job, err)) &&
+           (!(also & GLINT_ALSO_LAMPS) || lamps_write(dump, world, pixels, options, job, err)) &&
            (!(also & GLINT_ALSO_VOLUME) || write_volume(dump, world, options->offset, job, err));
 }

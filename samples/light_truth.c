@@ -6,6 +6,7 @@
 
 #include "dump_part.h"
 #include "finished.h"
+#include "lamps.h"
 #include "noise.h"
 
 struct light_truth_work {
@@ -224,5 +225,6 @@ bool light_truth_write(const struct dump *dump, const struct world *world, const
             ok = write_picture(dump, world, pixels, truth, rays.samples, job, err);
         free(truth);
     }
+    ok = ok && (!(o->truths & GLINT_TRUTH_LAMPS) || lamps_truth_write(dump, world, pixels, o->truth_samples, job, err));
     return ok && (!(o->truths & GLINT_TRUTH_ANTIALIASED) || write_antialiased(dump, world, unjittered, o, job, err));
 }

@@ -52,6 +52,7 @@ static struct pixel seen(const struct world *world, const struct view *view, con
     pixel.lit = shade.lit;
     pixel.indirect = shade.indirect;
     pixel.emission = shade.emission;
+    pixel.lamps = shade.lamps;
     return pixel;
 }
 

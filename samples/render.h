@@ -13,7 +13,7 @@ struct pixel {
     float roughness, metalness, specular;
     float motion[3]; /* previous uv minus current uv; likewise for depth, 0 for sky */
     uint32_t stencil;
-    vec3 lit, indirect, emission; /* the latter two are parts of lit; 0 for sky */
+    vec3 lit, indirect, emission, lamps; /* the latter three are parts of lit; 0 for sky */
 };
 
 /* The surface hit by the ray through a pixel's jittered centre. */

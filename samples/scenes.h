@@ -19,6 +19,7 @@
     SCENE(lake, "rippling water between hills, with a jetty and a boathouse; a planar reflection map of it")           \
     SCENE(hotel, "lobby with a gallery and the street before it at night; 22 cube maps on three floors and outdoors")  \
     SCENE(plaza, "wet paving of every roughness after sunset: dark silhouettes before an HDR glow")                    \
+    SCENE(alley, "foggy alley at night between brick walls: point and spot lights, puddles, a van")                    \
     SCENE(courtyard, "sunlit yard with an arcade, trees with leaves, a parked car and a person")                       \
     SCENE(kitchen, "two dim rooms by day: window, door and second window in a mirror, glossy worktops, HDR sky")
 

@@ -227,9 +227,22 @@ struct surface world_surface(const struct world *world, const struct hit *hit, f
     return surface;
 }
 
-vec3 world_direct(const struct world *world, vec3 position, vec3 normal) {
+/* All direct light, and the part of it that is of lamps. */
+struct direct {
+    vec3 all, lamps;
+};
+
+float world_lamp_fade(const struct light *light, vec3 way) {
+    const float square = dot(way, way), ratio = square / (light->range * light->range);
+    if (square > light->range * light->range) return 0;
+    if (light->cos_outer >= 1) return (1 - ratio) * (1 - ratio);
+    return (1 - ratio) * (1 - ratio) *
+           smooth(light->cos_outer, light->cos_inner, -dot(way, light->axis) / sqrtf(square));
+}
+
+static struct direct direct_light(const struct world *world, vec3 position, vec3 normal) {
     const struct scene *scene = world->scene;
-    vec3 from = off_surface(position, normal), sum = gray(0);
+    vec3 from = off_surface(position, normal), sum = gray(0), lamps = gray(0);
     float sun = dot(scene->sun_direction, normal);
     if (sun > 0 && luminance(scene->sun_irradiance) > 0 && !world_blocked(world, from, scene->sun_direction, INFINITY))
         sum = scale(scene->sun_irradiance, sun);
@@ -243,10 +256,16 @@ vec3 world_direct(const struct world *world, vec3 position, vec3 normal) {
         float factor = (1 - ratio) * (1 - ratio) * cosine / (distance * (square + 0.12f));
         if (light->cos_outer < 1)
             factor *= smooth(light->cos_outer, light->cos_inner, -dot(way, light->axis) / distance);
-        if (factor > 0 && !world_blocked(world, from, way, 1 - light->radius / fmaxf(distance, 2 * light->radius)))
+        if (factor > 0 && !world_blocked(world, from, way, 1 - light->radius / fmaxf(distance, 2 * light->radius))) {
             sum = along(sum, light->intensity, factor);
+            lamps = along(lamps, light->intensity, factor);
+        }
     }
-    return scale(sum, scene->gain);
+    return (struct direct){scale(sum, scene->gain), scale(lamps, scene->gain)};
+}
+
+vec3 world_direct(const struct world *world, vec3 position, vec3 normal) {
+    return direct_light(world, position, normal).all;
 }
 
 /* Baked light does not contain moving objects; it is reduced near their bounding boxes. */
@@ -278,10 +297,12 @@ struct shade world_shade(const struct world *world, const struct hit *hit) {
     struct surface surface = world_surface(world, hit, look ? seen_footprint(world, hit) : 0);
     if (world->scene->unlit) return (struct shade){.lit = surface.emission, .emission = surface.emission};
     float shade = hit->mesh->flags & MESH_MOVING ? 1 : contact_shade(world, hit->position);
-    vec3 irradiance = along(world_direct(world, hit->position, look ? surface.normal : hit->normal), hit->light, shade);
+    const struct direct direct = direct_light(world, hit->position, look ? surface.normal : hit->normal);
+    vec3 irradiance = along(direct.all, hit->light, shade);
     vec3 albedo = scale(surface.albedo, (1 - surface.metalness) / PI_F);
     return (struct shade){.lit = add(surface.emission, times(albedo, irradiance)),
                           .indirect = times(albedo, scale(hit->light, shade)),
+                          .lamps = times(albedo, direct.lamps),
                           .emission = surface.emission};
 }
 

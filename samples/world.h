@@ -44,9 +44,11 @@ vec3 world_leave(const struct hit *hit, vec3 side);
 struct surface world_surface(const struct world *world, const struct hit *hit, float footprint);
 /* Direct light at a point, without bounces. */
 vec3 world_direct(const struct world *world, vec3 position, vec3 normal);
-/* The radiance from the hit, and what it is made of: the rest of `lit` is direct light. */
+/* How a lamp's light fades out towards its range and its cone; `way` leads to the lamp. */
+float world_lamp_fade(const struct light *light, vec3 way);
+/* The radiance from the hit, and what it is made of: the rest of `lit` is light of the sun. */
 struct shade {
-    vec3 lit, indirect, emission;
+    vec3 lit, indirect, emission, lamps;
 };
 struct shade world_shade(const struct world *world, const struct hit *hit);
 /* The radiance from the hit: emission and diffuse shading. It depends on the point alone, not on the viewer. */

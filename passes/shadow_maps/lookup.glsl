@@ -1,4 +1,4 @@
-// Points compared with the shadow maps of the sun. Next include of a pass that reads shadow_map.
+// Points compared with the shadow maps of the sun and of lamps. Next include of a pass that reads shadow_map.
 #ifndef GLINT_SHADOW_LOOKUP
 #define GLINT_SHADOW_LOOKUP
 
@@ -16,7 +16,7 @@ bool place_in_map(int map, vec3 world, out vec3 place) {
     return at.w > 0.0 && all(greaterThanEqual(place, vec3(0.0))) && all(lessThan(place, vec3(1.0)));
 }
 
-// The part of the compared texels that let the sun pass. wide: texels along a side of the square; shift: of the square, in texels; bias_part: factor on
+// The part of the compared texels that let the light pass. wide: texels along a side of the square; shift: of the square, in texels; bias_part: factor on
 // what the engine adds to the stored depth.
 float lit_by_map(int map, vec3 place, int wide, vec2 shift, float bias_part) {
     ivec2 size = ivec2(frame.shadow_place[map].zw), row = ivec2(0, frame.shadow_place[map].y);
@@ -33,5 +33,6 @@ float lit_by_map(int map, vec3 place, int wide, vec2 shift, float bias_part) {
 
 // Whether the map is of all surfaces, not of a stencil class alone.
 bool is_of_all(int map) { return frame.shadow_class[map].z == 0u; }
-bool is_map(int map) { return map < SHADOW_MAPS && frame.shadow_place[map].z != 0u; }
+// Whether there is such a map of the sun. Those of lamps lie behind them.
+bool is_map(int map) { return map < SUN_MAPS && frame.shadow_place[map].z != 0u && frame.shadow_class[map].w == 0u; }
 #endif

@@ -16,6 +16,7 @@ layout(constant_id = 998) const bool tile_works = true; // false: the dispatch c
 // Ids 1 and 2 are the workgroup's size, from the row WORKGROUP.
 layout(local_size_x = 8, local_size_y = 8, local_size_x_id = 1, local_size_y_id = 2) in;
 
+#include "lamps.h"
 #include "shadow_maps.h"
 #define FIELD(type, name, meaning) type name;
 layout(set = 1, binding = 0, std140) uniform Frame {

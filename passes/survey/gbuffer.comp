@@ -9,6 +9,7 @@
 #include "shared/brdf.glsl"
 #include "shared/camera.glsl"
 #include "shared/luminance.glsl"
+#include "lamps/lamp.glsl"
 #define LIST_WORD(place) texelFetch(partial, place).x
 #include "shared/work_list.glsl"
 
@@ -20,9 +21,9 @@
 #undef COUNT
 #undef MINIMUM
 #undef MAXIMUM
-#line 24
+#line 25
 const int ALL_FIGURES = 512;
-const int FIGURES = whole ? ALL_FIGURES : 224; // words of a workgroup: plans only need the first lines of figures.h
+const int FIGURES = whole ? ALL_FIGURES : 240; // words of a workgroup: plans only need the first lines of figures.h
 shared uint figures[ALL_FIGURES];
 // The bits of non-negative floats have the order of their values.
 const uint COUNTED = 0u, LOWEST = 1u, HIGHEST = 2u;
@@ -54,7 +55,7 @@ void bin(inout Row row, int figure, int number, int most) {
 struct Sums {
     Row by_surface_roughness, by_reflecting_roughness, by_metalness, by_weight;
     uvec2 stencil; // an id, and its number of consecutive pixels
-    uint sky, surfaces, reflecting, above, open, sunlit, luminous, stippled, water, transparent, moved, moving;
+    uint sky, surfaces, reflecting, above, open, sunlit, lamplit, luminous, stippled, water, transparent, moved, moving;
     vec2 surface_roughness, reflecting_roughness, depth, light; // lowest, highest
     float transparent_roughest;
 };
@@ -119,6 +120,16 @@ void count_picture(ivec2 pixel, inout Sums sums) {
     }
 }
 
+// Whether a lamp's light may reach the surface, cones aside, or does in the captured picture.
+bool is_lamplit(ivec2 pixel, float depth_m) {
+    if (frame.lamps.x == 0u) return false;
+    if (has_part(lamps_lit) && any(notEqual(texelFetch(lamps_lit, pixel, 0).rgb, vec3(0.0)))) return true;
+    vec3 world = surface_place(pixel, depth_m);
+    for (int lamp = 0; lamp < int(frame.lamps.x); ++lamp)
+        if (lamp_reaches(lamp, world, false, true)) return true;
+    return false;
+}
+
 // All texels are fetched before any is used, so that the fetches are independent.
 void count_pixel(ivec2 pixel, inout Sums sums) {
     float depth_m = texelFetch(depth_full, pixel, 0).x, specular = texelFetch(specular_full, pixel, 0).x;
@@ -127,6 +138,7 @@ void count_pixel(ivec2 pixel, inout Sums sums) {
         float roughness = clamped(surface.w);
         sums.surfaces++;
         if (!has_part(sun_mask) || texelFetch(sun_mask, pixel, 0).x > 0.0) sums.sunlit++;
+        if (is_lamplit(pixel, depth_m)) sums.lamplit++;
         extend(sums.surface_roughness, roughness);
         if (!(base.a == 0.0 && specular == 0.0)) {
             sums.reflecting++;
@@ -178,7 +190,7 @@ void count_block(int place) {
     barrier();
     const vec2 NONE = vec2(INFINITE, -INFINITE);
     const Row EMPTY = Row(0, 0u);
-    Sums sums = Sums(EMPTY, EMPTY, EMPTY, EMPTY, uvec2(0u), 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, NONE, NONE, NONE, NONE, 0.0);
+    Sums sums = Sums(EMPTY, EMPTY, EMPTY, EMPTY, uvec2(0u), 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, NONE, NONE, NONE, NONE, 0.0);
     for (int row = lane / 64; row < 64; row += LANES / 64) {
         ivec2 pixel = 64 * ivec2(gl_WorkGroupID.xy) + ivec2(lane % 64, row);
         if (all(lessThan(pixel, ivec2(frame.size.xy)))) count_pixel(pixel, sums);
@@ -190,6 +202,7 @@ void count_block(int place) {
     atomicAdd(figures[at_above], sums.above);
     atomicAdd(figures[at_open], sums.open);
     atomicAdd(figures[at_sunlit], sums.sunlit);
+    atomicAdd(figures[at_lamplit], sums.lamplit);
     atomicAdd(figures[at_luminous], sums.luminous);
     atomicMax(figures[at_brightest], floatBitsToUint(max(sums.light.y, 0.0)));
     atomicAdd(figures[at_stippled], sums.stippled);

@@ -194,13 +194,13 @@ static bool upload_ids(struct run *run, size_t i, struct glint_error *err) {
     return ok;
 }
 
-/* The maps of the sun, one below the other; texels beside a map that is narrower than others hold the fallback value. */
+/* The shadow maps, one below the other; texels beside a map that is narrower than others hold the fallback value. */
 static bool upload_shadows(struct run *run, size_t i, struct glint_error *err) {
     static const char *const depth = "depth.Z";
     const struct glint_part_info *maps[SHADOW_MAPS];
     const struct glint_row *row = run->graph->images[i].row;
     const struct image_desc *desc = &run->images[i]->image.desc;
-    const size_t count = frame_sun_maps(run->source->capture, maps), texels = (size_t)desc->width * desc->height;
+    const size_t count = frame_shadow_maps(run->source->capture, maps), texels = (size_t)desc->width * desc->height;
     float *values = malloc(texels * sizeof *values), *at = values;
     bool ok = values || glint_fail(err, GLINT_ERROR_MEMORY, "image %s: out of memory", row->name);
     for (size_t t = 0; ok && t < texels; t++) values[t] = (float)row->fallback;

@@ -110,19 +110,28 @@ static uvec4 class_ids(const struct glint_stencil_class *class) {
     return (uvec4){class->value, class->mask ? class->mask : UINT32_MAX, 1, 0};
 }
 
-size_t frame_sun_maps(const struct glint_capture *capture, const struct glint_part_info *maps[SHADOW_MAPS]) {
+/* The map of the sun, or of any lamp, with the lowest number from `number` on. */
+static const struct glint_part_info *next_map(const struct glint_capture *capture, bool of_lamp, int32_t number) {
+    const struct glint_part_info *found = NULL;
+    for (size_t i = 0; i < glint_capture_part_count(capture); i++) {
+        const struct glint_part_info *part = glint_capture_part(capture, i);
+        if (part->has_shadow && part->shadow.has_light == of_lamp && part->index >= number &&
+            (!found || part->index < found->index))
+            found = part;
+    }
+    return found;
+}
+
+size_t frame_shadow_maps(const struct glint_capture *capture, const struct glint_part_info *maps[SHADOW_MAPS]) {
     size_t count = 0, rows = 0;
-    const size_t parts = glint_capture_part_count(capture);
-    for (int32_t number = 0; count < SHADOW_MAPS; number = maps[count - 1]->index + 1) {
-        const struct glint_part_info *found = NULL; /* the map of the sun with the lowest number from `number` on */
-        for (size_t i = 0; i < parts; i++) {
-            const struct glint_part_info *part = glint_capture_part(capture, i);
-            if (part->has_shadow && !part->shadow.has_light && part->index >= number &&
-                (!found || part->index < found->index))
-                found = part;
+    for (int of_lamp = 0; of_lamp < 2; of_lamp++) {
+        const struct glint_part_info *map = next_map(capture, of_lamp, 0);
+        const size_t most = of_lamp ? SHADOW_MAPS : SUN_MAPS;
+        for (; map && count < most && rows + map->height <= SHADOW_ROWS; rows += map->height) {
+            maps[count++] = map;
+            map = next_map(capture, of_lamp, map->index + 1);
+            if (!map) break;
         }
-        if (!found || (rows += found->height) > SHADOW_ROWS) break;
-        maps[count++] = found;
     }
     return count;
 }
@@ -149,16 +158,21 @@ static void fill_shadow(struct frame_block *block, size_t k, const struct glint_
     block->shadow_depth[k] = (vec4){falls ? -1 : 1, (float)shadow->bias, 0, 0};
 }
 
-void frame_block_shadows(struct frame_block *block, const struct glint_capture *capture) {
+void frame_block_shadows(struct frame_block *block, const struct glint_capture *capture,
+                         const uint32_t number[LAMPS]) {
     const struct glint_part_info *maps[SHADOW_MAPS];
     const struct glint_frame *frame = glint_capture_frame(capture);
-    const size_t count = frame_sun_maps(capture, maps);
+    const size_t count = frame_shadow_maps(capture, maps);
     uint32_t row = 0;
     for (size_t k = 0; k < count; row += maps[k++]->height) {
         const struct glint_shadow *shadow = &maps[k]->shadow;
         fill_shadow(block, k, frame, shadow);
         block->shadow_place[k] = (uvec4){0, row, maps[k]->width, maps[k]->height};
         if (shadow->has_stencil_class) block->shadow_class[k] = class_ids(&frame->classes[shadow->stencil_class]);
+        if (!shadow->has_light) continue;
+        const uint32_t lamp = number[shadow->light];
+        block->shadow_class[k].w = 1 + lamp;
+        if (block->lamp_axis[lamp].w < 0) block->lamp_axis[lamp].w = (float)k;
     }
 }
 

@@ -5,6 +5,7 @@
 #include <stdint.h>
 
 #include "glint/capture.h"
+#include "shared/lamps.h"
 #include "shared/shadow_maps.h"
 
 /* std140, as passes/shared/interface.glsl declares it: column-major matrices. */
@@ -35,10 +36,12 @@ int up_axis(enum glint_axis up, double *sign);
 void frame_block_fill(struct frame_block *block, const struct glint_frame *frame, const struct frame_sizes *sizes);
 /* Sets the fields of the planar reflection map, which stay 0 without one. */
 void frame_block_mirror(struct frame_block *block, const struct glint_frame *frame, const struct glint_planar *planar);
-/* The shadow maps of the sun that passes use, in the order of their numbers. */
-size_t frame_sun_maps(const struct glint_capture *capture, const struct glint_part_info *maps[SHADOW_MAPS]);
-/* Sets the fields of these maps. */
-void frame_block_shadows(struct frame_block *block, const struct glint_capture *capture);
+/* The shadow maps that passes use: those of the sun in the order of their numbers, then those of lamps. */
+size_t frame_shadow_maps(const struct glint_capture *capture, const struct glint_part_info *maps[SHADOW_MAPS]);
+/* Sets the fields of the lamps, the one that covers most of the screen first. `number` receives the place of each of the capture's lamps. */
+void frame_block_lamps(struct frame_block *block, const struct glint_frame *frame, uint32_t number[LAMPS]);
+/* Sets the fields of these maps; `number` is that of frame_block_lamps. */
+void frame_block_shadows(struct frame_block *block, const struct glint_capture *capture, const uint32_t number[LAMPS]);
 /* Sets what the capture says of its part `indirect`, and its exposure. */
 void frame_block_captured_light(struct frame_block *block, const struct glint_capture *capture);
 /* Sets the fields of what rays find that nothing nearer continues: sky, probe, painted ground. */

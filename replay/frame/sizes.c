@@ -73,7 +73,7 @@ bool plan_find_sizes(struct frame_plan *plan, struct glint_error *err) {
     sizes->probe_mips = (uint32_t)glint_capture_probe(capture, 0, levels, roughness);
     if (sizes->probe_mips) sizes->probe_face = levels[0]->width;
     const struct glint_part_info *maps[SHADOW_MAPS];
-    for (size_t k = frame_sun_maps(capture, maps); k-- > 0; sizes->shadow[1] += maps[k]->height)
+    for (size_t k = frame_shadow_maps(capture, maps); k-- > 0; sizes->shadow[1] += maps[k]->height)
         if (maps[k]->width > sizes->shadow[0]) sizes->shadow[0] = maps[k]->width;
     if (table) sizes->table[0] = table->width, sizes->table[1] = table->height;
     if (dirt) sizes->dirt[0] = dirt->width, sizes->dirt[1] = dirt->height;

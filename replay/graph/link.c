@@ -27,7 +27,7 @@ bool graph_capture_has(const struct glint_capture *capture, const struct glint_r
     snprintf(part, sizeof part, "%s.", row->role);
     for (size_t i = 0; i < glint_capture_part_count(capture); i++) {
         const struct glint_part_info *info = glint_capture_part(capture, i);
-        if (strncmp(info->name, part, strlen(part)) != 0 || (info->has_shadow && info->shadow.has_light)) continue;
+        if (strncmp(info->name, part, strlen(part)) != 0) continue;
         found += part_has(info, row);
     }
     return found > 0;

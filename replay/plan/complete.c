@@ -27,6 +27,7 @@ static void fill_frame_block(struct frame_plan *plan) {
     const struct glint_frame *frame = glint_capture_frame(plan->source->capture);
     const struct glint_part_info *mirror = glint_capture_find(plan->source->capture, GLINT_PART_MIRROR);
     float classes[2];
+    uint32_t lamps[LAMPS];
     frame_block_fill(&plan->block, frame, &plan->sizes);
     plan->block.flags.w = plan->pipeline->first_ray;
     plan->block.up.w = plan->options->float_precision ? INFINITY : HALF_LARGEST;
@@ -40,7 +41,8 @@ static void fill_frame_block(struct frame_plan *plan) {
         if (glint_part_has_channel(plan->source->cubemaps[plan->active[i]], "distance.Z"))
             plan->block.distances.x |= 1U << i;
     if (mirror) frame_block_mirror(&plan->block, frame, &mirror->planar);
-    frame_block_shadows(&plan->block, plan->source->capture);
+    frame_block_lamps(&plan->block, frame, lamps);
+    frame_block_shadows(&plan->block, plan->source->capture, lamps);
 }
 
 bool plan_complete(struct frame_plan *plan, struct planner *planner, const struct graph_inputs *inputs,

@@ -50,7 +50,7 @@ void survey_channels(const struct channels *channels, struct glint_survey *surve
         /* A NaN counts as reflecting, as in shared/shown.glsl. */
         if (!(pixel[at[2]] == 0 && pixel[at[3]] == 0)) count_pixel(&survey->reflecting, roughness);
     }
-    survey->sunlit = survey->surfaces.count;
+    survey->sunlit = survey->lamplit = survey->surfaces.count;
     survey->luminous = survey->stippled = survey->pixels; /* the host does not read the picture and its mask */
     survey->light[1] = INFINITY;
 }
@@ -73,6 +73,7 @@ void survey_capture_parts(const struct glint_capture *capture, struct glint_surv
     survey->exposure = glint_capture_frame(capture)->exposure > 0 ? glint_capture_frame(capture)->exposure : 1;
     survey->has_fog = glint_capture_frame(capture)->has_fog;
     survey->has_sun = glint_capture_frame(capture)->has_sun;
+    survey->lamps = glint_capture_frame(capture)->light_count;
 }
 
 bool glint_survey_capture(struct glint_capture *capture, struct glint_survey *survey, struct glint_error *err) {

@@ -40,6 +40,7 @@ static void read_figures(struct glint_survey *survey, const uint32_t *f, bool wh
     survey->open = f[at_open];
     survey->sunlit = f[at_sunlit];
     survey->luminous = f[at_luminous];
+    survey->lamplit = f[at_lamplit];
     survey->stippled = f[at_stippled];
     survey->water = f[at_water];
     survey->transparent = f[at_transparent];

@@ -199,6 +199,7 @@ static struct glint_frame frame_of(const struct plain *plain) {
     if (plain->material) frame.material = *plain->material;
     frame.has_sun = plain->sun != NULL;
     if (plain->sun) frame.sun = *plain->sun;
+    for (uint32_t i = 0; i < plain->light_count; i++) frame.lights[frame.light_count++] = plain->lights[i];
     frame.previous = frame.camera;
     for (int i = 0; i < 2; ++i) { /* to the right, and down */
         frame.jitter_px[i] = plain->jitter_px[i];

@@ -50,6 +50,8 @@ struct plain {
     const struct glint_fog *fog;                 /* NULL: none */
     const struct glint_material_model *material; /* NULL: as the format has it */
     const struct glint_sun *sun;                 /* NULL: none */
+    const struct glint_light *lights;            /* light_count of them */
+    uint32_t light_count;
     float (*sun_mask)(const struct plain *plain, uint32_t x, uint32_t y); /* NULL: none */
     /* The sun's shadow map, 256 wide; NULL: none. */
     float (*shadow_map)(const struct plain *plain, double u, double v);

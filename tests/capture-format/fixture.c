@@ -192,7 +192,9 @@ struct glint_part fixture_part(const struct fixture *f, enum fixture_part which,
                                         "truth.sun",
                                         "truth.indirect",
                                         "truth.antialiased",
-                                        "truth.picture"};
+                                        "truth.picture",
+                                        "lamps",
+                                        "truth.lamps"};
     const bool cube = which == FIXTURE_CUBEMAP_0 || which == FIXTURE_CUBEMAP_1 || which == FIXTURE_SKY ||
                       which == FIXTURE_PROBE || which == FIXTURE_PROBE_1;
     const uint32_t face = which == FIXTURE_PROBE_1 ? FIX_CUBE / 2 : FIX_CUBE;
@@ -257,7 +259,8 @@ struct glint_part fixture_part(const struct fixture *f, enum fixture_part which,
         part.planar = &f->planar;
     }
     if (which == FIXTURE_INDIRECT) part.indirect = &f->indirect;
-    if (which == FIXTURE_TRUTH_INDIRECT) add_fixture_channel(&part, c, "error", f->gbuffer + 4, 17);
+    if (which == FIXTURE_TRUTH_INDIRECT || which == FIXTURE_TRUTH_LAMPS)
+        add_fixture_channel(&part, c, "error", f->gbuffer + 4, 17);
     if (which == FIXTURE_TRUTH) {
         add_fixture_channel(&part, c, "weight", color + 3, stride);
         add_fixture_channel(&part, c, "error", f->gbuffer + 4, 17);

@@ -65,6 +65,8 @@ enum fixture_part {
     FIXTURE_TRUTH_INDIRECT,
     FIXTURE_TRUTH_ANTIALIASED,
     FIXTURE_TRUTH_PICTURE,
+    FIXTURE_LAMPS,
+    FIXTURE_TRUTH_LAMPS,
     FIXTURE_PARTS
 };
 struct fixture_channels {

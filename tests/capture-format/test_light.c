@@ -184,6 +184,15 @@ static void bright_ao(struct rewrite *r) {
 static void dark_indirect(struct rewrite *r) {
     floats(r, "indirect", "G")[9] = -0.5f;
 }
+static void dark_lamps(struct rewrite *r) {
+    floats(r, "lamps", "B")[9] = -0.5f;
+}
+static void no_lamps_red(struct rewrite *r) {
+    rewrite_remove_channel(r, "truth.lamps", "R");
+}
+static void small_lamps(struct rewrite *r) {
+    rewrite_find(r, "lamps")->part.height -= 8;
+}
 static void endless_sun(struct rewrite *r) {
     floats(r, "sun", "visibility")[9] = INFINITY;
 }
@@ -228,6 +237,9 @@ static const struct broken_case cases[] = {
     {"shape", {"part ao", "40 x 24 pixels as in gbuffer, found 40 x 16"}, small_ao, false},
     {"pixels-range", {"ao: visibility", "[0, 1], found 1 other, first 1.25"}, bright_ao, true},
     {"pixels-range", {"indirect: G", "not negative"}, dark_indirect, true},
+    {"pixels-range", {"lamps: B", "not negative"}, dark_lamps, true},
+    {"channels", {"truth.lamps: R", "missing"}, no_lamps_red, false},
+    {"shape", {"part lamps", "40 x 24 pixels as in gbuffer, found 40 x 16"}, small_lamps, false},
     {"pixels-finite", {"sun: visibility", "first inf at (9, 0)"}, endless_sun, true},
     {"pixels-range", {"shadow.001: depth.Z", "[0, 1], found 1 other, first 1.5"}, deep_shadow, true},
     {"pixels-range", {"volume.000: nz.B", "first -1 at (1, 1)"}, dark_cell, true},

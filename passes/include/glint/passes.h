@@ -69,7 +69,7 @@ enum glint_size_class {
     GLINT_SIZE_VOLUME,         /* 2D, texels of the longest description of an inner volume × active cube maps */
     GLINT_SIZE_FIGURES,        /* 2D, 512 × 1 */
     GLINT_SIZE_PLANAR,         /* 2D, the size of the capture's planar reflection map */
-    GLINT_SIZE_SHADOW,         /* 2D, the shadow maps of the sun one below the other (passes/shared/shadow_maps.h) */
+    GLINT_SIZE_SHADOW,         /* 2D, the shadow maps one below the other (passes/shared/shadow_maps.h) */
     GLINT_SIZE_TABLE,          /* 2D, the size of the capture's table of colours */
     GLINT_SIZE_DIRT,           /* 2D, the size of the capture's dirt on the lens */
     GLINT_SIZE_GRID,           /* 2D, slices of the capture's volume of light, or of 24³ cells that a pass fills */

@@ -5,6 +5,8 @@
 bool has_captured() { return has_indirect_lit && textureSize(indirect_lit, 0) == ivec2(frame.size.xy); }
 bool is_replaced() { return has_indirect && bounce && !ambient && has_captured(); }
 
+bool is_relit() { return has_light && relight && has_lamps_lit && textureSize(lamps_lit, 0) == ivec2(frame.size.xy); }
+
 float kept_part(ivec2 pixel) {
     if (is_replaced()) return 0.0;
     if (!has_occlusion || !occlude) return 1.0;
@@ -17,8 +19,9 @@ vec3 diffuse_light(ivec2 pixel) { return has_lit_scattered && scatter ? texelFet
 vec3 with_terms(ivec2 pixel, vec3 color, float depth_m, vec3 normal) {
     bool traced = has_indirect && bounce && (ambient || is_replaced()), shaded = has_sun_shadow && shade,
          captured = has_captured() && ((has_occlusion && occlude) || is_replaced());
-    if (!(traced || shaded || captured) || !reflects(depth_m, normal)) return color;
+    if (!(traced || shaded || captured || is_relit()) || !reflects(depth_m, normal)) return color;
     vec4 base = texelFetch(albedo_full, pixel, 0);
+    if (is_relit()) color += texelFetch(light, pixel, 0).rgb - texelFetch(lamps_lit, pixel, 0).rgb;
     SunTerm sun = SunTerm(vec3(0.0), 0.0, 1.0, 1.0);
     if (shaded) {
         sun.irradiance = frame.sun_irradiance.rgb;

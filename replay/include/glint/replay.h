@@ -138,6 +138,9 @@ struct glint_survey {
     uint32_t cubemaps, volumes, distances; /* volumes, distances: cube maps with an inner volume, with distances */
     bool has_sky, has_probe, has_previous, has_planar, has_water, has_transparent, has_fresnel, has_fog;
     bool has_indirect, has_sun; /* which part of the light is indirect is known; the capture declares a sun */
+    bool has_lamps;             /* which part of the light is that of lamps is known */
+    uint32_t lamps;             /* point and spot lights of the capture */
+    uint64_t lamplit;           /* surfaces that a lamp may light; all, where they were not counted */
     bool has_stippling;         /* the capture has a mask of stippled pixels */
     bool has_skin;              /* the capture has a mask or a stencil class of skin */
     bool has_shadows;           /* the capture has a shadow map that passes use */

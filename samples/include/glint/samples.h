@@ -21,7 +21,8 @@ enum glint_truths {
     GLINT_TRUTH_SUN = 4, /* in scenes with a sun */
     GLINT_TRUTH_INDIRECT = 8,
     GLINT_TRUTH_ANTIALIASED = 16, /* of the finished picture with finished_samples, else of lit */
-    GLINT_TRUTH_PICTURE = 32      /* lit, with traced in place of baked indirect light, and what surfaces reflect */
+    GLINT_TRUTH_PICTURE = 32,     /* lit, with traced in place of baked indirect light, and what surfaces reflect */
+    GLINT_TRUTH_LAMPS = 64        /* in scenes with lamps */
 };
 
 /* What the engine writes only when asked. */
@@ -33,7 +34,8 @@ enum glint_also {
     GLINT_ALSO_LUT = 16,     /* the table of colours that it grades with */
     GLINT_ALSO_DIRT = 32,    /* the dirt on its lens */
     GLINT_ALSO_STIPPLE = 64, /* where stippled surfaces were drawn */
-    GLINT_ALSO_DECALS = 128  /* decals on the ground, in buffers of their own */
+    GLINT_ALSO_DECALS = 128, /* decals on the ground, in buffers of their own */
+    GLINT_ALSO_LAMPS = 256   /* the light of the lamps, and shadow maps of eight spot lights at most, in scenes with lamps */
 };
 
 struct glint_sample_options {
