@@ -41,6 +41,7 @@ CAPTURE(volume_nz, RGBA16F, "radiance", GRID, "volume.000", "nz.R nz.G nz.B -", 
 CAPTURE(water_color,      RGBA16F, "radiance", FULL, "water", "R G B opacity", false, 0, "rgb: light scattered by the water; a: fraction of the light behind it that one metre absorbs; 0 where there is no water")
 CAPTURE(water_normal,     RGBA16F, "1",  FULL,     "water",   "normal.X normal.Y normal.Z thickness.Z", false, 0, "xyz: unit normal in world space; w: distance through the water along the view ray in m")
 CAPTURE(water_depth,      R32F,    "m",  FULL,     "water",   "depth.Z", false, INFINITY, "view-linear depth of the surface; +inf where there is none")
+CAPTURE(water_caustics,   RGBA16F, "radiance", FULL, "water.caustics", "R G B -", false, 0, "light that the surface focuses on the bottom, before the water absorbs any")
 CAPTURE(transparent_color, RGBA16F, "radiance", FULL, "transparent", "R G B A", false, 0, "rgb: colour of the nearest transparent surface by itself; a: its opacity; 0 where there is none")
 CAPTURE(transparent_normal, RGBA16F, "1", FULL,   "transparent", "normal.X normal.Y normal.Z material.roughness", false, 0, "xyz: its unit normal in world space; w: perceptual roughness")
 CAPTURE(transparent_depth, R32F,   "m",  FULL,    "transparent", "depth.Z", false, INFINITY, "view-linear depth of it; +inf where there is none")
