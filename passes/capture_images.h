@@ -45,6 +45,6 @@ CAPTURE(water_caustics,   RGBA16F, "radiance", FULL, "water.caustics", "R G B -"
 CAPTURE(transparent_color, RGBA16F, "radiance", FULL, "transparent", "R G B A", false, 0, "rgb: colour of the nearest transparent surface by itself; a: its opacity; 0 where there is none")
 CAPTURE(transparent_normal, RGBA16F, "1", FULL,   "transparent", "normal.X normal.Y normal.Z material.roughness", false, 0, "xyz: its unit normal in world space; w: perceptual roughness")
 CAPTURE(transparent_depth, R32F,   "m",  FULL,    "transparent", "depth.Z", false, INFINITY, "view-linear depth of it; +inf where there is none")
-CAPTURE(color_table,      RGBA32F, "1",  TABLE,    "lut",     "R G B -", false, 0, "table of sRGB-encoded colours: slices of one blue, columns of one red, rows of one green")
+CAPTURE(color_table,      RGBA32F, "1",  TABLE,    "lut",     "R G B -", false, 0, "table of colours, sRGB-encoded or of linear light (frame.lut_stops): slices of one blue, columns of one red, rows of one green")
 CAPTURE(lens_dirt,        RGBA16F, "1",  DIRT,     "dirt",    "R G B -", false, 0, "what the dirt on the lens adds to the sRGB-encoded picture")
 CAPTURE(sky,              RGBA16F, "radiance", SKY, "sky",    "R G B -", false, 0, "the sky alone")

@@ -158,9 +158,10 @@ static void the_refracted_ray_ends_where_snell_says(void **state) {
             if (wet && s != 4) farthest = fmax(farthest, away);
             counted += wet, behind_post += !wet;
         }
-        print_message("# %s %s: %d pixels off by %.2g px at most, bound %.2g; refracted by up to %.1f px; %d ends behind "
-                      "the post\n",
-                      settings[s][0], settings[s][1] ? settings[s][1] : "", counted, worst, bound, farthest, behind_post);
+        print_message(
+            "# %s %s: %d pixels off by %.2g px at most, bound %.2g; refracted by up to %.1f px; %d ends behind "
+            "the post\n",
+            settings[s][0], settings[s][1] ? settings[s][1] : "", counted, worst, bound, farthest, behind_post);
         assert_true(counted > (wide == 1 ? 300 : 50) && worst <= bound && farthest < 12);
         if (s != 4) assert_true(farthest > 4 && (wide == 2 || behind_post > SIDE));
         free(found);
@@ -226,7 +227,8 @@ static void one_pixel_stands_for_the_texel(void **state) {
         assert_true(width == SIDE / 2 && height == SIDE / 2);
         for (uint32_t i = 0; i < PIXELS / 4; i++) {
             const float *two = depth + 2 * (i / width) * SIDE + 2 * (i % width), above = two[0], below = two[SIDE];
-            const bool second = s && below < INFINITY && (above == INFINITY || (s == 1 ? below < above : below > above));
+            const bool second =
+                s && below < INFINITY && (above == INFINITY || (s == 1 ? below < above : below > above));
             assert_true(found[2 * i] == (second ? below : above));
             assert_true(found[2 * i + 1] == (second ? 2 : 0));
             lower += second;
