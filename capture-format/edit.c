@@ -416,7 +416,8 @@ static bool check_headers(const struct glint_edit *edit, const char *path, struc
         const struct glint_edit_part *part = &edit->parts[i];
         files[i] = &part->info;
         ok = part->info.channel_count
-                 ? glint_part_parse(&check, &arena, files[i], !part->exr || part->exr->parts[part->index].readable, &parts[i])
+                 ? glint_part_parse(&check, &arena, files[i], !part->exr || part->exr->parts[part->index].readable,
+                                    &parts[i])
                  : glint_fail(err, GLINT_ERROR_USAGE, "%s: part %s: no channel is left", path, part->info.name);
         if (parts[i].sibling[0]) parts[i].width = parts[i].height = 0;
     }

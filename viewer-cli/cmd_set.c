@@ -220,7 +220,7 @@ static bool assign_all(struct glint_edit *edit, const char *path, void *user, st
 }
 
 static enum status cmd_set_run(int argc, char **argv) {
-    struct arguments a = {.lut = {.size = LUT_SIZE, .stops = LUT_STOPS}};
+    struct arguments a = {.lut = {.size = LUT_SIZE, .stops = {LUT_STOPS_LOW, LUT_STOPS_HIGH}}};
     command_parse(&cmd_set, argc, argv, &a);
     const enum status status = a.list ? list_keys(a.json) : edit_file(&cmd_set, a.path, a.out, assign_all, &a);
     list_free(&a.settings);

@@ -5,8 +5,7 @@
 #include "draw/view/ocio.h"
 #include "glint/edit.h"
 
-enum { LUT_SIZE = 65, LUT_SIZE_MAX = 128 };
-#define LUT_STOPS {-10, 7}
+enum { LUT_SIZE = 65, LUT_SIZE_MAX = 128, LUT_STOPS_LOW = -10, LUT_STOPS_HIGH = 7 };
 
 struct lut_options {
     struct ocio_options ocio;
