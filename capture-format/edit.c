@@ -232,7 +232,7 @@ bool glint_edit_resolve(struct glint_edit *edit, struct glint_edit_part *part, s
 
 /* ---- Pixels ---- */
 
-static struct glint_edit_block *new_block(struct glint_edit *edit, size_t bytes, uint32_t channels) {
+struct glint_edit_block *glint_edit_block(struct glint_edit *edit, size_t bytes, uint32_t channels) {
     if (edit->block_count == edit->block_capacity) {
         const size_t capacity = edit->block_capacity ? 2 * edit->block_capacity : 32;
         struct glint_edit_block **more = realloc(edit->blocks, capacity * sizeof *more);
@@ -266,7 +266,7 @@ static bool read_type(struct glint_edit *edit, struct glint_edit_part *part, enu
         }
         if (!count) return true;
         const size_t bytes = (size_t)from->width * from->height * count * glint_stored_bytes(stored);
-        struct glint_edit_block *block = new_block(edit, bytes, count);
+        struct glint_edit_block *block = glint_edit_block(edit, bytes, count);
         if (!block) return fail_memory(edit, err);
         if (!glint_exr_read(part->exr, part->index, names, count, types[stored], block->data, 0, err)) return false;
         for (uint32_t i = 0; i < count; i++) {
@@ -278,6 +278,7 @@ static bool read_type(struct glint_edit *edit, struct glint_edit_part *part, enu
 }
 
 static bool read_pixels(struct glint_edit *edit, struct glint_edit_part *part, struct glint_error *err) {
+    if (!part->exr) return true; /* the edit has made it */
     if (!part->exr->parts[part->index].readable)
         return glint_fail(err, GLINT_ERROR_UNSUPPORTED,
                           "%s: part %s: tiled, deep or subsampled pixels cannot be copied; leave the part out "
@@ -321,9 +322,9 @@ bool glint_edit_replace(struct glint_edit *edit, size_t i, const char *channel, 
                         struct glint_error *err) {
     struct glint_edit_part *part = &edit->parts[i];
     struct glint_edit_channel *found = find_channel(edit, part, channel, err);
-    const struct glint_exr_part_info *from = &part->exr->parts[part->index].info;
-    /* The block has the size of the file's part, of which the rectangle is used. */
-    struct glint_edit_block *block = found ? new_block(edit, (size_t)from->width * from->height * 4, 1) : NULL;
+    /* The rectangle lies in the block where it does in the file's part. */
+    const size_t texels = (size_t)part->full_width * (part->y + part->info.height);
+    struct glint_edit_block *block = found ? glint_edit_block(edit, texels * sizeof *values, 1) : NULL;
     if (!found) return false;
     if (!block) return fail_memory(edit, err);
     found->block = block;
@@ -415,7 +416,8 @@ static bool check_headers(const struct glint_edit *edit, const char *path, struc
         const struct glint_edit_part *part = &edit->parts[i];
         files[i] = &part->info;
         ok = part->info.channel_count
-                 ? glint_part_parse(&check, &arena, files[i], part->exr->parts[part->index].readable, &parts[i])
+                 ? glint_part_parse(&check, &arena, files[i], !part->exr || part->exr->parts[part->index].readable,
+                                    &parts[i])
                  : glint_fail(err, GLINT_ERROR_USAGE, "%s: part %s: no channel is left", path, part->info.name);
         if (parts[i].sibling[0]) parts[i].width = parts[i].height = 0;
     }

@@ -24,7 +24,7 @@ struct glint_edit_part {
     struct glint_edit_channel *channels;
     struct glint_channel_info *listed;
     struct glint_attribute_list attributes;
-    struct glint_exr *exr; /* the file of its pixels, the capture's own or a sibling */
+    struct glint_exr *exr; /* the file of its pixels, the capture's own or a sibling; NULL: made by the edit */
     size_t index;          /* in that file */
     uint32_t x, y;         /* where its rectangle begins in the file's pixels */
     uint32_t full_width;
@@ -52,6 +52,8 @@ GLINT_PRINTF(2, 3)
 void glint_edit_say(const struct glint_edit *edit, const char *format, ...);
 /* Takes the pixels of a part from its sibling into the copy. Does nothing to other parts. */
 bool glint_edit_resolve(struct glint_edit *edit, struct glint_edit_part *part, struct glint_error *err);
+/* Memory for pixels that lives as long as the edit; NULL without memory. */
+struct glint_edit_block *glint_edit_block(struct glint_edit *edit, size_t bytes, uint32_t channels);
 /* The part's role, or NULL. */
 const struct glint_role *glint_edit_role(const struct glint_edit_part *part);
 

@@ -324,6 +324,13 @@ static bool check_shadow(struct glint_check *check, const struct glint_part_info
                   frame->light_count, shadow->light);
 }
 
+static bool check_lut_stops(struct glint_check *check, const struct glint_frame *frame) {
+    const double *stops = frame->lut_stops;
+    if (!frame->has_lut_stops || (stops[0] >= -64 && stops[0] < stops[1] && stops[1] <= 64)) return true;
+    return glint_violation(check, GLINT_RULE_ATTRIBUTE, "gbuffer", "glint.lutStops",
+                           "expected two increasing numbers from -64 to 64, found %g and %g", stops[0], stops[1]);
+}
+
 static bool check_required_roles(struct glint_check *check, const struct glint_part_info *parts, size_t count) {
     size_t role_count = 0;
     const struct glint_role *roles = glint_roles(&role_count);
@@ -348,7 +355,8 @@ bool glint_parts_check(struct glint_check *check, const struct glint_exr_part_in
         if (parts[i].role && !strcmp(parts[i].name, "gbuffer")) {
             gbuffer = &parts[i];
             *has_frame = true;
-            if (!glint_attributes_decode(check, files[i], GLINT_SCOPE_FRAME, frame)) return false;
+            if (!glint_attributes_decode(check, files[i], GLINT_SCOPE_FRAME, frame) || !check_lut_stops(check, frame))
+                return false;
         }
         cubes_only = cubes_only && parts[i].has_cubemap && !parts[i].sibling[0];
     }

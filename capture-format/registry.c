@@ -163,6 +163,7 @@ int glint_encoding_value(const char *which, const char *name) {
 
 #define GROUP_NONE(scope) GLINT_NO_GROUP
 #define GROUP_has_previous(scope) offsetof(STRUCT_##scope, has_previous)
+#define GROUP_has_lut_stops(scope) offsetof(STRUCT_##scope, has_lut_stops)
 #define GROUP_has_player(scope) offsetof(STRUCT_##scope, has_player)
 #define GROUP_has_fog(scope) offsetof(STRUCT_##scope, has_fog)
 #define GROUP_has_ground(scope) offsetof(STRUCT_##scope, has_ground)

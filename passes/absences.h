@@ -18,6 +18,7 @@ ABSENCE("ao", "", "the engine's own occlusion is not there to be compared with, 
 ABSENCE("decal", "", "decals are not blended into the G-buffer")
 ABSENCE("skin", "", "only the stencil class `skin` says where light scatters under the surface")
 ABSENCE("stipple", "", "surfaces that the engine drew into every other pixel stay a pattern")
+ABSENCE("water.caustics", "", "no light is focused on the bottom of water")
 ABSENCE_UNLESS("sun", "shadow", "", "no shadow mask can be made from the engine's shadow map, and lamps cast no shadows")
 ABSENCE_UNLESS("shadow", "sun", "", "contact shadows are all that shades the sun: what casts a shadow from farther away is not known")
 ABSENCE("lut", "", "the finished picture has the colours of the tone curve alone, without the engine's grading")

@@ -2,8 +2,6 @@
 
 #include <Imath/half.h>
 
-#define REFRACTIVE_INDEX 1.333f
-
 struct water_work {
     const struct world *world;
     const struct view *view;
@@ -12,8 +10,7 @@ struct water_work {
     struct texel *texels;
 };
 
-/* The slopes of a sum of waves, whose heights are negligible. */
-static vec3 ripples(const struct water *water, vec3 p) {
+vec3 water_normal(const struct water *water, vec3 p) {
     static const float waves[][4] = {/* wave vector in rad/m, phase, fraction of the slope */
                                      {0.9f, 2.3f, 0.3f, 0.40f},  {-1.9f, 3.1f, 1.7f, 0.30f},
                                      {4.2f, 5.1f, 4.1f, 0.25f},  {-7.3f, 6.1f, 2.2f, 0.20f},
@@ -34,11 +31,11 @@ static float rounded(float value) {
 
 /* The fraction of unpolarised light that a smooth surface reflects, and the direction of refraction. */
 static float fresnel_and_refraction(vec3 to_eye, vec3 normal, vec3 *refracted) {
-    float in = dot(to_eye, normal), part = 1 / REFRACTIVE_INDEX;
+    float in = dot(to_eye, normal), part = 1 / WATER_INDEX;
     float out = sqrtf(1 - part * part * (1 - in * in));
     *refracted = along(scale(to_eye, -part), normal, part * in - out);
-    float across = (in - REFRACTIVE_INDEX * out) / (in + REFRACTIVE_INDEX * out);
-    float within = (out - REFRACTIVE_INDEX * in) / (out + REFRACTIVE_INDEX * in);
+    float across = (in - WATER_INDEX * out) / (in + WATER_INDEX * out);
+    float within = (out - WATER_INDEX * in) / (out + WATER_INDEX * in);
     return 0.5f * (across * across + within * within);
 }
 
@@ -68,7 +65,7 @@ static void water_row(void *user, uint32_t y) {
         float t = (water->level - eye.y) / ray.y;
         work->water[i] = (struct water_pixel){.depth = INFINITY, .normal = {0, 1, 0}, .scene = work->pixels[i].lit};
         if (!(t > (float)VIEW_NEAR && t < work->pixels[i].depth)) continue;
-        vec3 at = along(eye, ray, t), to_eye = unit(scale(ray, -1)), n = ripples(water, at);
+        vec3 at = along(eye, ray, t), to_eye = unit(scale(ray, -1)), n = water_normal(water, at);
         n = v3(rounded(n.x), rounded(n.y), rounded(n.z));
         float bottom = work->pixels[i].depth < INFINITY ? work->pixels[i].depth : 1000;
         vec3 color = scale(water->color, scene->gain);

@@ -4,6 +4,8 @@
 
 #include "render.h"
 
+#define WATER_INDEX 1.333f /* refractive index */
+
 struct water_pixel {
     float depth; /* of the surface, along the view axis; INFINITY: none */
     vec3 normal; /* rounded to half floats as in the engine's buffer */
@@ -12,6 +14,8 @@ struct water_pixel {
     vec3 scene; /* the image including the water */
 };
 
+/* The unit normal of the surface there: of a sum of waves, whose heights are negligible. */
+vec3 water_normal(const struct water *water, vec3 at);
 /* Renders water over the pixels of the frame. `scene` is exact: Fresnel's equations, with both the reflected and the refracted ray
    traced to their hits, which do not hit the water again. */
 bool render_water(const struct world *world, const struct view *view, const struct pixel *pixels,

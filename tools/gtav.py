@@ -25,6 +25,19 @@ WATER = [
     ("no reflection: `water.intensity=0`", "water.intensity=0"),
     ("no water: `water=none`", "water=none"),
 ]
+BY_MAP = "linear_depth_half=picked refraction_map=absorbed water=mapped "
+MAPS = [
+    ("`water/combine`, as `gtav` has it", ""),
+    ("by maps at full resolution", BY_MAP),
+    ("by maps at half resolution, as `gtav_display` has it: `downsample=pick`", BY_MAP + "downsample=pick"),
+    ("depth of the upper left pixel: `linear_depth_half.choose=first`", BY_MAP + "downsample=pick linear_depth_half.choose=first"),
+    ("depth of the farthest pixel: `linear_depth_half.choose=farthest`", BY_MAP + "downsample=pick linear_depth_half.choose=farthest"),
+    ("absorbed along the view ray: `refraction_map.along=view`", BY_MAP + "downsample=pick refraction_map.along=view"),
+    ("absorbed straight up: `refraction_map.along=up`", BY_MAP + "downsample=pick refraction_map.along=up"),
+    ("as if one metre deep: `refraction_map.depth=false`", BY_MAP + "downsample=pick refraction_map.depth=false"),
+    ("the bottom's depth not looked up: `water.refinements=0`", BY_MAP + "downsample=pick water.refinements=0"),
+    ("no refraction: `water.refraction=false`", BY_MAP + "downsample=pick water.refraction=false"),
+]
 PICTURES = ("", "planar=none", "water.refraction=false")
 LOOKUPS = [
     ("`gtav`: one map, dual paraboloids, by direction", ""),
@@ -38,6 +51,36 @@ LOOKUPS = [
     ("traced, colour of the paraboloids", "cubemap_trace=march cubemap_active.count=8"),
 ]
 SCENES = ("street", "room", "hotel")
+
+
+FRAME = """## The whole frame
+
+The preset `gtav_display` has what of the article's frame a capture can carry, in the article's order:
+
+| section | slots |
+| --- | --- |
+| Environment Cubemap, Cubemap to Dual-Paraboloid Map | `cubemap_active` (the nearest map alone), `cubemap_convert`, `cubemap_trace/dual_paraboloid`, `resolve`, `upscale/best_match` |
+| Shadows | `shadow_mask/map` of the cascades, with `dither`; `shadow_early`, `shadow_blur` |
+| Planar Reflection Map | `planar` |
+| Screen Space Ambient Occlusion | `downsample/pick`, `ao_trace/hemisphere`, `ao_blur`, `ao_apply`: at half resolution |
+| G-Buffer Combination | `compose` |
+| Subsurface Scattering | `sss_mask`, `sss_blur` |
+| Water | `linear_depth_half`, `refraction_map`, `water/mapped` |
+| Atmosphere | `shaft_march`, `shaft_blur`, `fog` |
+| Dithering Smoothing | `unstipple` |
+| Tone Mapping and Bloom | `bloom_threshold`, `bloom_blur`, `bloom`, `exposure`, `grade` with `tone=reinhard` |
+| Anti-Aliasing and Lens Distortion | `grade` with `smooth_edges` and a `distortion` of 0.02 |
+
+- The pipeline has one half resolution: the environment map, which the article samples for each pixel, is looked up at half of it, too, without jitter, and each pixel takes the
+  texel that matches it best.
+- The mask of shadows is made and blurred, and is in the run. It takes nothing away: the light of the sun in `lit` is already without what the engine's own mask shades.
+- Values that the article does not give are the defaults of the slots; the distortion is small enough to see only straight lines bend.
+
+## Water by maps
+
+The picture behind the water as an image of its own, at half resolution, which the water samples where the refracted ray ends (error of the water in `lake`, without caustics, as above):
+
+"""
 
 
 def timed():
@@ -64,7 +107,9 @@ def lake(glint, folder, docs, times):
         capture = sample(glint, "lake", folder, SIZE, CUBE, "--planar-size", planar)
         found = compare(glint, capture, {flat: preset("gtav", flat) for flat in ("", "planar.perturb=false")}, 1)[1]
         sizes.append((planar, *map(over, found.values())))
-    return rows, sizes
+    capture = sample(glint, "lake", folder, SIZE, CUBE, "--planar-size", "240x120")
+    found = compare(glint, capture, {words: preset("gtav", words) for _, words in MAPS}, 1)[1]
+    return rows, sizes, [(text, over(found[words])) for text, words in MAPS]
 
 
 def surfaces(showing):
@@ -101,7 +146,7 @@ def main():
     times = Times("gtav")
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
-        rows, sizes = lake(args.glint, folder, args.docs, times)
+        rows, sizes, maps = lake(args.glint, folder, args.docs, times)
         looked_up = lookups(args.glint, folder, times)
     map_rows, texel, seams = paraboloids(args.gpu_paraboloid)
     (args.docs / "gtav.md").write_text(f"""# GTA V's reflections
@@ -140,7 +185,8 @@ The article says that the projection preserves the details at the top and the bo
 way around: an area of the map covers 4 / (1 + r²)² times its area in solid angle, so that the pole has a quarter of the texels per steradian of the rim
 and of the middle of a cube map's face. Texels outside the discs are filled with the directions beyond the rim before
 filtering ({seams}).
-""")
+
+{FRAME}{table(("settings", "error of the water"), maps)}""")
 
 
 if __name__ == "__main__":

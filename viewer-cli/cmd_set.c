@@ -1,6 +1,7 @@
 /* glint set: changes attributes of a capture. */
 #include "command.h"
 #include "edit/edit.h"
+#include "edit/lut.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,9 +14,10 @@ struct arguments {
     const char *path, *out;
     struct list settings;
     bool list, json, overwrite;
+    struct lut_options lut;
 };
 
-enum { KEY_LIST = 256 };
+enum { KEY_LIST = 256, KEY_LUT, KEY_OCIO, KEY_DISPLAY, KEY_LUT_SIZE, KEY_LUT_STOPS };
 
 /* clang-format off */
 static const struct argp_option options[] = {
@@ -23,6 +25,12 @@ static const struct argp_option options[] = {
     OVERWRITE_OPTION,
     {"list",   KEY_LIST, NULL, 0, "List all keys with what they take and mean. ", 0},
     {"json",   'j',      NULL, 0, "With --list, print JSON", 0},
+    {"lut",    KEY_LUT,  "VIEW", 0, "Add the part lut, or replace it: a table of colours with which the slot grade shows the picture as glint view does with this view of the "
+        "OpenColorIO configuration; built-in views: ", 0},
+    {"display", KEY_DISPLAY, "NAME", 0, "With --lut: display of the configuration", 0},
+    {"ocio",   KEY_OCIO, "FILE", 0, "With --lut: OpenColorIO configuration to use (default: $OCIO, else the built-in one)", 0},
+    {"lut-size", KEY_LUT_SIZE, "N", 0, "With --lut: entries in a row (default 65)", 0},
+    {"lut-stops", KEY_LUT_STOPS, "LOW,HIGH", 0, "With --lut: log2 of the light below which entries are evenly spaced, and above which the table ends (default -10,7)", 0},
     {0},
 };
 /* clang-format on */
@@ -31,6 +39,10 @@ static const struct arg_target targets[] = {
     STORED(KEY_OVERWRITE, struct arguments, overwrite),
     STORED('j', struct arguments, json),
     STORED(KEY_LIST, struct arguments, list),
+    STORED(KEY_LUT, struct arguments, lut.ocio.view),
+    STORED(KEY_DISPLAY, struct arguments, lut.ocio.display),
+    STORED(KEY_OCIO, struct arguments, lut.ocio.config),
+    STORED_NUMBER(KEY_LUT_SIZE, struct arguments, lut.size, 2, LUT_SIZE_MAX),
     {0},
 };
 static const struct example examples[] = {
@@ -39,6 +51,8 @@ static const struct example examples[] = {
      "declares reversed depth everywhere, but device depth in the previous frame"},
     {"glint set frame.exr cubemap.003:center=12.5,1.6,-4 cubemap:outdoor=0 -o fixed.exr",
      "moves a cube map, and declares all of them indoors"},
+    {"glint set frame.exr --lut ACES -o graded.exr",
+     "adds a table of colours for the slot grade: it then shows what glint view --view ACES does"},
     {"glint set frame.exr jitter= -o fixed.exr", "removes an attribute, so that its default holds"},
     {0},
 };
@@ -57,7 +71,14 @@ static const char *const scope_titles[] = {[GLINT_EDIT_FRAME] = "the frame",
 
 static error_t cmd_set_parse(int key, char *arg, struct argp_state *state) {
     struct arguments *a = state->input;
+    double stops[2];
     switch (key) {
+    case KEY_LUT_STOPS:
+        arg_numbers("lut-stops", arg, stops, 2, state);
+        if (!(stops[0] >= -64 && stops[0] < stops[1] && stops[1] <= 64))
+            argp_error(state, "--lut-stops=%s: expected two increasing numbers from -64 to 64", arg);
+        memcpy(a->lut.stops, stops, sizeof stops);
+        return 0;
     case ARGP_KEY_ARG:
         if (!a->path) a->path = arg;
         else if (!strchr(arg, '=')) argp_error(state, "expected KEY=VALUE or PART:KEY=VALUE, found %s", arg);
@@ -66,7 +87,10 @@ static error_t cmd_set_parse(int key, char *arg, struct argp_state *state) {
     case ARGP_KEY_END:
         if (a->list) return 0;
         if (!a->path) argp_error(state, "no capture given; --list shows the keys");
-        if (!a->settings.count) argp_error(state, "nothing to set; expected KEY=VALUE, and --list shows the keys");
+        if (!a->settings.count && !a->lut.ocio.view)
+            argp_error(state, "nothing to set; expected KEY=VALUE or --lut, and --list shows the keys");
+        if (!a->lut.ocio.view && (a->lut.ocio.display || a->lut.ocio.config))
+            argp_error(state, "--display and --ocio are for --lut");
         if (!a->out) argp_error(state, "no output given; -o names the copy");
         return 0;
     }
@@ -78,6 +102,7 @@ static error_t cmd_set_parse(int key, char *arg, struct argp_state *state) {
 /* "Keys of the frame: worldToView, …. Keys of cubemap.NNN: …", for --help. */
 static char *cmd_set_values(int key) {
     struct glint_edit_key k;
+    if (key == KEY_LUT) return ocio_builtin_views();
     char *text = NULL;
     size_t size = 0;
     FILE *f = key == KEY_LIST ? open_memstream(&text, &size) : NULL;
@@ -191,11 +216,11 @@ static bool assign_all(struct glint_edit *edit, const char *path, void *user, st
     const struct arguments *a = user;
     for (size_t i = 0; i < a->settings.count; i++)
         if (!assign(edit, a->settings.items[i], err)) return false;
-    return true;
+    return !a->lut.ocio.view || lut_add(edit, &a->lut, err);
 }
 
 static enum status cmd_set_run(int argc, char **argv) {
-    struct arguments a = {0};
+    struct arguments a = {.lut = {.size = LUT_SIZE, .stops = {LUT_STOPS_LOW, LUT_STOPS_HIGH}}};
     command_parse(&cmd_set, argc, argv, &a);
     const enum status status = a.list ? list_keys(a.json) : edit_file(&cmd_set, a.path, a.out, assign_all, &a);
     list_free(&a.settings);

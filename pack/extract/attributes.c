@@ -26,6 +26,7 @@ static const struct row rows[] = {
     {"frame", "glint.player", "player", NUMBERS},
     {"frame", "glint.jitter", "jitter", NUMBERS},
     {"frame", "glint.exposure", "exposure", NUMBER},
+    {"frame", "glint.lutStops", "lut_stops", NUMBERS},
     {"frame", "glint.preExposure", "pre_exposure", NUMBER},
     {"frame", "glint.metresPerUnit", "metres_per_unit", NUMBER},
     {"frame", "glint.depthNear", "depth_near", NUMBER},

@@ -91,6 +91,7 @@ static bool read_values(const struct node *node, struct glint_frame *frame, stru
     frame->number = (uint32_t)node_count(node, "number", 0);
     frame->depth_near = node_number(node, "depth_near", 0);
     frame->depth_far = node_number(node, "depth_far", 0);
+    frame->has_lut_stops = node_numbers(node, "lut_stops", frame->lut_stops);
     node_numbers(node, "jitter", frame->jitter_px);
     return read_positive(node, "exposure", &frame->exposure, err) &&
            read_positive(node, "pre_exposure", &frame->pre_exposure, err) &&

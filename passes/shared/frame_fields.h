@@ -14,6 +14,7 @@ FIELD(vec4,  sun_direction,            "xyz: unit vector towards the sun in worl
 FIELD(vec4,  sun_irradiance,           "rgb: irradiance on a surface that faces the sun, radiance · sr, 0 where it is not known; w: 0")
 FIELD(vec4,  openness,                 "x: fraction of the picture above the horizon that shows the sky, -1 where nothing above it is in the picture; counted in frames without cube maps that have a sky, else 0; yzw: 0")
 FIELD(vec4,  captured_light,           "x: 1 where the engine's own occlusion is already in the captured indirect light; y: the capture's exposure, a factor from radiance to what is displayed; zw: 0")
+FIELD(vec4,  lut_stops,                "x, y: stops between which the table of colours is looked up by linear light; z: 1 where it is, 0 where by sRGB-encoded colours; w: 0")
 FIELD(vec4,  up,                       "xyz: unit up axis; w: largest colour that images hold, 65504 or +inf")
 FIELD(uvec4, size,                     "xy: full resolution; zw: pipeline's half resolution")
 FIELD(uvec4, counts,                   "x: active cube maps; y: frame number; z: cube face size; w: sky face size, 0 without a sky; a probe without a box is one")

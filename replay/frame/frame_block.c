@@ -184,7 +184,9 @@ static vec4 metres_of(const double units[3], const double from[3], double metres
 void frame_block_captured_light(struct frame_block *block, const struct glint_capture *capture) {
     const struct glint_part_info *part = glint_capture_find(capture, GLINT_PART_INDIRECT);
     block->captured_light.x = part && part->has_indirect && part->indirect.occluded;
-    const double exposure = glint_capture_frame(capture)->exposure;
+    const struct glint_frame *frame = glint_capture_frame(capture);
+    const double exposure = frame->exposure;
+    if (frame->has_lut_stops) block->lut_stops = (vec4){(float)frame->lut_stops[0], (float)frame->lut_stops[1], 1, 0};
     block->captured_light.y = exposure > 0 ? (float)exposure : 1;
 }
 

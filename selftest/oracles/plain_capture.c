@@ -185,6 +185,8 @@ static struct glint_frame frame_of(const struct plain *plain) {
                                                          : 1,
                                 .cut = plain->cut,
                                 .up = plain->up};
+    frame.has_lut_stops = plain->lut_stops != NULL;
+    if (plain->lut_stops) memcpy(frame.lut_stops, plain->lut_stops, sizeof frame.lut_stops);
     for (int i = 0; i < 16; ++i)
         frame.camera.world_to_view[i] = plain->world_to_view ? plain->world_to_view[i] : i % 5 == 0;
     frame.camera.view_to_clip[0] = focal(plain) * plain->height / plain->width;

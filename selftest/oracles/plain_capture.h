@@ -45,6 +45,7 @@ struct plain {
     bool first;             /* the number is 0 */
     bool cut;
     double exposure;                             /* of the frame; 0: 1 */
+    const double *lut_stops;                     /* 2 values; NULL: none */
     double jitter_px[2], previous_jitter_px[2];  /* of the projection; the wall's motion says both */
     const double *world_to_view;                 /* 16 values; NULL: as above */
     const struct glint_fog *fog;                 /* NULL: none */

@@ -49,6 +49,9 @@ struct glint_frame fixture_frame(void) {
     frame.player[1] = 1e9 + 0.125;
     frame.exposure = 1.5;
     frame.pre_exposure = 0.25;
+    frame.has_lut_stops = true;
+    frame.lut_stops[0] = -9.5;
+    frame.lut_stops[1] = 6.25;
     frame.metres_per_unit = 0.01;
     frame.depth_near = 0.1;
     frame.depth_far = 500;

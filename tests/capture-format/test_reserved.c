@@ -69,6 +69,13 @@ static void hash_alone(struct rewrite *r) {
     new_attribute(r, "cubemap.000", "glint.siblingHash", "0123456789abcdef0123456789abcdef");
 }
 
+static void falling_stops(struct rewrite *r) {
+    broken_numbers(r, "gbuffer", "glint.lutStops", 1, -9.5);
+}
+static void far_stops(struct rewrite *r) {
+    broken_numbers(r, "gbuffer", "glint.lutStops", 1, 65);
+}
+
 static const struct broken_case cases[] = {
     {"attributes", {"part gbuffer: glint.exposurE", "did you mean glint.exposure?"}, misspelt_exposure, false},
     {"attributes", {"part gbuffer: glint.roughnesS", "did you mean glint.roughness?"}, misspelt_roughness, false},
@@ -87,6 +94,11 @@ static const struct broken_case cases[] = {
      hull_after_zeros,
      false},
     {"attributes", {"planar.002: glint.plane", "zeros below row 0"}, thick_plane, false},
+    {"attributes",
+     {"gbuffer: glint.lutStops", "two increasing numbers from -64 to 64, found -9.5 and -9.5"},
+     falling_stops,
+     false},
+    {"attributes", {"gbuffer: glint.lutStops", "found -9.5 and 65"}, far_stops, false},
     {"sibling", {"cubemap.000", "expected glint.sibling beside"}, hash_alone, false},
 };
 

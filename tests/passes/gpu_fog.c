@@ -217,9 +217,30 @@ static void without_fog_there_is_no_pass(void **state) {
     }
 }
 
+/* Without a plan the pass of the water runs in a capture that has none, too, and nothing is in front of the surfaces. */
+static void a_dry_frame_is_as_planned(void **state) {
+    struct gpu *gpu = *state;
+    const struct plain plain = plain_of(&even, true, true);
+    char path[256];
+    plain_capture(gpu_path(gpu, "dry", path), &plain);
+    gpu_load(gpu, "dry");
+    gpu_reset(gpu);
+    gpu_use(gpu, "water=combine");
+    gpu_use(gpu, "fog=height");
+    gpu_run(gpu);
+    float *planned = gpu_floats(gpu, "composed_fog", NULL, NULL);
+    gpu->all = true;
+    gpu_run(gpu);
+    float *all = gpu_floats(gpu, "composed_fog", NULL, NULL);
+    assert_memory_equal(planned, all, 4 * PIXELS * sizeof *all);
+    free(planned);
+    free(all);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_slab_of_shadow_is_integrated), cmocka_unit_test(fog_covers_and_scatters),
-        cmocka_unit_test(the_blur_stays_at_its_depth), cmocka_unit_test(without_fog_there_is_no_pass)};
+        cmocka_unit_test(the_blur_stays_at_its_depth), cmocka_unit_test(without_fog_there_is_no_pass),
+        cmocka_unit_test(a_dry_frame_is_as_planned)};
     return cmocka_run_group_tests_name("gpu_fog", tests, gpu_set_up, gpu_tear_down);
 }

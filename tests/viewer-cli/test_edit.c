@@ -35,6 +35,7 @@ static const char *value_of(const char *key, const char *form) {
         {"viewToClip", "1.5,0,0.0625,0,0,2.5,-0.125,0,0,0,0,0.1,0,0,-1,0"},
         {"previousViewToClip", "1.25,0,0.0625,0,0,2.5,-0.125,0,0,0,0,0.1,0,0,-1,0"},
         {"frame", "4000000000"},
+        {"lutStops", "-9.5,6.25"},
         {"stencilClasses", "3/7=foreground,16/0=sky"},
         {"hull", "1,0,0,-2,-1,0,0,-2,0,1,0,-2,0,-1,0,-2,0,0,1,-2"},
         {"plane", "0,1,0,-0.75"},

@@ -147,6 +147,8 @@ struct glint_frame {
     double player[3];       /* world position of the player, around whom cube maps are selected */
     double jitter_px[2];    /* sub-pixel offset that view_to_clip contains; +x right, +y down */
     double exposure;        /* factor from scene-referred to display; 0: 1 */
+    bool has_lut_stops;     /* false: `lut` is a table of sRGB-encoded colours */
+    double lut_stops[2];    /* `lut` maps exposed linear light: log2 of what its ends are for, but for an offset */
     double pre_exposure;    /* factor contained in pre-exposed colour; 0: 1 */
     double metres_per_unit; /* 0: 1 */
     double depth_near;      /* near and far of logarithmic depth, units */
@@ -202,14 +204,12 @@ struct glint_sky {
    the finest is probe.NNN, the next ones are probe.NNN.level1, probe.NNN.level2, …, each of half the face size. */
 #define GLINT_MAX_LEVELS 16
 struct glint_probe_box {
-    double center[3]; /* world position */
-    double min[3],
-        max[3]; /* relative to the centre, in units: everything in the probe is taken to lie on these faces */
+    double center[3];      /* world position */
+    double min[3], max[3]; /* relative to the centre, in units: all in the probe is taken to lie on these faces */
 };
 struct glint_probe {
     bool has_roughness;
-    double
-        roughness; /* perceptual roughness of the surfaces that look up this level; without: spread evenly over [0, 1] */
+    double roughness; /* perceptual roughness of the surfaces that look up this level; without: spread over [0, 1] */
     /* Of the finest level: */
     bool has_ground;
     double ground; /* as in struct glint_sky */

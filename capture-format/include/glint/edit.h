@@ -36,6 +36,10 @@ void glint_edit_drop_part(struct glint_edit *edit, size_t part);
 /* The functions on channels and pixels take those of a sibling into the copy. */
 bool glint_edit_drop_channel(struct glint_edit *edit, size_t part, const char *channel, struct glint_error *err);
 
+/* Adds a part of float channels, behind the others; values: those of a pixel beside each other, copied. A part of this name is an error. */
+bool glint_edit_add_part(struct glint_edit *edit, const char *name, uint32_t width, uint32_t height,
+                         const char *const *channels, size_t count, const float *values, struct glint_error *err);
+
 /* Pixels of one channel, which may be changed until the edit is closed. */
 struct glint_edit_pixels {
     uint8_t *data;

@@ -32,6 +32,9 @@ vec3 curve(vec3 color) {
 }
 vec3 encoded(vec3 color) { return is_limited() ? srgb_encoded(clamp(color, 0.0, 1.0)) : color; }
 
+// What the table makes of linear light is encoded for the display.
+bool table_is_linear() { return frame.lut_stops.z != 0.0; }
+
 // The table's colour, interpolated between its eight nearest ones.
 vec3 from_table(vec3 color) {
     int n = textureSize(color_table, 0).x;
@@ -47,8 +50,16 @@ vec3 from_table(vec3 color) {
 }
 
 void store_toned(ivec2 pixel) {
-    vec3 color = encoded(curve(through_lens(pixel)));
-    if (colors > 0.0 && textureSize(color_table, 0).x > 1) color = mix(color, from_table(color), colors);
+    vec3 seen = through_lens(pixel), color = encoded(curve(seen));
+    if (colors > 0.0 && textureSize(color_table, 0).x > 1) {
+        vec3 graded_color = color;
+        if (table_is_linear()) {
+            vec3 light = mix(vec3(0.0), min(seen, vec3(LARGEST)), greaterThan(seen, vec3(0.0)));
+            graded_color = from_table(table_place(light, frame.lut_stops.xy));
+            if (!is_limited()) graded_color = srgb_decoded(clamp(graded_color, 0.0, 1.0));
+        } else graded_color = from_table(color);
+        color = mix(color, graded_color, colors);
+    }
     imageStore(toned, pixel, vec4(color, 1.0));
 }
 

@@ -21,4 +21,10 @@ vec3 aces(vec3 c) {
 
 // IEC 61966-2-1, of values in [0, 1].
 vec3 srgb_encoded(vec3 c) { return mix(1.055 * pow(c, vec3(1.0 / 2.4)) - 0.055, 12.92 * c, lessThanEqual(c, vec3(0.0031308))); }
+vec3 srgb_decoded(vec3 c) { return mix(pow((c + 0.055) / 1.055, vec3(2.4)), c / 12.92, lessThanEqual(c, vec3(0.04045))); }
+
+// Where a table between two stops has linear light, from 0 to 1: 0 is for black (capture-format/FORMAT.md, glint.lutStops).
+vec3 table_place(vec3 c, vec2 stops) {
+    return (log2(c + exp2(stops.x)) - stops.x) / (stops.y - stops.x);
+}
 #endif

@@ -28,7 +28,7 @@ void main() {
     if (any(greaterThanEqual(pixel, imageSize(composed_fog)))) return;
     vec3 color = has_composed_water ? texelFetch(composed_water, pixel, 0).rgb : texelFetch(composed, pixel, 0).rgb;
     float depth_m = texelFetch(depth_full, pixel, 0).x;
-    if (has_composed_water) depth_m = min(depth_m, texelFetch(water_depth, pixel, 0).x);
+    if (has_composed_water && textureSize(water_depth, 0) == ivec2(frame.size.xy)) depth_m = min(depth_m, texelFetch(water_depth, pixel, 0).x);
     bool is_sky = !(depth_m < LARGEST);
     if (depth_m > 0.0 && (!is_sky || (sky && frame.material.y == 0.0))) color = foggy(pixel, color, depth_m);
     imageStore(composed_fog, pixel, vec4(color, 1.0));

@@ -43,7 +43,7 @@ vec3 mirrored(ivec2 pixel, float depth_m) {
 
 // Whether there is water in front of a transparent surface, which then is behind the water and not composed over it.
 bool under_water(ivec2 pixel, float depth_m) {
-    return has_composed_water && texelFetch(water_depth, pixel, 0).x < depth_m;
+    return has_composed_water && textureSize(water_depth, 0) == ivec2(frame.size.xy) && texelFetch(water_depth, pixel, 0).x < depth_m;
 }
 
 vec3 composed_color(ivec2 pixel) {

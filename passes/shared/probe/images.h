@@ -24,5 +24,6 @@ PROBE_IMAGE(composed)
 PROBE_IMAGE(composed_water)
 PROBE_IMAGE(composed_fog)
 PROBE_IMAGE(water_color)
+PROBE_IMAGE(refraction_map)
 PROBE_IMAGE(transparent_color)
 PROBE_IMAGE(mixture) /* no image: the result of the samples before */
