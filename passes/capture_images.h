@@ -38,6 +38,7 @@ CAPTURE(volume_py, RGBA16F, "radiance", GRID, "volume.000", "py.R py.G py.B -", 
 CAPTURE(volume_ny, RGBA16F, "radiance", GRID, "volume.000", "ny.R ny.G ny.B -", false, 0, "the same for -y")
 CAPTURE(volume_pz, RGBA16F, "radiance", GRID, "volume.000", "pz.R pz.G pz.B -", false, 0, "the same for +z")
 CAPTURE(volume_nz, RGBA16F, "radiance", GRID, "volume.000", "nz.R nz.G nz.B -", false, 0, "the same for -z")
+CAPTURE(froxel_light,     RGBA16F, "radiance/m", FROXELS, "froxels", "R G B -", false, 0, "light that the air of each cell scatters towards the camera per metre")
 CAPTURE(water_color,      RGBA16F, "radiance", FULL, "water", "R G B opacity", false, 0, "rgb: light scattered by the water; a: fraction of the light behind it that one metre absorbs; 0 where there is no water")
 CAPTURE(water_normal,     RGBA16F, "1",  FULL,     "water",   "normal.X normal.Y normal.Z thickness.Z", false, 0, "xyz: unit normal in world space; w: distance through the water along the view ray in m")
 CAPTURE(water_depth,      R32F,    "m",  FULL,     "water",   "depth.Z", false, INFINITY, "view-linear depth of the surface; +inf where there is none")

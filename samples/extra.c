@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "dump_part.h"
+#include "froxels.h"
 
 struct mask_work {
     const struct world *world;
@@ -38,5 +39,6 @@ static bool write_stipple(const struct dump *dump, const struct world *world, st
 
 bool extra_write(const struct dump *dump, const struct world *world, const struct glint_sample_options *options,
                  struct job *job, struct glint_error *err) {
-    return !(options->also & GLINT_ALSO_STIPPLE) || write_stipple(dump, world, job, err);
+    return (!(options->also & GLINT_ALSO_STIPPLE) || write_stipple(dump, world, job, err)) &&
+           (!(options->also & GLINT_ALSO_FROXELS) || froxels_write(dump, world, job, err));
 }

@@ -143,6 +143,7 @@ struct glint_survey {
     bool has_shadows;           /* the capture has a shadow map that passes use */
     bool has_overlays;          /* buffers that are to be blended into the G-buffer */
     bool has_volume;            /* the capture has a volume of light */
+    bool has_froxels;           /* the capture has light in the air */
     bool has_scene;             /* the capture has the finished picture */
     double exposure;            /* the capture's factor from radiance to what is displayed */
     bool has_earlier_lit, has_earlier_scene; /* pictures of the previous frame */
