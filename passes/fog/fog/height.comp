@@ -31,20 +31,33 @@ vec3 light_of(ivec3 cell) {
     return finite(vec4(light.rgb, 0.0)) ? max(light.rgb, 0.0) : vec3(0.0);
 }
 
-// The light of a slice around a point of the picture; from_m: the depth at which it begins.
-vec3 light_around(vec2 uv, int slice, float from_m) {
+// The cells around a point of the picture within a slice: which four, how much each counts, and the depth from which on each is hidden.
+struct Corners {
+    ivec2 at[4];
+    vec4 weight, far_m;
+};
+Corners corners_around(vec2 uv) {
     ivec2 most = ivec2(frame.froxels.xy) - 1;
     vec2 place = uv * vec2(frame.froxels.xy);
-    if (froxel_filter == froxel_filter_nearest) return light_of(ivec3(min(ivec2(place), most), slice));
+    if (froxel_filter == froxel_filter_nearest) place = floor(place) + 0.5;
     vec2 corner = floor(place - 0.5), part = place - 0.5 - corner;
+    Corners c;
+    for (int i = 0; i < 4; ++i) {
+        c.at[i] = clamp(ivec2(corner) + ivec2(i & 1, i >> 1), ivec2(0), most);
+        c.weight[i] = ((i & 1) == 0 ? 1.0 - part.x : part.x) * (i < 2 ? 1.0 - part.y : part.y);
+        c.far_m[i] = has_froxel_far ? texelFetch(froxel_far, c.at[i], 0).x : INFINITE;
+    }
+    return c;
+}
+
+// Their light in a slice that begins at a depth.
+vec3 light_around(Corners c, int slice, float from_m) {
     vec3 sum = vec3(0.0);
     float total = 0.0;
     for (int i = 0; i < 4; ++i) {
-        ivec2 at = clamp(ivec2(corner) + ivec2(i & 1, i >> 1), ivec2(0), most);
-        if (has_froxel_far && from_m > texelFetch(froxel_far, at, 0).x) continue;
-        float weight = ((i & 1) == 0 ? 1.0 - part.x : part.x) * (i < 2 ? 1.0 - part.y : part.y);
-        sum += weight * light_of(ivec3(at, slice));
-        total += weight;
+        if (!(c.weight[i] > 0.0) || from_m > c.far_m[i]) continue;
+        sum += c.weight[i] * light_of(ivec3(c.at[i], slice));
+        total += c.weight[i];
     }
     return total > 0.0 ? sum / total : vec3(0.0);
 }
@@ -53,12 +66,13 @@ vec3 light_around(vec2 uv, int slice, float from_m) {
 vec3 light_in_the_air(ivec2 pixel, float depth_m) {
     vec2 uv = (vec2(pixel) + 0.5) / vec2(frame.size.xy);
     vec3 ray = ray_of(uv), sum = vec3(0.0);
+    Corners corners = corners_around(uv);
     float from_m = frame.froxel_range.x, from = optical_depth(ray, from_m * length(ray));
     for (int k = 0; k < int(frame.froxels.z) && from_m < depth_m; ++k) {
         float to_m = froxel_depth(k + 1, frame.froxels.z, frame.froxel_range), end_m = min(to_m, depth_m);
         float to = optical_depth(ray, end_m * length(ray));
         float passing = frame.material.y != 0.0 ? 1.0 : fog_mean_passing(from, to);
-        sum += max(end_m - from_m, 0.0) * length(ray) * passing * light_around(uv, k, from_m);
+        sum += max(end_m - from_m, 0.0) * length(ray) * passing * light_around(corners, k, from_m);
         from_m = to_m;
         from = to;
     }
