@@ -16,6 +16,7 @@ ABSENCE("emissive", "", "what surfaces emit themselves is not known apart from t
 ABSENCE("ao", "", "the engine's own occlusion is not there to be compared with, or taken out of the ambient light")
 ABSENCE("decal", "", "decals are not blended into the G-buffer")
 ABSENCE("skin", "", "only the stencil class `skin` says where light scatters under the surface")
+ABSENCE("curvature", "", "light scatters as widely under flat skin as under skin that bends")
 ABSENCE("stipple", "", "surfaces that the engine drew into every other pixel stay a pattern")
 ABSENCE_UNLESS("sun", "shadow", "", "no shadow mask can be made from the engine's shadow map")
 ABSENCE_UNLESS("shadow", "sun", "", "contact shadows are all that shades the sun: what casts a shadow from farther away is not known")

@@ -23,6 +23,7 @@ CAPTURE(sun_mask,         R16F,    "1",  FULL,     "sun",     "visibility", fals
 CAPTURE(shadow_map,       R32F,    "1",  SHADOW,   "shadow", "depth.Z", false, 1, "depths of the surfaces nearest to the sun, of all its shadow maps, one below the other as frame.shadow_place has them")
 CAPTURE(stipple_mask,     R16F,    "1",  FULL,     "stipple", "drawn", false, 0, "1 where a surface was drawn that the engine draws into every other pixel alone")
 CAPTURE(skin_strength,    R16F,    "1",  FULL,     "skin",    "strength", false, 1, "how widely light scatters under the surface: 1 as the profile of skin says, 0: no skin")
+CAPTURE(skin_curvature,   R16F,    "1/m", FULL,    "curvature", "curvature", false, 0, "1 / radius of a sphere that bends as much as the surface; 0 where it is flat")
 CAPTURE(scene,            RGBA16F, "radiance", FULL, "scene", "R G B -", false, 0, "the finished picture")
 CAPTURE(previous_lit,     RGBA16F, "radiance", FULL, "previous.lit", "R G B -", false, 0, "lit of the previous frame")
 CAPTURE(previous_scene,   RGBA16F, "radiance", FULL, "previous.scene", "R G B -", false, 0, "scene of the previous frame")

@@ -73,6 +73,9 @@ END(decal_material)
 ROLE(skin, "skin", FRAME, false, false, false, false, "the engine's own mask of skin and other surfaces under which light scatters")
     CHANNEL("strength", true, "1", "", "factor on the width of the scattering, such as less where the surface is flat or thick; 0: nothing scatters")
 END(skin)
+ROLE(curvature, "curvature", FRAME, false, false, false, false, "how much the surfaces bend, as engines bake it into meshes or maps for skin")
+    CHANNEL("curvature", true, "1/m", "", "1 / radius of a sphere that bends as much, also where the surface is hollow; 0 where it is flat, and where sky")
+END(curvature)
 ROLE(cubemap, "cubemap", CUBE, false, true, false, false, "a local cube map: six square faces below each other, +X −X +Y −Y +Z −Z")
     CHANNEL("R",          true,  "radiance", "color", "diffuse shading, no specular; black where sky, so that it can be filtered")
     CHANNEL("G",          true,  "radiance", "color", "")
@@ -194,7 +197,6 @@ END(truth_picture)
 ROLE(engine, "engine.", ANY, false, false, false, false, "the engine's own intermediate of a slot, `engine.SLOT.IMAGE`, coarser levels `engine.SLOT.IMAGE.level1` …; any channels, kept as stored")
 END(engine)
 ROLE(sss_profile, "sss.profile", ANY, false, false, false, true, "subsurface scattering profiles") END(sss_profile)
-ROLE(curvature, "curvature", ANY, false, false, false, true, "surface curvature") END(curvature)
 /* clang-format on */
 #undef ROLE
 #undef CHANNEL

@@ -26,7 +26,7 @@ RULE(SIBLING,   "sibling",          "A sibling is a plain file name in the captu
 /* ---- pixels: checked by validate alone ---- */
 RULE(PIXEL_FINITE,    "pixels-finite",    "No NaN, and no infinity but +inf in view-linear depth and in distances under sky. Where depth says sky (or no surface), the other channels are not checked.")
 RULE(PIXEL_NORMAL,    "pixels-normal",    "Decoded normals have a length of 1 within 0.02 before the reader normalises them.")
-RULE(PIXEL_RANGE,     "pixels-range",     "Decoded roughness and every channel of unit 1 without an encoding, but `stencil.id`, lie in [0, 1] (within 0.001); radiance, metres (but motion.Z) and relative errors are not negative; encoded depth, unorm, octahedral, view_xy, spheremap and log2_power values lie in [0, 1]; packed16 values have 16 bits.")
+RULE(PIXEL_RANGE,     "pixels-range",     "Decoded roughness and every channel of unit 1 without an encoding, but `stencil.id`, lie in [0, 1] (within 0.001); radiance, metres (but motion.Z), 1/m and relative errors are not negative; encoded depth, unorm, octahedral, view_xy, spheremap and log2_power values lie in [0, 1]; packed16 values have 16 bits.")
 RULE(PIXEL_SKY,       "pixels-sky",       "In cube maps, where A is 0 (sky), R G B are 0 and distance.Z is +inf; where A is 1, distance.Z is a number. Where A is between 0 and 1, as after filtering, both are free.")
 RULE(PIXEL_MIRROR,    "pixels-mirror",    "In `truth.mirror`, visible is 0 where distance.Z is +inf (sky) or 0 (no ray).")
 /* clang-format on */

@@ -11,6 +11,7 @@ COUNT(sunlit,                  1,  "surfaces that are not in the shadow of the s
 COUNT(luminous,                1,  "pixels whose lit picture is not black, or is invalid")
 MAXIMUM(brightest,                 "largest finite luminance of the lit picture")
 COUNT(stippled,                1,  "pixels in which a stippled surface was drawn")
+COUNT(skin,                    1,  "surfaces of the stencil class `skin`, or in the engine's own mask of it")
 COUNT(surface_roughness,       10, "surfaces by roughness, in bins of 0.1")
 COUNT(reflecting_roughness,    10, "reflecting surfaces by roughness, in bins of 0.1")
 COUNT(metalness,               10, "surfaces by metalness, in bins of 0.1")

@@ -22,7 +22,7 @@
 #undef MAXIMUM
 #line 24
 const int ALL_FIGURES = 512;
-const int FIGURES = whole ? ALL_FIGURES : 224; // words of a workgroup: plans only need the first lines of figures.h
+const int FIGURES = whole ? ALL_FIGURES : 240; // words of a workgroup: plans only need the first lines of figures.h
 shared uint figures[ALL_FIGURES];
 // The bits of non-negative floats have the order of their values.
 const uint COUNTED = 0u, LOWEST = 1u, HIGHEST = 2u;
@@ -54,7 +54,7 @@ void bin(inout Row row, int figure, int number, int most) {
 struct Sums {
     Row by_surface_roughness, by_reflecting_roughness, by_metalness, by_weight;
     uvec2 stencil; // an id, and its number of consecutive pixels
-    uint sky, surfaces, reflecting, above, open, sunlit, luminous, stippled, water, transparent, moved, moving;
+    uint sky, surfaces, reflecting, above, open, sunlit, luminous, stippled, skin, water, transparent, moved, moving;
     vec2 surface_roughness, reflecting_roughness, depth, light; // lowest, highest
     float transparent_roughest;
 };
@@ -119,6 +119,14 @@ void count_picture(ivec2 pixel, inout Sums sums) {
     }
 }
 
+// Of the class or in the mask: passes may ask for either.
+bool shows_skin(ivec2 pixel, float depth_m) {
+    if (!(depth_m > 0.0 && depth_m < INFINITE)) return false;
+    bool by_class = frame.skin.z != 0u && textureSize(stencil_full, 0) == ivec2(frame.size.xy);
+    if (by_class && (texelFetch(stencil_full, pixel, 0).x & frame.skin.y) == frame.skin.x) return true;
+    return has_part(skin_strength) && texelFetch(skin_strength, pixel, 0).x > 0.0;
+}
+
 // All texels are fetched before any is used, so that the fetches are independent.
 void count_pixel(ivec2 pixel, inout Sums sums) {
     float depth_m = texelFetch(depth_full, pixel, 0).x, specular = texelFetch(specular_full, pixel, 0).x;
@@ -145,6 +153,7 @@ void count_pixel(ivec2 pixel, inout Sums sums) {
     if (!all(equal(color, vec3(0.0)))) sums.luminous++;
     if (light >= 0.0 && light < LARGEST) extend(sums.light, light);
     if (has_part(stipple_mask) && texelFetch(stipple_mask, pixel, 0).x > 0.5) sums.stippled++;
+    if (shows_skin(pixel, depth_m)) sums.skin++;
     if (whole) count_picture(pixel, sums);
 }
 
@@ -178,7 +187,7 @@ void count_block(int place) {
     barrier();
     const vec2 NONE = vec2(INFINITE, -INFINITE);
     const Row EMPTY = Row(0, 0u);
-    Sums sums = Sums(EMPTY, EMPTY, EMPTY, EMPTY, uvec2(0u), 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, NONE, NONE, NONE, NONE, 0.0);
+    Sums sums = Sums(EMPTY, EMPTY, EMPTY, EMPTY, uvec2(0u), 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, NONE, NONE, NONE, NONE, 0.0);
     for (int row = lane / 64; row < 64; row += LANES / 64) {
         ivec2 pixel = 64 * ivec2(gl_WorkGroupID.xy) + ivec2(lane % 64, row);
         if (all(lessThan(pixel, ivec2(frame.size.xy)))) count_pixel(pixel, sums);
@@ -193,6 +202,7 @@ void count_block(int place) {
     atomicAdd(figures[at_luminous], sums.luminous);
     atomicMax(figures[at_brightest], floatBitsToUint(max(sums.light.y, 0.0)));
     atomicAdd(figures[at_stippled], sums.stippled);
+    atomicAdd(figures[at_skin], sums.skin);
     add_range(at_surface_smoothest, at_surface_roughest, sums.surface_roughness);
     add_range(at_reflecting_smoothest, at_reflecting_roughest, sums.reflecting_roughness);
     barrier();

@@ -41,6 +41,7 @@ static void read_figures(struct glint_survey *survey, const uint32_t *f, bool wh
     survey->sunlit = f[at_sunlit];
     survey->luminous = f[at_luminous];
     survey->stippled = f[at_stippled];
+    survey->skin = f[at_skin];
     survey->water = f[at_water];
     survey->transparent = f[at_transparent];
     survey->moved = f[at_moved];

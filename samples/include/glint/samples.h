@@ -26,15 +26,16 @@ enum glint_truths {
 
 /* What the engine writes only when asked. */
 enum glint_also {
-    GLINT_ALSO_AO = 1,       /* its own, coarse ambient occlusion, over half the radius of the truth */
-    GLINT_ALSO_SUN = 2,      /* its shadow mask, in scenes with a sun */
-    GLINT_ALSO_SHADOW = 4,   /* shadow maps, in scenes with a sun */
-    GLINT_ALSO_VOLUME = 8,   /* a volume of light */
-    GLINT_ALSO_LUT = 16,     /* the table of colours that it grades with */
-    GLINT_ALSO_DIRT = 32,    /* the dirt on its lens */
-    GLINT_ALSO_STIPPLE = 64, /* where stippled surfaces were drawn */
-    GLINT_ALSO_DECALS = 128, /* decals on the ground, in buffers of their own */
-    GLINT_ALSO_FROXELS = 256 /* light in the air, in scenes with fog */
+    GLINT_ALSO_AO = 1,         /* its own, coarse ambient occlusion, over half the radius of the truth */
+    GLINT_ALSO_SUN = 2,        /* its shadow mask, in scenes with a sun */
+    GLINT_ALSO_SHADOW = 4,     /* shadow maps, in scenes with a sun */
+    GLINT_ALSO_VOLUME = 8,     /* a volume of light */
+    GLINT_ALSO_LUT = 16,       /* the table of colours that it grades with */
+    GLINT_ALSO_DIRT = 32,      /* the dirt on its lens */
+    GLINT_ALSO_STIPPLE = 64,   /* where stippled surfaces were drawn */
+    GLINT_ALSO_DECALS = 128,   /* decals on the ground, in buffers of their own */
+    GLINT_ALSO_FROXELS = 256,  /* light in the air, in scenes with fog */
+    GLINT_ALSO_CURVATURE = 512 /* of the surfaces */
 };
 
 struct glint_sample_options {
