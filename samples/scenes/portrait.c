@@ -138,5 +138,5 @@ void build_portrait(struct scene *scene) {
     scene->target = v3(0, 1.575f, 0);
     scene->fov_y_rad = 0.42f;
     scene->player = v3(0, 0, 0.8f);
-    scene_cubemap(scene, v3(0.1f, 1.6f, 0.5f), false);
+    for (int i = 0; i < 4; i++) scene_cubemap(scene, v3(i % 2 ? 0.4f : -0.4f, i < 2 ? 1.9f : 1.3f, 0.5f), false);
 }

@@ -190,6 +190,7 @@ struct glint_part fixture_part(const struct fixture *f, enum fixture_part which,
                                         "shadow.001",
                                         "volume.000",
                                         "froxels",
+                                        "curvature",
                                         "truth.occlusion",
                                         "truth.sun",
                                         "truth.indirect",
@@ -243,6 +244,10 @@ struct glint_part fixture_part(const struct fixture *f, enum fixture_part which,
         part.height = FIX_CELLS_Y * FIX_CELLS_Z;
         for (size_t i = 0; i < 3; i++) add_fixture_channel(&part, c, rgba[i], f->color + i, 4);
         part.froxels = &f->froxels;
+        return part;
+    }
+    if (which == FIXTURE_CURVATURE) {
+        add_fixture_channel(&part, c, "curvature", f->color, 4);
         return part;
     }
     const float *color = cube ? f->cube : f->color;

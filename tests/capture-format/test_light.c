@@ -193,6 +193,9 @@ static void exponential_from_0(struct rewrite *r) {
 static void dark_air(struct rewrite *r) {
     floats(r, "froxels", "G")[5] = -0.5f;
 }
+static void negative_curvature(struct rewrite *r) {
+    floats(r, "curvature", "curvature")[9] = -80;
+}
 static void no_radius(struct rewrite *r) {
     rewrite_remove_attribute(r, "truth.occlusion", "glint.radius");
 }
@@ -260,6 +263,7 @@ static const struct broken_case cases[] = {
     {"froxels", {"froxelFar <= 1e9", "found 12.5 and 2e+09"}, far_away, false},
     {"froxels", {"froxelFar / 1e9 <= froxelNear", "found 0 and 6400"}, exponential_from_0, false},
     {"pixels-range", {"froxels: G", "not negative"}, dark_air, true},
+    {"pixels-range", {"curvature: curvature", "not negative"}, negative_curvature, true},
     {"attributes", {"truth.occlusion: glint.radius", "missing"}, no_radius, false},
     {"attributes", {"truth.sun: glint.length", "value in range, found 0"}, no_length, false},
     {"attributes", {"truth.sun: glint.radius", "on `truth.occlusion` only"}, stray_radius, false},

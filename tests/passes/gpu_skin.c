@@ -283,6 +283,27 @@ static void passes_run_where_there_is_skin(void **state) {
     }
 }
 
+/* A class without a pixel: that its passes are left out changes no bit of the picture. */
+static void skipped_passes_change_no_bit(void **state) {
+    struct gpu *gpu = *state;
+    struct plain plain = face(sky_to_the_right, false);
+    float *pictures[2];
+    plain.foreground = true;
+    plain.class_name = "skin";
+    for (int all = 0; all < 2; all++) {
+        occlusion_load(gpu, &plain);
+        gpu_reset(gpu);
+        gpu->all = all;
+        gpu_use(gpu, "sss_mask=classes");
+        gpu_use(gpu, "sss_blur=separable");
+        gpu_run(gpu);
+        assert_true(result_of(gpu, "sss_blur")->ran == all);
+        pictures[all] = gpu_floats(gpu, "composed", NULL, NULL);
+    }
+    assert_memory_equal(pictures[0], pictures[1], 4 * WIDE * HIGH * sizeof **pictures);
+    free(pictures[0]), free(pictures[1]);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_straight_edge_is_the_integral_of_the_profile),
@@ -291,6 +312,7 @@ int main(void) {
         cmocka_unit_test(nothing_outside_the_mask_changes),
         cmocka_unit_test(the_picture_has_the_scattered_light),
         cmocka_unit_test(passes_run_where_there_is_skin),
+        cmocka_unit_test(skipped_passes_change_no_bit),
     };
     return cmocka_run_group_tests_name("gpu_skin", tests, gpu_set_up, gpu_tear_down);
 }
