@@ -261,6 +261,11 @@ bool glint_edit_crop(struct glint_edit *edit, const struct glint_edit_rectangle 
     for (size_t p = glint_edit_find(edit, "gbuffer"), i = 0; ok && i < edit->count;
          i++) /* checks the rectangle first */
         ok = crop_part(&crop, i == 0 ? p : i - (i <= p));
+    const size_t froxels = glint_edit_find(edit, "froxels");
+    if (ok && froxels < edit->count) {
+        glint_edit_say(edit, "froxels: left out; their cells are of the whole view frustum");
+        glint_edit_drop_part(edit, froxels);
+    }
     ok = ok && crop_camera(&crop, "glint.viewToClip") && crop_camera(&crop, "glint.previousViewToClip") &&
          crop_range(&crop);
     glint_capture_close(&capture);

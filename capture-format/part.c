@@ -226,6 +226,19 @@ static bool check_grid(struct glint_check *check, const struct glint_part_info *
                   out->height, out->volume.slices);
 }
 
+static bool check_froxels(struct glint_check *check, const struct glint_part_info *out) {
+    const struct glint_froxels *froxels = &out->froxels;
+    const double near = froxels->near_depth, far = froxels->far_depth;
+    if (!out->has_froxels) return true;
+    if (!froxels->slices || froxels->slices > GLINT_MAX_FROXEL_SLICES || out->height % froxels->slices != 0)
+        return BROKEN(FROXELS, "glint.froxelSlices",
+                      "expected 1 to %d slices in a height of a whole number of them, found %u and %u slices",
+                      GLINT_MAX_FROXEL_SLICES, out->height, froxels->slices);
+    return (near < far && far <= 1e9 && (!froxels->exponential || near >= far / 1e9)) ||
+           BROKEN(FROXELS, "glint.froxelNear", "expected %s < froxelFar <= 1e9, found %g and %g",
+                  froxels->exponential ? "froxelFar / 1e9 <= froxelNear" : "froxelNear", near, far);
+}
+
 /* The attributes of the role, but for those of the frame, which all parts need. */
 static bool parse_scopes(struct glint_check *check, const struct glint_exr_part_info *from,
                          struct glint_part_info *out) {
@@ -236,7 +249,7 @@ static bool parse_scopes(struct glint_check *check, const struct glint_exr_part_
         *(bool *)((char *)out + row->has) = true;
         if (!glint_attributes_decode(check, from, scope, (char *)out + row->found)) return false;
     }
-    if (!check_grid(check, out)) return false;
+    if (!check_grid(check, out) || !check_froxels(check, out)) return false;
     const struct glint_probe_box *box = &out->probe.box;
     for (int i = 0; out->probe.has_box && i < 3; i++)
         if (!(box->min[i] < box->max[i]))

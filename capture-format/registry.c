@@ -182,6 +182,7 @@ int glint_encoding_value(const char *which, const char *name) {
 #define STRUCT_INDIRECT struct glint_indirect
 #define STRUCT_SHADOW struct glint_shadow
 #define STRUCT_VOLUME struct glint_light_volume
+#define STRUCT_FROXELS struct glint_froxels
 #define STRUCT_TRUTH_OCCLUSION struct glint_truth
 #define STRUCT_TRUTH_SUN struct glint_truth
 #define STRUCT_CUBEMAP struct glint_cubemap

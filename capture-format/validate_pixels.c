@@ -79,7 +79,7 @@ static void find_bounds(const struct glint_role_channel *row, float *low, float 
     *low = -INFINITY;
     *high = INFINITY;
     const bool bare = !row->encoding[0];
-    if (!strcmp(row->unit, "radiance") || !strcmp(row->unit, "relative") ||
+    if (!strncmp(row->unit, "radiance", 8) || !strcmp(row->unit, "relative") || !strcmp(row->unit, "1/m") ||
         (!strcmp(row->unit, "m") && strcmp(row->name, "motion.Z")))
         *low = 0;
     if (!strcmp(row->encoding, "roughness") || (bare && !strcmp(row->unit, "1")))

@@ -38,8 +38,10 @@ FACT(history, PARTS, s->has_history, SAY("%s", s->has_history ? "the previous fr
 FACT(stippled, PIXELS, s->has_stippling && s->stippled > 0,
      s->has_stippling ? SAY("%llu of %llu pixels show a stippled surface", N(s->stippled), N(s->pixels)) : SAY("no mask of stippled pixels"))
 FACT(decals, PARTS, s->has_overlays, SAY("%s", s->has_overlays ? "decal buffers" : "no decal buffers"))
-FACT(skin, PARTS, s->has_skin, SAY("%s", s->has_skin ? "a mask or a stencil class of skin" : "no skin"))
-FACT(fog, PARTS, s->has_fog, SAY("%s", s->has_fog ? "fog" : "no fog"))
+FACT(skin, PIXELS, s->has_skin && s->skin > 0,
+     s->has_skin ? SAY("%llu of %llu pixels show skin", N(s->skin), N(s->pixels)) : SAY("no mask and no stencil class of skin"))
+FACT(fog, PARTS, s->has_fog || s->has_froxels, SAY("%s", s->has_fog ? "fog" : s->has_froxels ? "light in the air" : "no fog"))
+FACT(froxels, PARTS, s->has_froxels, SAY("%s", s->has_froxels ? "light in the air, in slices" : "no slices of light in the air"))
 FACT(shafts, PARTS, s->has_fog && s->has_sun && s->has_shadows,
      SAY("%s", !s->has_fog ? "no fog" : !s->has_sun ? "no sun" : s->has_shadows ? "fog, a sun and its shadow map" : "no shadow map"))
 FACT(indirect_light, PARTS, s->has_indirect, SAY("%s part of the light that is indirect", s->has_indirect ? "a" : "no"))

@@ -1,4 +1,4 @@
-/* What an engine has beside the picture and its light: the mask of stippled pixels, caustics. */
+/* What an engine has beside the picture and its light: the mask of stippled pixels, caustics, curvature, light in the air. */
 #ifndef SAMPLES_EXTRA_H
 #define SAMPLES_EXTRA_H
 

@@ -126,7 +126,8 @@ enum {
     STENCIL_VEGETATION = 8,
     STENCIL_GLASS = 16,
     STENCIL_FOREGROUND = 32,
-    STENCIL_DECAL = 64
+    STENCIL_DECAL = 64,
+    STENCIL_SKIN = 128
 };
 
 void scene_init(struct scene *scene);

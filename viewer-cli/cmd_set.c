@@ -65,6 +65,7 @@ static const char *const scope_titles[] = {[GLINT_EDIT_FRAME] = "the frame",
                                            [GLINT_EDIT_INDIRECT] = "indirect",
                                            [GLINT_EDIT_SHADOW] = "shadow.NNN",
                                            [GLINT_EDIT_VOLUME] = "volume.NNN",
+                                           [GLINT_EDIT_FROXELS] = "froxels",
                                            [GLINT_EDIT_TRUTH] = "truth.occlusion, truth.sun",
                                            [GLINT_EDIT_ENCODING] = "parts with such channels",
                                            [GLINT_EDIT_STORAGE] = "parts with the channel"};

@@ -21,11 +21,12 @@ RULE(VOLUME,    "inner-volume",     "An inner volume is complete: a box with min
 RULE(LIGHT,     "lights",           "Point and spot lights are numbered from 000 without a gap, at most 64; the inner angle of a cone is not above the outer one, which is above 0.")
 RULE(SHADOW,    "shadow",           "The ends of a shadow map's range differ and lie in [0, 1]; the map is of the sun or of a light, which the frame has, and of all surfaces or of a stencil class that it has.")
 RULE(GRID,      "volume",           "The height of a volume of light is a whole number of its slices, and its matrix has the last row 0 0 0 1.")
+RULE(FROXELS,   "froxels",          "The height of `froxels` is a whole number of its slices, which are 1 to 1024; 0 ≤ near < far ≤ 1e9 units, and exponential slices have near ≥ far / 1e9.")
 RULE(SIBLING,   "sibling",          "A sibling is a plain file name in the capture's own folder, its bytes have the stated hash, and it holds a part of the same name with pixels. The part that names it is 1 × 6 pixels, which are black.")
 /* ---- pixels: checked by validate alone ---- */
 RULE(PIXEL_FINITE,    "pixels-finite",    "No NaN, and no infinity but +inf in view-linear depth and in distances under sky. Where depth says sky (or no surface), the other channels are not checked.")
 RULE(PIXEL_NORMAL,    "pixels-normal",    "Decoded normals have a length of 1 within 0.02 before the reader normalises them.")
-RULE(PIXEL_RANGE,     "pixels-range",     "Decoded roughness and every channel of unit 1 without an encoding, but `stencil.id`, lie in [0, 1] (within 0.001); radiance, metres (but motion.Z) and relative errors are not negative; encoded depth, unorm, octahedral, view_xy, spheremap and log2_power values lie in [0, 1]; packed16 values have 16 bits.")
+RULE(PIXEL_RANGE,     "pixels-range",     "Decoded roughness and every channel of unit 1 without an encoding, but `stencil.id`, lie in [0, 1] (within 0.001); radiance, metres (but motion.Z), 1/m and relative errors are not negative; encoded depth, unorm, octahedral, view_xy, spheremap and log2_power values lie in [0, 1]; packed16 values have 16 bits.")
 RULE(PIXEL_SKY,       "pixels-sky",       "In cube maps, where A is 0 (sky), R G B are 0 and distance.Z is +inf; where A is 1, distance.Z is a number. Where A is between 0 and 1, as after filtering, both are free.")
 RULE(PIXEL_MIRROR,    "pixels-mirror",    "In `truth.mirror`, visible is 0 where distance.Z is +inf (sky) or 0 (no ray).")
 /* clang-format on */

@@ -63,6 +63,10 @@ static const struct row rows[] = {
     {"shadow", "glint.shadowClass", "class", COUNT},
     {"volume", "glint.worldToGrid", "world_to_grid", NUMBERS},
     {"volume", "glint.volumeSlices", "slices", COUNT},
+    {"froxels", "glint.froxelSlices", "slices", COUNT},
+    {"froxels", "glint.froxelNear", "near", NUMBER},
+    {"froxels", "glint.froxelFar", "far", NUMBER},
+    {"froxels", "glint.froxelExponential", "exponential", FLAG},
     {"truth", "glint.radius", "radius", NUMBER},
     {"truth", "glint.length", "length", NUMBER},
     {"cubemap", "glint.center", "center", NUMBERS},
@@ -292,7 +296,8 @@ bool extract_attributes(const struct glint_exr_part_info *part, json_t *out, str
     json_t *encodings = role ? scope_of(part, "encodings") : NULL;
     if (json_object_size(encodings)) json_object_set(out, "encodings", encodings);
     json_decref(encodings);
-    static const char *const objects[] = {"cubemap", "planar", "sky", "probe", "indirect", "shadow", "volume", "truth"};
+    static const char *const objects[] = {"cubemap", "planar", "sky",     "probe", "indirect",
+                                          "shadow",  "volume", "froxels", "truth"};
     for (size_t i = 0; i < sizeof objects / sizeof *objects; i++) {
         const size_t length = strcspn(own, "."); /* truth.occlusion, truth.sun */
         if (strncmp(own, objects[i], length) || objects[i][length]) continue;

@@ -66,6 +66,14 @@ bool volume_read(const struct node *frame, const struct node *part, struct glint
     return matrix_read(frame, &node, "world_to_grid", volume->world_to_grid, err);
 }
 
+void froxels_read(const struct node *part, struct glint_froxels *froxels) {
+    const struct node node = node_child(part, "froxels");
+    froxels->slices = (uint32_t)node_count(&node, "slices", 0);
+    froxels->near_depth = node_number(&node, "near", 0);
+    froxels->far_depth = node_number(&node, "far", 0);
+    froxels->exponential = node_bool(&node, "exponential", false);
+}
+
 void truth_read(const struct node *part, struct glint_truth *truth) {
     const struct node node = node_child(part, "truth");
     truth->radius = node_number(&node, "radius", 0);

@@ -11,6 +11,7 @@ bool shadow_read(const struct node *frame, const struct node *part, struct glint
                  struct glint_error *err);
 bool volume_read(const struct node *frame, const struct node *part, struct glint_light_volume *volume,
                  struct glint_error *err);
+void froxels_read(const struct node *part, struct glint_froxels *froxels);
 void truth_read(const struct node *part, struct glint_truth *truth);
 
 #endif

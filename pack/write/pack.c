@@ -89,6 +89,7 @@ static bool check_part(const struct part *part, uint32_t width, uint32_t height,
                    {"indirect", "indirect", NULL},
                    {"shadow", "shadow", "a shadow with its matrix"},
                    {"volume", "volume", "a volume with its matrix and slices"},
+                   {"froxels", "froxels", "froxels with their slices, near and far"},
                    {"truth.occlusion", "truth", "a truth with its radius"},
                    {"truth.sun", "truth", "a truth with its length"}};
     if (!part->name[0] || strlen(part->name) > 255)
@@ -139,6 +140,7 @@ struct carried {
     struct glint_indirect indirect;
     struct glint_shadow shadow;
     struct glint_light_volume volume;
+    struct glint_froxels froxels;
     struct glint_truth truth;
 };
 
@@ -151,9 +153,11 @@ static bool carried_read(const struct pack *pack, const struct node *node, struc
     if (node_has(node, "indirect")) file->indirect = &c->indirect;
     if (node_has(node, "shadow")) file->shadow = &c->shadow;
     if (node_has(node, "volume")) file->volume = &c->volume;
+    if (node_has(node, "froxels")) file->froxels = &c->froxels;
     if (node_has(node, "truth")) file->truth = &c->truth;
     if (file->sky) sky_read(node, &c->sky);
     if (file->indirect) indirect_read(node, &c->indirect);
+    if (file->froxels) froxels_read(node, &c->froxels);
     if (file->truth) truth_read(node, &c->truth);
     return (!file->cubemap || cubemap_read(node, &c->cubemap, err)) &&
            (!file->planar || planar_read(&pack->frame_node, node, &c->planar, err)) &&

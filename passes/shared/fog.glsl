@@ -18,4 +18,9 @@ float fog_optical_depth(float density, float height, float slope, float scale_m,
     return density * start * -expm1(-fall) / climb;
 }
 float fog_factor(float optical_depth) { return -expm1(-optical_depth); }
+// The mean of e^-depth over a stretch along which the optical depth grows evenly.
+float fog_mean_passing(float from, float to) {
+    float more = to - from;
+    return exp(-from) * (more > 0.0 ? -expm1(-more) / more : 1.0);
+}
 #endif

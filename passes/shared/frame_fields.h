@@ -43,4 +43,6 @@ FIELD(vec4,  lamp_cone[LAMPS],     "cosines of the angles from the axis at which
 FIELD(uvec4, lamp_bounds[LAMPS],   "the pixels of the screen outside of which the lamp lights nothing. xy: the first ones; zw: behind the last ones; 0 where it lights nothing on the screen")
 FIELD(mat4,  grid_from_world,      "camera-relative world space to cells of the capture's volume of light: cell (i, j, k) lies from (i, j, k) to (i + 1, j + 1, k + 1); 0 without one")
 FIELD(uvec4, grid,                 "xyz: cells of the volume of light along its axes; w: 1 when it is the capture's, 0 when a pass may make one around the camera")
+FIELD(uvec4, froxels,              "xyz: cells of the capture's light in the air, in the picture's width, height and in depth; w: 1 when it has it")
+FIELD(vec4,  froxel_range,         "x: depth in m at which the first slice of them begins; y: at which the last one ends; z: 1 where slices are exponential; w: 0")
 FIELD(vec4,  jitter,               "xy: shift of this frame's picture by jitter in px, x to the right and y down; zw: 0")

@@ -12,6 +12,7 @@ COUNT(luminous,                1,  "pixels whose lit picture is not black, or is
 MAXIMUM(brightest,                 "largest finite luminance of the lit picture")
 COUNT(lamplit,                 1,  "surfaces that light of a lamp may reach, or that it lights in the captured picture")
 COUNT(stippled,                1,  "pixels in which a stippled surface was drawn")
+COUNT(skin,                    1,  "surfaces of the stencil class `skin`, or in the engine's own mask of it")
 COUNT(surface_roughness,       10, "surfaces by roughness, in bins of 0.1")
 COUNT(reflecting_roughness,    10, "reflecting surfaces by roughness, in bins of 0.1")
 COUNT(metalness,               10, "surfaces by metalness, in bins of 0.1")

@@ -55,7 +55,7 @@ void bin(inout Row row, int figure, int number, int most) {
 struct Sums {
     Row by_surface_roughness, by_reflecting_roughness, by_metalness, by_weight;
     uvec2 stencil; // an id, and its number of consecutive pixels
-    uint sky, surfaces, reflecting, above, open, sunlit, lamplit, luminous, stippled, water, transparent, moved, moving;
+    uint sky, surfaces, reflecting, above, open, sunlit, lamplit, luminous, stippled, skin, water, transparent, moved, moving;
     vec2 surface_roughness, reflecting_roughness, depth, light; // lowest, highest
     float transparent_roughest;
 };
@@ -130,6 +130,14 @@ bool is_lamplit(ivec2 pixel, float depth_m) {
     return false;
 }
 
+// Of the class or in the mask: passes may ask for either.
+bool shows_skin(ivec2 pixel, float depth_m) {
+    if (!(depth_m > 0.0 && depth_m < INFINITE)) return false;
+    bool by_class = frame.skin.z != 0u && textureSize(stencil_full, 0) == ivec2(frame.size.xy);
+    if (by_class && (texelFetch(stencil_full, pixel, 0).x & frame.skin.y) == frame.skin.x) return true;
+    return has_part(skin_strength) && texelFetch(skin_strength, pixel, 0).x > 0.0;
+}
+
 // All texels are fetched before any is used, so that the fetches are independent.
 void count_pixel(ivec2 pixel, inout Sums sums) {
     float depth_m = texelFetch(depth_full, pixel, 0).x, specular = texelFetch(specular_full, pixel, 0).x;
@@ -157,6 +165,7 @@ void count_pixel(ivec2 pixel, inout Sums sums) {
     if (!all(equal(color, vec3(0.0)))) sums.luminous++;
     if (light >= 0.0 && light < LARGEST) extend(sums.light, light);
     if (has_part(stipple_mask) && texelFetch(stipple_mask, pixel, 0).x > 0.5) sums.stippled++;
+    if (shows_skin(pixel, depth_m)) sums.skin++;
     if (whole) count_picture(pixel, sums);
 }
 
@@ -206,6 +215,7 @@ void count_block(int place) {
     atomicAdd(figures[at_luminous], sums.luminous);
     atomicMax(figures[at_brightest], floatBitsToUint(max(sums.light.y, 0.0)));
     atomicAdd(figures[at_stippled], sums.stippled);
+    atomicAdd(figures[at_skin], sums.skin);
     add_range(at_surface_smoothest, at_surface_roughest, sums.surface_roughness);
     add_range(at_reflecting_smoothest, at_reflecting_roughest, sums.reflecting_roughness);
     barrier();

@@ -230,6 +230,16 @@ void frame_block_grid(struct frame_block *block, const struct glint_frame *frame
     block->grid = (uvec4){volume->width, volume->height / volume->volume.slices, volume->volume.slices, 1};
 }
 
+void frame_block_froxels(struct frame_block *block, const struct glint_frame *frame,
+                         const struct glint_part_info *froxels) {
+    const double metres = frame->metres_per_unit > 0 ? frame->metres_per_unit : 1;
+    if (!froxels) return;
+    const struct glint_froxels *slices = &froxels->froxels;
+    block->froxels = (uvec4){froxels->width, froxels->height / slices->slices, slices->slices, 1};
+    block->froxel_range =
+        (vec4){(float)(slices->near_depth * metres), (float)(slices->far_depth * metres), slices->exponential, 0};
+}
+
 static void fill_sun(struct frame_block *block, const struct glint_frame *frame) {
     const struct glint_sun *sun = &frame->sun;
     if (!frame->has_sun) return;

@@ -25,8 +25,8 @@ struct frame_block {
 };
 
 struct frame_sizes {
-    uint32_t full[2], half[2], planar[2], shadow[2], grid[2], table[2], dirt[2];
-    uint32_t active, chain, cube_face, sky_face, probe_face, probe_mips;
+    uint32_t full[2], half[2], planar[2], shadow[2], grid[2], table[2], dirt[2], froxels[2];
+    uint32_t slices, active, chain, cube_face, sky_face, probe_face, probe_mips;
     bool is_cpu;  /* that of struct glint_device_info */
     bool history; /* images of the previous frame are available */
 };
@@ -50,7 +50,11 @@ void frame_block_far(struct frame_block *block, const struct glint_capture *capt
 #define PART_GRID "volume.000" /* the only volume of light that passes use */
 #define PART_COLORS "lut"
 #define PART_DIRT "dirt"
+#define PART_FROXELS "froxels"
 enum { GRID_CELLS = 24 };
 void frame_block_grid(struct frame_block *block, const struct glint_frame *frame, const struct glint_part_info *volume);
+/* Sets the slices of light in the air, of a capture that has them; NULL: it has none. */
+void frame_block_froxels(struct frame_block *block, const struct glint_frame *frame,
+                         const struct glint_part_info *froxels);
 
 #endif

@@ -62,7 +62,8 @@ bool plan_find_sizes(struct frame_plan *plan, struct glint_error *err) {
                                  *planar = glint_capture_find(capture, GLINT_PART_MIRROR),
                                  *table = glint_capture_find(capture, PART_COLORS),
                                  *dirt = glint_capture_find(capture, PART_DIRT),
-                                 *grid = glint_capture_find(capture, PART_GRID);
+                                 *grid = glint_capture_find(capture, PART_GRID),
+                                 *froxels = glint_capture_find(capture, PART_FROXELS);
     if (!gbuffer) return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part gbuffer: missing", glint_capture_path(capture));
     *sizes = (struct frame_sizes){.full = {gbuffer->width, gbuffer->height},
                                   .half = {(gbuffer->width + 1) / 2, (gbuffer->height + 1) / 2},
@@ -77,6 +78,9 @@ bool plan_find_sizes(struct frame_plan *plan, struct glint_error *err) {
         if (maps[k]->width > sizes->shadow[0]) sizes->shadow[0] = maps[k]->width;
     if (table) sizes->table[0] = table->width, sizes->table[1] = table->height;
     if (dirt) sizes->dirt[0] = dirt->width, sizes->dirt[1] = dirt->height;
+    if (froxels)
+        sizes->froxels[0] = froxels->width, sizes->froxels[1] = froxels->height,
+        sizes->slices = froxels->froxels.slices;
     if (planar) sizes->planar[0] = planar->width, sizes->planar[1] = planar->height;
     sizes->grid[0] = grid ? grid->width : GRID_CELLS;
     sizes->grid[1] = grid ? grid->height : GRID_CELLS * GRID_CELLS;
@@ -183,6 +187,12 @@ bool plan_describe(const struct frame_plan *plan, const struct graph_image *imag
         break;
     case GLINT_SIZE_GRID:
         expected[0] = sizes->grid[0], expected[1] = sizes->grid[1];
+        break;
+    case GLINT_SIZE_FROXELS:
+        expected[0] = sizes->froxels[0], expected[1] = sizes->froxels[1];
+        break;
+    case GLINT_SIZE_FROXEL_SLICE:
+        expected[0] = sizes->froxels[0], expected[1] = sizes->froxels[1] / (sizes->slices ? sizes->slices : 1);
         break;
     case GLINT_SIZE_LIST:
         expected[0] = LIST_WIDTH;

@@ -14,9 +14,9 @@ float half_clamped(float value) {
     return isfinite(value) && fabsf(value) > HALF_LARGEST ? copysignf(HALF_LARGEST, value) : value;
 }
 
-/* In lengths +inf is the distance of the sky. */
+/* In lengths +inf is the distance of the sky; inverse lengths become infinite at the camera. */
 static bool may_be_infinite(const struct glint_row *row) {
-    return row->unit[0] && row->unit[strlen(row->unit) - 1] == 'm';
+    return strcmp(row->unit, "m") == 0 || strcmp(row->unit, "1/m") == 0;
 }
 
 static void note_first(struct bad_values *found, size_t index, float value) {

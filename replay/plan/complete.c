@@ -37,6 +37,7 @@ static void fill_frame_block(struct frame_plan *plan) {
     frame_block_captured_light(&plan->block, plan->source->capture);
     frame_block_far(&plan->block, plan->source->capture);
     frame_block_grid(&plan->block, frame, glint_capture_find(plan->source->capture, PART_GRID));
+    frame_block_froxels(&plan->block, frame, glint_capture_find(plan->source->capture, PART_FROXELS));
     for (uint32_t i = 0; plan->active && i < plan->sizes.active; i++)
         if (glint_part_has_channel(plan->source->cubemaps[plan->active[i]], "distance.Z"))
             plan->block.distances.x |= 1U << i;

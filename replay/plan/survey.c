@@ -51,7 +51,8 @@ void survey_channels(const struct channels *channels, struct glint_survey *surve
         if (!(pixel[at[2]] == 0 && pixel[at[3]] == 0)) count_pixel(&survey->reflecting, roughness);
     }
     survey->sunlit = survey->lamplit = survey->surfaces.count;
-    survey->luminous = survey->stippled = survey->pixels; /* the host does not read the picture and its mask */
+    survey->luminous = survey->stippled = survey->skin =
+        survey->pixels; /* the host does not read the picture and its masks */
     survey->light[1] = INFINITY;
 }
 

@@ -42,6 +42,7 @@ static void read_figures(struct glint_survey *survey, const uint32_t *f, bool wh
     survey->luminous = f[at_luminous];
     survey->lamplit = f[at_lamplit];
     survey->stippled = f[at_stippled];
+    survey->skin = f[at_skin];
     survey->water = f[at_water];
     survey->transparent = f[at_transparent];
     survey->moved = f[at_moved];

@@ -136,6 +136,7 @@ void fixture_init(struct fixture *f) {
     for (int i = 0; i < 3; i++) f->volume.world_to_grid[5 * i] = 0.005, f->volume.world_to_grid[4 * i + 3] = 1 + i;
     f->volume.world_to_grid[15] = 1;
     f->volume.slices = FIX_CELLS_Z;
+    f->froxels = (struct glint_froxels){FIX_CELLS_Z, 12.5, 6400, true};
     f->truth = (struct glint_truth){.radius = 100, .length = 30};
     f->planar.plane[1] = 1;
     f->planar.plane[3] = -1.0 / 3;
@@ -191,6 +192,8 @@ struct glint_part fixture_part(const struct fixture *f, enum fixture_part which,
                                         "shadow.000",
                                         "shadow.001",
                                         "volume.000",
+                                        "froxels",
+                                        "curvature",
                                         "truth.occlusion",
                                         "truth.sun",
                                         "truth.indirect",
@@ -239,6 +242,17 @@ struct glint_part fixture_part(const struct fixture *f, enum fixture_part which,
         part.height = FIX_CELLS_Y * FIX_CELLS_Z;
         for (size_t i = 0; i < 18; i++) add_fixture_channel(&part, c, names_of[i], f->color + i, 18);
         part.volume = &f->volume;
+        return part;
+    }
+    if (which == FIXTURE_FROXELS) {
+        part.width = FIX_CELLS_X;
+        part.height = FIX_CELLS_Y * FIX_CELLS_Z;
+        for (size_t i = 0; i < 3; i++) add_fixture_channel(&part, c, rgba[i], f->color + i, 4);
+        part.froxels = &f->froxels;
+        return part;
+    }
+    if (which == FIXTURE_CURVATURE) {
+        add_fixture_channel(&part, c, "curvature", f->color, 4);
         return part;
     }
     const float *color = cube ? f->cube : f->color;

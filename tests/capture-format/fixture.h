@@ -29,6 +29,7 @@ struct fixture {
     struct glint_indirect indirect;
     struct glint_shadow shadow[2]; /* of the sun, and of light 1 */
     struct glint_light_volume volume;
+    struct glint_froxels froxels;
     struct glint_truth truth;
 };
 void fixture_init(struct fixture *f);
@@ -60,6 +61,8 @@ enum fixture_part {
     FIXTURE_SHADOW_0,
     FIXTURE_SHADOW_1,
     FIXTURE_VOLUME,
+    FIXTURE_FROXELS,
+    FIXTURE_CURVATURE,
     FIXTURE_TRUTH_OCCLUSION,
     FIXTURE_TRUTH_SUN,
     FIXTURE_TRUTH_INDIRECT,

@@ -60,6 +60,9 @@ static void what_parts_carry_comes_back(UNUSED void **state) {
     const struct glint_part_info *volume = glint_capture_find(capture, "volume.000");
     assert_true(volume->has_volume && volume->volume.slices == FIX_CELLS_Z && volume->width == FIX_CELLS_X);
     assert_memory_equal(volume->volume.world_to_grid, fixture.volume.world_to_grid, 16 * sizeof(double));
+    const struct glint_part_info *froxels = glint_capture_find(capture, "froxels");
+    assert_true(froxels->has_froxels && froxels->froxels.slices == FIX_CELLS_Z && froxels->froxels.exponential);
+    assert_true(froxels->froxels.near_depth == 12.5 && froxels->froxels.far_depth == 6400 && !volume->has_froxels);
     assert_true(glint_capture_find(capture, "truth.occlusion")->truth.radius == 100);
     assert_true(glint_capture_find(capture, "truth.sun")->truth.length == 30);
     assert_false(glint_capture_find(capture, "truth.indirect")->has_truth);
@@ -163,6 +166,36 @@ static void perspective_grid(struct rewrite *r) {
 static void no_face(struct rewrite *r) {
     rewrite_remove_channel(r, "volume.000", "ny.G");
 }
+static void odd_froxels(struct rewrite *r) {
+    broken_numbers(r, "froxels", "glint.froxelSlices", 0, 3);
+}
+static void no_froxels(struct rewrite *r) {
+    broken_numbers(r, "froxels", "glint.froxelSlices", 0, 0);
+}
+static void many_froxels(struct rewrite *r) {
+    broken_numbers(r, "froxels", "glint.froxelSlices", 0, 1025);
+}
+static void no_near(struct rewrite *r) {
+    rewrite_remove_attribute(r, "froxels", "glint.froxelNear");
+}
+static void negative_near(struct rewrite *r) {
+    broken_numbers(r, "froxels", "glint.froxelNear", 0, -1);
+}
+static void far_at_near(struct rewrite *r) {
+    broken_numbers(r, "froxels", "glint.froxelFar", 0, 12.5);
+}
+static void far_away(struct rewrite *r) {
+    broken_numbers(r, "froxels", "glint.froxelFar", 0, 2e9);
+}
+static void exponential_from_0(struct rewrite *r) {
+    broken_numbers(r, "froxels", "glint.froxelNear", 0, 0);
+}
+static void dark_air(struct rewrite *r) {
+    floats(r, "froxels", "G")[5] = -0.5f;
+}
+static void negative_curvature(struct rewrite *r) {
+    floats(r, "curvature", "curvature")[9] = -80;
+}
 static void no_radius(struct rewrite *r) {
     rewrite_remove_attribute(r, "truth.occlusion", "glint.radius");
 }
@@ -230,6 +263,16 @@ static const struct broken_case cases[] = {
     {"volume", {"glint.volumeSlices", "found 8 and 0 slices"}, no_slices, false},
     {"volume", {"glint.worldToGrid", "last row 0 0 0 1, found 0.5"}, perspective_grid, false},
     {"channels", {"volume.000: ny.G", "missing"}, no_face, false},
+    {"froxels", {"1 to 1024 slices", "found 8 and 3 slices"}, odd_froxels, false},
+    {"froxels", {"glint.froxelSlices", "found 8 and 0 slices"}, no_froxels, false},
+    {"froxels", {"glint.froxelSlices", "found 8 and 1025 slices"}, many_froxels, false},
+    {"attributes", {"froxels: glint.froxelNear", "missing"}, no_near, false},
+    {"attributes", {"froxels: glint.froxelNear", "value in range, found -1"}, negative_near, false},
+    {"froxels", {"froxelNear < froxelFar", "found 12.5 and 12.5"}, far_at_near, false},
+    {"froxels", {"froxelFar <= 1e9", "found 12.5 and 2e+09"}, far_away, false},
+    {"froxels", {"froxelFar / 1e9 <= froxelNear", "found 0 and 6400"}, exponential_from_0, false},
+    {"pixels-range", {"froxels: G", "not negative"}, dark_air, true},
+    {"pixels-range", {"curvature: curvature", "not negative"}, negative_curvature, true},
     {"attributes", {"truth.occlusion: glint.radius", "missing"}, no_radius, false},
     {"attributes", {"truth.sun: glint.length", "value in range, found 0"}, no_length, false},
     {"attributes", {"truth.sun: glint.radius", "on `truth.occlusion` only"}, stray_radius, false},

@@ -32,7 +32,7 @@ static void no_gbuffer(struct rewrite *r) {
     rewrite_remove_part(r, "gbuffer");
 }
 static void reserved_role(struct rewrite *r) {
-    rename_part(r, "scene", "curvature");
+    rename_part(r, "scene", "sss.profile");
 }
 static void no_albedo(struct rewrite *r) {
     rewrite_remove_channel(r, "gbuffer", "albedo.G");
@@ -245,7 +245,7 @@ static const struct broken_case cases[] = {
     {"version", {"part sky", "none"}, no_version, false},
     {"required-parts", {"lit", "missing"}, no_lit, false},
     {"required-parts", {"gbuffer", "missing"}, no_gbuffer, false},
-    {"reserved-roles", {"curvature", "reserved"}, reserved_role, false},
+    {"reserved-roles", {"sss.profile", "reserved"}, reserved_role, false},
     {"channels", {"albedo.G", "missing"}, no_albedo, false},
     {"channels", {"motion.X", "missing"}, one_motion, false},
     {"channels", {"part water", "zzz"}, stray_channel, false},

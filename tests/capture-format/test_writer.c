@@ -254,7 +254,7 @@ static void no_data(struct glint_part *p, struct fixture_channels *c) {
     (void)p, c->all[1].data = NULL;
 }
 static void reserved(struct glint_part *p, struct fixture_channels *c) {
-    (void)c, p->name = "curvature";
+    (void)c, p->name = "sss.profile";
 }
 static void bad_encoding(struct glint_part *p, struct fixture_channels *c) {
     (void)c, p->encodings.color = (enum glint_color_encoding)9;
@@ -293,7 +293,7 @@ static const struct refusal refusals[] = {
     {FIXTURE_SKY, not_a_cube, GLINT_ERROR_FORMAT, {"part sky", "8 x 42"}},
     {FIXTURE_LIT, no_size, GLINT_ERROR_USAGE, {"part lit", "0 x"}},
     {FIXTURE_LIT, no_data, GLINT_ERROR_USAGE, {"part lit", "data"}},
-    {FIXTURE_LIT, reserved, GLINT_ERROR_FORMAT, {"part curvature", "reserved"}},
+    {FIXTURE_LIT, reserved, GLINT_ERROR_FORMAT, {"part sss.profile", "reserved"}},
     {FIXTURE_LIT, bad_encoding, GLINT_ERROR_USAGE, {"glint.color", "found 9"}},
     {FIXTURE_CUBEMAP_0, path_in_sibling, GLINT_ERROR_FORMAT, {"plain file name", "../probes.exr"}},
     {FIXTURE_GBUFFER, octahedral_with_z, GLINT_ERROR_FORMAT, {"normal.Z", "octahedral"}},

@@ -78,7 +78,7 @@ def mistakes(base):
         ({"parts.lit.attributes": {"glint.x": 1}}, ("parts", "lit", "attributes", "glint.x"), "neither OpenEXR nor glint. reserves"),
         ({"parts.lit.attributes": {"channels": 1}}, ("parts", "lit", "attributes", "channels"), "neither OpenEXR nor glint. reserves"),
         ({"parts.lit.attributes": {"x": {"type": "v2d", "value": 1}}}, ("parts", "lit", "attributes", "x"), "value: expected 2 numbers"),
-        ({"parts.curvature": {"R": "lit.r"}}, "parts.curvature", "the role is reserved"),
+        ({"parts.sss.profile": {"R": "lit.r"}}, "parts.sss.profile", "the role is reserved"),
         ({"frame.sun": {"irradiance": [1, 1, 1]}}, "frame.sun", "direction is missing"),
         ({"frame.sun": {"direction": [0, 2, 0]}}, "frame", "glint.sunDirection: expected a unit vector, found one of length 2"),
         ({"frame.lights": [{"position": [0, 0, 0], "intensity": [1, 1, 1], "axis": [0, 1, 0]}]}, None, "a spot light needs axis and cone_outer, found no cone_outer"),
@@ -91,7 +91,7 @@ def split(path):
     """The keys of a path; names of parts and channels have dots."""
     if isinstance(path, tuple):
         return list(path)
-    keys = re.findall(r"cubemap\.\d+|normal\.[A-Z]|stencil\.id|[^.]+", path)
+    keys = re.findall(r"cubemap\.\d+|sss\.profile|normal\.[A-Z]|stencil\.id|[^.]+", path)
     return keys
 
 
@@ -165,7 +165,7 @@ class Tests:
         lines = [int(line.split(":")[1]) for line in found]
         assert lines == sorted(lines) and len(set(lines)) == len(keys), lines
         meanings = (("frame.exposure", -1), ("parts.gbuffer.normal.X", "nothing.r"), ("parts.lit.R", "nothing.r"), ("parts.lit.G", {"texture": "lit", "channel": "q"}),
-                    ("parts.curvature", {"R": 1}))
+                    ("parts.sss.profile", {"R": 1}))
         found, places, said = self.together(*meanings)
         for place in places[1:]:
             assert any(line.split(": ")[1] == place.split(": ")[1] for line in found), (place, said)

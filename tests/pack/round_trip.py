@@ -55,6 +55,17 @@ class Tests:
             glint("sample", name, "-o", path, *SMALL, "--truth=1", *more)
             self.check_bytes(path)
 
+    def test_light_in_the_air(self):
+        path, out = self.path("air.exr"), self.path("air-crop.exr")
+        glint("sample", "street", "-o", path, *SMALL, "--also=froxels")
+        self.check_bytes(path)
+        parts = {part["name"]: part for part in json.loads(glint("info", path, "--json").stdout)["parts"]}
+        assert parts["froxels"]["froxels"] == {"slices": 32, "near": 0.1, "far": 64, "exponential": True}, parts["froxels"]
+        said = glint("crop", path, "4,4,16,8", "-o", out)
+        glint("validate", out)
+        assert "froxels: left out" in said.stdout + said.stderr, said
+        assert "froxels" not in [part["name"] for part in json.loads(glint("info", out, "--json").stdout)["parts"]]
+
     def test_light_and_shadow(self):
         """Sun, lamps, shadow map, volume and truths: back and forth, edited, cropped, stripped; the matrices also as other engines list them."""
         path, folder = self.path("light.exr"), self.path("light-out")

@@ -40,6 +40,36 @@ static void test_every_scene_is_valid(void **state) {
     }
 }
 
+/* Eyes are spheres of 12.5 mm, which half floats hold to 2^-11; the wall behind is flat. Skin is what the class says, and the head is near. */
+static void test_skin_and_its_curvature(void **state) {
+    static uint32_t ids[W * H];
+    struct glint_sample_options o = options();
+    struct glint_error err = {0};
+    size_t skin = 0, eyes = 0, wall = 0;
+    const char *path = in_folder(state, "portrait.exr");
+    o.also = GLINT_ALSO_CURVATURE;
+    write_sample("portrait", path, &o);
+    assert_valid(path);
+    struct glint_capture *capture = open_capture(path);
+    const struct glint_frame *frame = glint_capture_frame(capture);
+    const struct glint_stencil_class *class = &frame->classes[frame->class_count - 1];
+    assert_string_equal(class->name, "skin");
+    assert_true(glint_capture_read(capture, glint_capture_find(capture, "gbuffer"), (const char *const[]){"stencil.id"},
+                                   1, GLINT_U32, ids, 0, &err));
+    float *surface = read_part(capture, "gbuffer", "depth.Z material.roughness", NULL, NULL),
+          *bent = read_part(capture, "curvature", "curvature", NULL, NULL);
+    for (uint32_t i = 0; i < W * H; i++) {
+        const bool is_skin = (ids[i] & class->mask) == class->value, eye = surface[2 * i + 1] < 0.1F;
+        skin += is_skin, eyes += eye, wall += surface[2 * i] > 1.5F;
+        if (is_skin) assert_true(surface[2 * i] > 0.6F && surface[2 * i] < 0.9F);
+        if (eye) assert_true(!is_skin && fabs((double)bent[i] / 80 - 1) < 1e-3);
+        if (surface[2 * i] > 1.5F) assert_true(!is_skin && bent[i] == 0);
+    }
+    assert_true(skin > W * H / 8 && eyes > 3 && wall > W * H / 4);
+    free(surface), free(bent);
+    glint_capture_close(&capture);
+}
+
 /* The largest difference of decoded values; infinities must be equal. */
 static double apart(const float *a, const float *b, size_t count) {
     double largest = 0;
@@ -280,6 +310,7 @@ static void test_wrong_options_are_errors(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_every_scene_is_valid, folder_make, folder_remove),
+        cmocka_unit_test_setup_teardown(test_skin_and_its_curvature, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(test_every_encoding_decodes_to_the_same_scene, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(test_same_options_same_bytes, folder_make, folder_remove),
         cmocka_unit_test_setup_teardown(test_offset_moves_the_doubles_and_no_pixel, folder_make, folder_remove),

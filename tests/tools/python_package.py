@@ -165,7 +165,7 @@ class Tests:
             with glint.Writer(copy, capture.frame, **options) as writer:
                 for part in capture.parts.values():
                     writer.add(part.name, {c: part.read_raw(c) for c in part.channels}, part.encodings, cubemap=part.cubemap, planar=part.planar, sky=part.sky, probe=part.probe,
-                               indirect=part.indirect, shadow=part.shadow, volume=part.volume, truth=part.truth,
+                               indirect=part.indirect, shadow=part.shadow, volume=part.volume, froxels=part.froxels, truth=part.truth,
                                storage={c.name: c.storage for c in part.channels.values()}, attributes=part.attributes)
             said("idiff", "-q", "-a", "-fail", "0", "-failpercent", "0", capture.path, copy)
             again = glint.open(copy)
@@ -173,7 +173,7 @@ class Tests:
             for part in capture.parts.values():
                 other = again[part.name]
                 assert part.channels == other.channels and part.encodings == other.encodings and part.attributes == other.attributes
-                assert all(same(getattr(part, name), getattr(other, name)) for name in ("cubemap", "planar", "sky", "probe", "indirect", "shadow", "volume", "truth"))
+                assert all(same(getattr(part, name), getattr(other, name)) for name in ("cubemap", "planar", "sky", "probe", "indirect", "shadow", "volume", "froxels", "truth"))
                 for c in part.channels:
                     assert part.read_raw(c).tobytes() == other.read_raw(c).tobytes(), (part, c)
             was, now = headers(capture.path), headers(copy)
@@ -256,6 +256,7 @@ class Tests:
                 ("shadow.000", dict(channels={"depth.Z": np.full((2, 2), 0.25, "f4")}, shadow=glint.Shadow(matrix))),
                 ("shadow.001", dict(channels={"depth.Z": np.full((2, 2), 0.25, "f4")}, shadow=glint.Shadow(matrix, [1, 0], 0.001, 1, 0))),
                 ("volume.000", dict(channels={faces_of: np.ones((6, 2, 18), "f2")}, volume=glint.LightVolume(matrix, 3))),
+                ("froxels", dict(channels={"R G B": np.ones((6, 2, 3), "f2")}, froxels=glint.Froxels(3, 0.5, 64.0, True))),
                 ("truth.occlusion", dict(**one, truth=glint.Truth(radius=2.0)))]
         capture = self.write("light.exr", frame=frame, more=more)
         said(GLINT, "validate", capture.path)
@@ -268,6 +269,8 @@ class Tests:
         assert np.array_equal(second.range, [1, 0]) and second.bias == 0.001 and second.light == 1
         assert first.stencil_class is None and second.stencil_class == 0
         assert capture["volume.000"].volume.slices == 3 and capture["indirect"].indirect.occluded and capture["truth.occlusion"].truth.radius == 2
+        froxels = capture["froxels"].froxels
+        assert (froxels.slices, froxels.near_depth, froxels.far_depth, froxels.exponential) == (3, 0.5, 64, True) and capture["volume.000"].froxels is None
         assert capture["ao"].shadow is None and capture["sun"].truth is None
 
     def test_a_sibling_holds_cube_maps(self):

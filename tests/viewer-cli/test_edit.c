@@ -61,6 +61,8 @@ static const char *value_of(const char *key, const char *form) {
         {"shadowClass", "0"},
         {"worldToGrid", "0,0,0.5,1,0,0.25,0,2,-0.5,0,0,3,0,0,0,1"},
         {"volumeSlices", "2"},
+        {"froxelSlices", "2"},
+        {"froxelFar", "100"},
     };
     for (size_t i = 0; i < sizeof values / sizeof *values; i++)
         if (!strcmp(values[i].key, key)) return values[i].value;
@@ -112,6 +114,7 @@ static void every_key_reads_back(void **state) {
                            : !strncmp(on, "probe", 5)  ? "probe.002"
                            : !strncmp(on, "shadow", 6) ? "shadow.001"
                            : !strncmp(on, "volume", 6) ? "volume.000"
+                           : !strcmp(on, "froxels")    ? "froxels"
                            : !strcmp(on, "indirect")   ? "indirect"
                            : !strcmp(name, "radius")   ? "truth.occlusion"
                            : !strcmp(name, "length")   ? "truth.sun"

@@ -48,6 +48,11 @@ void info_print_light(const struct glint_capture *capture) {
         if (part->has_volume && part->volume.slices)
             printf("\n%s: %u × %u × %u cells of light\n", part->name, part->width, part->height / part->volume.slices,
                    part->volume.slices);
+        if (part->has_froxels)
+            printf("\n%s: %u × %u × %u cells of light in the air, slices %s from %s to %s units\n", part->name,
+                   part->width, part->height / part->froxels.slices, part->froxels.slices,
+                   part->froxels.exponential ? "exponential" : "linear", number_text(part->froxels.near_depth),
+                   number_text(part->froxels.far_depth));
     }
 }
 
@@ -90,6 +95,11 @@ void light_part_json(const struct glint_part_info *part, json_t *json) {
         json_object_set_new(json, "volume",
                             json_pack("{s:o, s:I}", "world_to_grid", json_numbers(part->volume.world_to_grid, 16),
                                       "slices", (json_int_t)part->volume.slices));
+    if (part->has_froxels)
+        json_object_set_new(json, "froxels",
+                            json_pack("{s:I, s:f, s:f, s:b}", "slices", (json_int_t)part->froxels.slices, "near",
+                                      part->froxels.near_depth, "far", part->froxels.far_depth, "exponential",
+                                      part->froxels.exponential));
     if (part->truth.radius > 0) json_object_set_new(json, "radius", json_real(part->truth.radius));
     if (part->truth.length > 0) json_object_set_new(json, "length", json_real(part->truth.length));
 }

@@ -55,6 +55,8 @@ const char *size_name(enum glint_size_class size) {
         [GLINT_SIZE_TABLE - FIRST] = "table of colours",
         [GLINT_SIZE_DIRT - FIRST] = "dirt",
         [GLINT_SIZE_GRID - FIRST] = "grid of light",
+        [GLINT_SIZE_FROXELS - FIRST] = "froxels",
+        [GLINT_SIZE_FROXEL_SLICE - FIRST] = "slice of froxels",
         [GLINT_SIZE_CUBEMAPS_MIPS - FIRST] = "cube maps, levels",
         [GLINT_SIZE_SKY_MIPS - FIRST] = "sky, levels",
         [GLINT_SIZE_PROBE_MIPS - FIRST] = "probe, levels",

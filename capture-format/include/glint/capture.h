@@ -103,8 +103,7 @@ struct glint_fog {
 
 /* How the engine's materials differ from those of this format. */
 struct glint_material_model {
-    double
-        metal_reflectance; /* reflectance of a metal at normal incidence as a multiple of its albedo, at most 1; 0: 1 */
+    double metal_reflectance;         /* of a metal at normal incidence, as a multiple of its albedo, at most 1; 0: 1 */
     double roughest_reflection;       /* surfaces of at least this roughness reflect nothing in the engine; 0: all do */
     double gloss_scale, gloss_offset; /* log2_power: power = 2^(scale · stored + offset); 0: 10 and 1 */
 };
@@ -124,10 +123,9 @@ struct glint_cone {
 };
 struct glint_light {
     double position[3]; /* world */
-    float
-        intensity[3]; /* radiant: at d metres the irradiance on a surface that faces the light is this divided by d² */
-    double range;     /* units: the light ends at this distance; 0: it has no end */
-    double radius;    /* units: of the lamp, within which nothing casts a shadow; 0: a point */
+    float intensity[3]; /* radiant: at d metres the irradiance on a surface that faces it is this divided by d² */
+    double range;       /* units: the light ends at this distance; 0: it has no end */
+    double radius;      /* units: of the lamp, within which nothing casts a shadow; 0: a point */
     bool has_cone;
     struct glint_cone cone;
 };
@@ -205,11 +203,11 @@ struct glint_sky {
 #define GLINT_MAX_LEVELS 16
 struct glint_probe_box {
     double center[3];      /* world position */
-    double min[3], max[3]; /* relative to the centre, in units: all in the probe is taken to lie on these faces */
+    double min[3], max[3]; /* relative to the centre, in units: all in the probe is taken to lie on it */
 };
 struct glint_probe {
     bool has_roughness;
-    double roughness; /* perceptual roughness of the surfaces that look up this level; without: spread over [0, 1] */
+    double roughness; /* perceptual, of the surfaces that look up this level; without: spread over [0, 1] */
     /* Of the finest level: */
     bool has_ground;
     double ground; /* as in struct glint_sky */
@@ -246,6 +244,15 @@ struct glint_light_volume {
     uint32_t slices; /* cells along z */
 };
 
+/* Light that the air scatters towards the camera, in cells of the view frustum, slices one below the other as above. Slice k of n begins at
+   the view-linear depth near + (far - near) · k/n, or near · (far/near)^(k/n) if they are exponential. */
+#define GLINT_MAX_FROXEL_SLICES 1024
+struct glint_froxels {
+    uint32_t slices;
+    double near_depth, far_depth; /* units: where the first slice begins, and the last one ends */
+    bool exponential;             /* near_depth is above 0 then */
+};
+
 /* How far a path tracer went for truth.occlusion and truth.sun, in units. */
 struct glint_truth {
     double radius; /* truth.occlusion: surfaces farther away do not occlude */
@@ -272,8 +279,7 @@ struct glint_channel {
     enum glint_type type;
     const void *data;
     size_t x_stride_bytes, y_stride_bytes; /* 0: tightly packed */
-    const char
-        *storage; /* the engine's own format ("D24", "R11G11B10"), which states its precision; NULL: from `type` */
+    const char *storage; /* the engine's own format ("D24", "R11G11B10"), which is its precision; NULL: from `type` */
 };
 
 /* An additional attribute of a part, stored unchanged. */
@@ -298,23 +304,17 @@ struct glint_part {
     const struct glint_indirect *indirect;   /* indirect only; may be NULL */
     const struct glint_shadow *shadow;       /* required for shadow.NNN */
     const struct glint_light_volume *volume; /* required for volume.NNN */
+    const struct glint_froxels *froxels;     /* required for froxels */
     const struct glint_truth *truth;         /* required for truth.occlusion and truth.sun */
-    const char *
-        sibling; /* cubemap.NNN only: a file in the same folder whose part of this name is used; give no channels then */
+    const char *sibling; /* cubemap.NNN only: a file in the same folder whose part of this name is used; no channels */
     const struct glint_attribute *attributes;
     size_t attribute_count;
 };
 
 /* ---- Writer ---- */
 
-enum glint_compression {
-    GLINT_ZIP,
-    GLINT_NONE,
-    GLINT_ZIPS,
-    GLINT_PIZ,
-    GLINT_PXR24 /* loses 8 bits of float */,
-    GLINT_RLE
-};
+/* PXR24 loses 8 bits of float. */
+enum glint_compression { GLINT_ZIP, GLINT_NONE, GLINT_ZIPS, GLINT_PIZ, GLINT_PXR24, GLINT_RLE };
 
 struct glint_writer_options {
     enum glint_compression compression;
@@ -368,7 +368,7 @@ struct glint_part_info {
     const struct glint_channel_info *channels; /* in the file's order */
     size_t channel_count;
     struct glint_encodings encodings;
-    bool has_cubemap, has_planar, has_sky, has_probe, has_indirect, has_shadow, has_volume, has_truth;
+    bool has_cubemap, has_planar, has_sky, has_probe, has_indirect, has_shadow, has_volume, has_froxels, has_truth;
     struct glint_cubemap cubemap;
     struct glint_planar planar;
     struct glint_sky sky;
@@ -376,6 +376,7 @@ struct glint_part_info {
     struct glint_indirect indirect;
     struct glint_shadow shadow;
     struct glint_light_volume volume;
+    struct glint_froxels froxels;
     struct glint_truth truth;
     char sibling[256];     /* the file that holds the pixels, and whose size and channels are reported here; "": none */
     char sibling_hash[33]; /* XXH3-128 of that file, which was verified; "" without a sibling */

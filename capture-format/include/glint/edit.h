@@ -61,7 +61,7 @@ bool glint_edit_crop_part(struct glint_edit *edit, size_t part, const struct gli
                           struct glint_error *err);
 /* Crops the frame: all parts of the G-buffer's size, and engine and unknown parts that are a whole number of times smaller. Projections of
    this and the previous frame and motion are corrected, so that every pixel keeps its ray, its jitter and its motion; `visible` of truth.mirror
-   becomes 0 where the hit is outside the rectangle. The file must be a valid capture. An image whose texels cover pixels inside and outside is an
+   becomes 0 where the hit is outside the rectangle, and `froxels` are left out. The file must be a valid capture. An image whose texels cover pixels inside and outside is an
    error that names a rectangle for which there is none. */
 bool glint_edit_crop(struct glint_edit *edit, const struct glint_edit_rectangle *rectangle, struct glint_error *err);
 
@@ -75,6 +75,7 @@ enum glint_edit_scope {
     GLINT_EDIT_INDIRECT, /* on indirect */
     GLINT_EDIT_SHADOW,   /* on each shadow.NNN */
     GLINT_EDIT_VOLUME,   /* on each volume.NNN */
+    GLINT_EDIT_FROXELS,  /* on froxels */
     GLINT_EDIT_TRUTH,    /* on truth.occlusion or truth.sun */
     GLINT_EDIT_ENCODING, /* on each part that has channels of the encoding */
     GLINT_EDIT_STORAGE   /* on each part that has the channel */

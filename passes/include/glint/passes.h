@@ -73,6 +73,8 @@ enum glint_size_class {
     GLINT_SIZE_TABLE,          /* 2D, the size of the capture's table of colours */
     GLINT_SIZE_DIRT,           /* 2D, the size of the capture's dirt on the lens */
     GLINT_SIZE_GRID,           /* 2D, slices of the capture's volume of light, or of 24³ cells that a pass fills */
+    GLINT_SIZE_FROXELS,        /* 2D, slices of the capture's light in the air one below the other */
+    GLINT_SIZE_FROXEL_SLICE,   /* 2D, the size of one of them */
     GLINT_SIZE_CUBEMAPS_MIPS,
     GLINT_SIZE_SKY_MIPS,
     GLINT_SIZE_PROBE_MIPS,       /* the levels of the capture's probe, however many it has */

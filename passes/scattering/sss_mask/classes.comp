@@ -11,6 +11,9 @@
 
 bool is_picture(ivec2 size) { return size == ivec2(frame.size.xy); }
 
+// 0 on a plane, and where the curvature is invalid.
+float bent_part(float per_m) { return per_m > 0.0 ? min(0.001 * bent_mm * per_m, 1.0) : 0.0; }
+
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, imageSize(skin_width)))) return;
@@ -19,5 +22,6 @@ void main() {
     float depth_m = texelFetch(depth_full, pixel, 0).x, width = by_class || by_mask ? 1.0 : 0.0;
     if (by_class && (texelFetch(stencil_full, pixel, 0).x & frame.skin.y) != frame.skin.x) width = 0.0;
     if (by_mask) width *= valid_mask(texelFetch(skin_strength, pixel, 0).x);
+    if (curvature && is_picture(textureSize(skin_curvature, 0))) width *= 1.0 - (1.0 - flat_part) * (1.0 - bent_part(texelFetch(skin_curvature, pixel, 0).x));
     imageStore(skin_width, pixel, vec4(depth_m > 0.0 && depth_m < LARGEST ? width : 0.0));
 }

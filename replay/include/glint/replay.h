@@ -146,12 +146,14 @@ struct glint_survey {
     bool has_shadows;           /* the capture has a shadow map that passes use */
     bool has_overlays;          /* buffers that are to be blended into the G-buffer */
     bool has_volume;            /* the capture has a volume of light */
+    bool has_froxels;           /* the capture has light in the air */
     bool has_scene;             /* the capture has the finished picture */
     double exposure;            /* the capture's factor from radiance to what is displayed */
     bool has_earlier_lit, has_earlier_scene; /* pictures of the previous frame */
     uint64_t luminous; /* pixels of the lit picture that are not black; all, where it was not read */
     uint64_t
-        stippled;     /* pixels in which a stippled surface was drawn, with has_stippling; all, where it was not read */
+        stippled,     /* pixels in which a stippled surface was drawn, with has_stippling; all, where it was not read */
+        skin;         /* pixels of skin, by class or mask, with has_skin; all, where they were not read */
     bool has_history; /* the replay holds the images of the previous frame, and this frame is no camera cut */
     /* What follows is counted on a device only, and on_device is true if it was. With `partial` only the counts and the ranges of
        roughness above and the three counts below are known, since no plan depends on other figures. */

@@ -1,4 +1,4 @@
-/* Cases of stable.glsl, steps.glsl, cone.glsl and fog.glsl. */
+/* Cases of stable.glsl, steps.glsl, cone.glsl, fog.glsl and froxels.glsl. */
 #include "cases/functions/function_case.h"
 
 /* Tolerances of base-2 exponentials and logarithms and of functions that use them, conversion to base e included. */
@@ -155,6 +155,20 @@ static void expect_even_fog(const double *x, double *y) {
     y[0] = x[0] <= 0 || x[1] <= 0 ? 0 : x[0] * x[1];
 }
 
+static void to_beyond(float *x) {
+    x[1] += x[0];
+}
+static void expect_mean_passing(const double *x, double *y) {
+    const double more = x[1] - x[0];
+    y[0] = exp(-x[0]) * (isinf(more) ? 0 : more > 0 ? -expm1(-more) / more : 1);
+}
+static void expect_even_slice(const double *x, double *y) {
+    y[0] = x[2] + (x[2] + x[3] - x[2]) * x[0] / x[1];
+}
+static void expect_growing_slice(const double *x, double *y) {
+    y[0] = x[2] * pow(x[3], x[0] / x[1]);
+}
+
 /* clang-format off */
 static const struct function list[] = {
     {"expm1 near zero", "e^x - 1 keeps its digits where e^x is near 1", "expm1(a.x)", "x", {{LOG, 1e-30, 1, ZERO | NEGATIVE}}, NULL,
@@ -220,6 +234,12 @@ static const struct function list[] = {
      {{LOG, 1e-6, 1, ZERO}, {LOG, 1e-3, 1e6, ZERO | NEGATIVE}}, NULL, expect_even_fog, 1, ULP, 1, "one product"},
     {"fog factor", "fraction of the light that fog absorbs, thin to opaque", "fog_factor(a.x)", "depth", {{LOG, 1e-30, 1e30, ZERO | ENDLESS}}, NULL,
      expect_fog_factor, 1, ULP, 12, EXP ", of which 2.4 times as much is left where the series ends"},
+    {"mean of what passes", "mean of what fog lets through along a stretch, thin to opaque", "fog_mean_passing(a.x, a.y)", "from to",
+     {{LOG, 1e-6, 8, ZERO}, {LOG, 1e-30, 1e30, ZERO | ENDLESS}}, to_beyond, expect_mean_passing, 1, ULP, 36, EXP ", 19 at 8, 12 of expm1, a division and products"},
+    {"even slices", "where each of the slices of light in the air begins", "froxel_depth(int(a.x), uint(a.y), vec4(a.z, a.z + a.w, 0.0, 0.0))", "slice slices near thickness",
+     {{WHOLE, 0, 84, 0}, {WHOLE, 84, 1024, 0}, {LOG, 1e-3, 10, ZERO}, {LOG, 1, 1e4, 0}}, NULL, expect_even_slice, 1, ULP, 6, "a division (2.5), sums and products of positive numbers"},
+    {"growing slices", "the same, each so many times as thick as the one before", "froxel_depth(int(a.x), uint(a.y), vec4(a.z, a.z * a.w, 1.0, 0.0))", "slice slices near ratio",
+     {{WHOLE, 0, 84, 0}, {WHOLE, 84, 1024, 0}, {LOG, 1e-3, 10, 0}, {LOG, 1.001, 1e4, 0}}, NULL, expect_growing_slice, 1, ULP, 80, "pow is that of exp2 at up to 13.3 (30 ULP) and of log2 in it (3 ULP, 28 of the power), of a quotient that is 3 ULP off"},
 };
 /* clang-format on */
 

@@ -100,11 +100,11 @@ static const char head[] = "#version 460\n"
                            "#include \"shared/push_begin.glsl\"\n"
                            "#include \"brdf.pass.h\"\n"
                            "};\n";
-static const char *const shared[] = {"constants",  "stable",      "random",       "bayer",       "blue_noise",
-                                     "brdf",       "camera",      "cone",         "cube_filter", "cubemap",
-                                     "edges",      "facet",       "fog",          "sampling",    "levels",
-                                     "cube_chain", "paraboloid",  "plus",         "reuse",       "steps",
-                                     "hemisphere", "light_terms", "light_volume", "sun",         "luminance"};
+static const char *const shared[] = {"constants", "stable",   "random",      "bayer",       "blue_noise",   "brdf",
+                                     "camera",    "cone",     "cube_filter", "cubemap",     "edges",        "facet",
+                                     "fog",       "sampling", "levels",      "cube_chain",  "paraboloid",   "plus",
+                                     "reuse",     "steps",    "hemisphere",  "light_terms", "light_volume", "sun",
+                                     "luminance", "froxels"};
 static const char helpers[] = "mat2x3 frame_of(vec3 n) { vec3 t, b; tangent_frame(n, t, b); return mat2x3(t, b); }\n"
                               "vec4 words(uvec4 v) { uvec2 w = v.xz ^ v.yw; return vec4(w.x >> 16u, w.x & 0xFFFFu, "
                               "w.y >> 16u, w.y & 0xFFFFu); }\n";

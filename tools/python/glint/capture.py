@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from glint.convert import from_struct
-from glint.frame import CubeMap, Encodings, Frame, Indirect, LightVolume, Planar, Probe, Shadow, Sky, Truth
+from glint.frame import CubeMap, Encodings, Frame, Froxels, Indirect, LightVolume, Planar, Probe, Shadow, Sky, Truth
 from glint.library import Error, callback, constant, enum, function, path_bytes, string, struct, text
 from glint.registry import Role, in_order, layer, roles
 
@@ -33,7 +33,7 @@ _notes = function("glint_frame_notes", "frame notes")
 _limits = struct("glint_limits", "file_bytes memory_bytes width parts")
 struct("glint_channel_info", "name stored storage")
 struct("glint_part_info", "name role index level previous width height channels channel_count encodings has_cubemap has_planar has_sky has_probe "
-       "has_indirect has_shadow has_volume has_truth cubemap planar sky probe indirect shadow volume truth sibling sibling_hash attributes attribute_count")
+       "has_indirect has_shadow has_volume has_froxels has_truth cubemap planar sky probe indirect shadow volume froxels truth sibling sibling_hash attributes attribute_count")
 struct("glint_attribute", "name type string number")
 
 _TYPES = enum("glint_type")
@@ -90,6 +90,7 @@ class Part:
     indirect       Indirect of the part indirect, else None
     shadow         Shadow of a part shadow.NNN, else None
     volume         LightVolume of a part volume.NNN, else None
+    froxels        Froxels of the part froxels, else None
     truth          Truth of the parts truth.occlusion and truth.sun, else None
     sibling        name of the file in the same folder that holds the pixels; "": none
     sibling_hash   its XXH3-128, which was verified; "": no sibling
@@ -117,6 +118,7 @@ class Part:
         self.probe: Probe | None = from_struct(info.probe) if info.has_probe else None
         self.indirect: Indirect | None = from_struct(info.indirect) if info.has_indirect else None
         self.shadow: Shadow | None = from_struct(info.shadow) if info.has_shadow else None
+        self.froxels: Froxels | None = from_struct(info.froxels) if info.has_froxels else None
         self.volume: LightVolume | None = from_struct(info.volume) if info.has_volume else None
         self.truth: Truth | None = from_struct(info.truth) if info.has_truth else None
         self.sibling = string(info.sibling)

@@ -252,6 +252,20 @@ class LightVolume:
     """cells along z, ≥ 1"""
 
 
+@mirrors("glint_froxels")
+@dataclass(eq=False)
+class Froxels:
+    """The attributes of the part froxels: light in the air, in slices of the view frustum, one below the other."""
+    slices: int
+    """≥ 1"""
+    near_depth: float
+    """view-linear depth in units at which the first slice begins, ≥ 0; above 0 if they are exponential"""
+    far_depth: float
+    """view-linear depth in units at which the last slice ends"""
+    exponential: bool = False
+    """each slice is so many times as thick as the one before; False: all are equally thick"""
+
+
 @mirrors("glint_truth")
 @dataclass(eq=False)
 class Truth:

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from glint.capture import Attribute, Path
 from glint.convert import scalar, to_struct
-from glint.frame import CubeMap, Encodings, Frame, Indirect, LightVolume, Planar, Probe, Shadow, Sky, Truth
+from glint.frame import CubeMap, Encodings, Frame, Froxels, Indirect, LightVolume, Planar, Probe, Shadow, Sky, Truth
 from glint.library import enum, function, path_bytes, struct, text
 from glint.registry import layer
 
@@ -23,7 +23,7 @@ _finish = function("glint_writer_finish", "writer")
 _wait = function("glint_writer_wait", "writer")
 _destroy = function("glint_writer_destroy", "writer")
 _options = struct("glint_writer_options", "compression threads background")
-_part = struct("glint_part", "name width height channels channel_count encodings cubemap planar sky probe indirect shadow volume truth "
+_part = struct("glint_part", "name width height channels channel_count encodings cubemap planar sky probe indirect shadow volume froxels truth "
                "sibling attributes attribute_count")
 _channel = struct("glint_channel", "name type data x_stride_bytes y_stride_bytes storage")
 _attribute = struct("glint_attribute", "name type string number")
@@ -107,7 +107,7 @@ class Writer:
     def add(self, name: str, channels: Mapping[str, ArrayLike] | None = None, encodings: Encodings | None = None, *,
             storage: Mapping[str, str] | None = None, cubemap: CubeMap | None = None, planar: Planar | None = None,
             sky: Sky | None = None, probe: Probe | None = None, indirect: Indirect | None = None, shadow: Shadow | None = None,
-            volume: LightVolume | None = None, truth: Truth | None = None,
+            volume: LightVolume | None = None, froxels: Froxels | None = None, truth: Truth | None = None,
             sibling: str | None = None, attributes: Mapping[str, Attribute] | None = None) -> None:
         """Adds a part: checks it against its role, and copies the pixels. After an error the writer is as before.
 
@@ -125,6 +125,7 @@ class Writer:
         indirect    of the part indirect; None: the engine's own occlusion is not in it
         shadow      required for shadow.NNN
         volume      required for volume.NNN
+        froxels     required for froxels
         truth       required for truth.occlusion and truth.sun
         sibling     cubemap.NNN only, without channels: a file in the same folder whose part of this name holds the pixels
         attributes  str, int (32 bits, signed) or float by name, for whoever knows them; names must not begin with "glint."
@@ -150,7 +151,7 @@ class Writer:
         part.attributes = (_attribute * len(attributes or {}))(*(self._foreign(name, a, v) for a, v in (attributes or {}).items()))
         part.attribute_count = len(attributes or {})
         for member, given in (("cubemap", cubemap), ("planar", planar), ("sky", sky), ("probe", probe), ("indirect", indirect),
-                              ("shadow", shadow), ("volume", volume), ("truth", truth)):
+                              ("shadow", shadow), ("volume", volume), ("froxels", froxels), ("truth", truth)):
             if given is not None:
                 setattr(part, member, ctypes.pointer(to_struct(given)))
         with self._lock:
