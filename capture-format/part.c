@@ -324,6 +324,42 @@ static bool check_shadow(struct glint_check *check, const struct glint_part_info
                   frame->light_count, shadow->light);
 }
 
+/* What atmosphere and clouds say on gbuffer. */
+static bool check_air(struct glint_check *check, const struct glint_part_info *out, const struct glint_frame *frame) {
+    const struct glint_atmosphere *air = &frame->atmosphere;
+    const struct glint_clouds *clouds = &frame->clouds;
+    if (frame->has_atmosphere && !(air->mie_extinction >= air->mie) &&
+        !BROKEN(AIR, "glint.atmosphere.mieExtinction", "expected at least mieScattering, %g, found %g",
+                air->mie, air->mie_extinction))
+        return false;
+    return !frame->has_clouds || clouds->top > clouds->bottom ||
+           BROKEN(AIR, "glint.cloudTop", "expected more than cloudBottom, %g, found %g", clouds->bottom, clouds->top);
+}
+
+enum { CLOUD_SLICES = 8 };
+
+/* Both textures of clouds, with the attributes that say where they lie. */
+static bool check_clouds(struct glint_check *check, const struct glint_part_info *parts, size_t count,
+                         const struct glint_frame *frame) {
+    static const char *const names[] = {"cloud.density", "cloud.height", "cloud.noise"};
+    const struct glint_part_info *found[3] = {NULL};
+    bool any = frame->has_clouds;
+    for (size_t i = 0; i < count; i++)
+        for (int k = 0; k < 3; k++)
+            if (!strcmp(parts[i].name, names[k])) found[k] = &parts[i], any = true;
+    if (!any) return true;
+    for (int k = 0; k < 2; k++)
+        if (!found[k]) return glint_violation(check, GLINT_RULE_AIR, names[k], NULL, "missing beside other clouds");
+    const struct glint_part_info *out = found[0];
+    if (!frame->has_clouds && !BROKEN(AIR, NULL, "expected glint.cloudBottom on gbuffer, found none")) return false;
+    if (out->height % CLOUD_SLICES && !BROKEN(AIR, NULL, "expected a height of a whole number of %d slices, found %u",
+                                              CLOUD_SLICES, out->height))
+        return false;
+    return (found[1]->width == out->width && found[1]->height == out->height) ||
+           glint_violation(check, GLINT_RULE_AIR, names[1], NULL, "expected %u x %u pixels as in %s, found %u x %u",
+                           out->width, out->height, names[0], found[1]->width, found[1]->height);
+}
+
 static bool check_required_roles(struct glint_check *check, const struct glint_part_info *parts, size_t count) {
     size_t role_count = 0;
     const struct glint_role *roles = glint_roles(&role_count);
@@ -348,7 +384,9 @@ bool glint_parts_check(struct glint_check *check, const struct glint_exr_part_in
         if (parts[i].role && !strcmp(parts[i].name, "gbuffer")) {
             gbuffer = &parts[i];
             *has_frame = true;
-            if (!glint_attributes_decode(check, files[i], GLINT_SCOPE_FRAME, frame)) return false;
+            if (!glint_attributes_decode(check, files[i], GLINT_SCOPE_FRAME, frame) ||
+                !check_air(check, &parts[i], frame))
+                return false;
         }
         cubes_only = cubes_only && parts[i].has_cubemap && !parts[i].sibling[0];
     }
@@ -363,5 +401,5 @@ bool glint_parts_check(struct glint_check *check, const struct glint_exr_part_in
             !BROKEN(PREVIOUS, NULL, "expected previousWorldToView and previousViewToClip on gbuffer, found none"))
             return false;
     }
-    return glint_probes_check(check, parts, count);
+    return (!gbuffer || check_clouds(check, parts, count, frame)) && glint_probes_check(check, parts, count);
 }

@@ -47,3 +47,7 @@ CAPTURE(transparent_depth, R32F,   "m",  FULL,    "transparent", "depth.Z", fals
 CAPTURE(color_table,      RGBA32F, "1",  TABLE,    "lut",     "R G B -", false, 0, "table of sRGB-encoded colours: slices of one blue, columns of one red, rows of one green")
 CAPTURE(lens_dirt,        RGBA16F, "1",  DIRT,     "dirt",    "R G B -", false, 0, "what the dirt on the lens adds to the sRGB-encoded picture")
 CAPTURE(sky,              RGBA16F, "radiance", SKY, "sky",    "R G B -", false, 0, "the sky alone")
+CAPTURE(stars,            RGBA16F, "radiance", PART,   "stars",  "R G B -", false, 0, "the stars above the atmosphere: faces +X -X +Y -Y +Z -Z of a cube map in world axes, one below the other")
+CAPTURE(cloud_density,    R16F,    "1",  PART,     "cloud.density", "density", false, 0, "how much cloud there is: 8 slices of the layer one below the other, the lowest on top")
+CAPTURE(cloud_height,     R16F,    "1",  PART,     "cloud.height", "height", false, 1, "up to where the cloud is as dense as that: 0 is the lower side of the layer, 1 the upper one")
+CAPTURE(cloud_noise,      R16F,    "1",  PART,     "cloud.noise", "noise", false, 0, "what wears the clouds away: N slices of N x N")

@@ -20,6 +20,7 @@
     SCENE(hotel, "lobby with a gallery and the street before it at night; 22 cube maps on three floors and outdoors")  \
     SCENE(plaza, "wet paving of every roughness after sunset: dark silhouettes before an HDR glow")                    \
     SCENE(courtyard, "sunlit yard with an arcade, trees with leaves, a parked car and a person")                       \
+    SCENE(meadow, "grass with a tree and a hut under a wide sky, before a low sun")                                    \
     SCENE(kitchen, "two dim rooms by day: window, door and second window in a mirror, glossy worktops, HDR sky")
 
 #define DECLARE(name, summary) void build_##name(struct scene *scene);

@@ -54,6 +54,7 @@ const char *size_name(enum glint_size_class size) {
         [GLINT_SIZE_SHADOW - FIRST] = "shadow maps",
         [GLINT_SIZE_TABLE - FIRST] = "table of colours",
         [GLINT_SIZE_DIRT - FIRST] = "dirt",
+        [GLINT_SIZE_PART - FIRST] = "the part's",
         [GLINT_SIZE_GRID - FIRST] = "grid of light",
         [GLINT_SIZE_CUBEMAPS_MIPS - FIRST] = "cube maps, levels",
         [GLINT_SIZE_SKY_MIPS - FIRST] = "sky, levels",

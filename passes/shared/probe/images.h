@@ -23,6 +23,7 @@ PROBE_IMAGE(planar_reflection)
 PROBE_IMAGE(composed)
 PROBE_IMAGE(composed_water)
 PROBE_IMAGE(composed_fog)
+PROBE_IMAGE(composed_sky)
 PROBE_IMAGE(water_color)
 PROBE_IMAGE(transparent_color)
 PROBE_IMAGE(mixture) /* no image: the result of the samples before */

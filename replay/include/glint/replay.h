@@ -140,6 +140,7 @@ struct glint_survey {
     bool has_indirect, has_sun; /* which part of the light is indirect is known; the capture declares a sun */
     bool has_stippling;         /* the capture has a mask of stippled pixels */
     bool has_skin;              /* the capture has a mask or a stencil class of skin */
+    bool has_atmosphere, has_clouds; /* the capture declares them */
     bool has_shadows;           /* the capture has a shadow map that passes use */
     bool has_overlays;          /* buffers that are to be blended into the G-buffer */
     bool has_volume;            /* the capture has a volume of light */

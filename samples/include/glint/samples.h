@@ -33,7 +33,8 @@ enum glint_also {
     GLINT_ALSO_LUT = 16,     /* the table of colours that it grades with */
     GLINT_ALSO_DIRT = 32,    /* the dirt on its lens */
     GLINT_ALSO_STIPPLE = 64, /* where stippled surfaces were drawn */
-    GLINT_ALSO_DECALS = 128  /* decals on the ground, in buffers of their own */
+    GLINT_ALSO_DECALS = 128, /* decals on the ground, in buffers of their own */
+    GLINT_ALSO_SKY = 256     /* atmosphere, clouds and stars, and the sky that they make in its picture */
 };
 
 struct glint_sample_options {
