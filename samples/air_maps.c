@@ -66,7 +66,7 @@ static void fill_stars(struct air_maps *maps) {
     for (uint32_t i = 0; i < STARS; i++) {
         const uint32_t face = hash_two(i, 1) % 6, x = hash_two(i, 2) % STAR_SIDE, y = hash_two(i, 3) % STAR_SIDE;
         const float bright = 0.02f * powf(1 - unit_float(hash_two(i, 4)), -2.0f / 3), warm = unit_float(hash_two(i, 5));
-        maps->stars[face][y][x] = scale(v3(0.8f + 0.2f * warm, 0.9f, 1.1f - 0.3f * warm), fminf(bright, 2));
+        maps->stars[face][y][x] = scale(v3(0.8f + 0.2f * warm, 0.9f, 1.1f - 0.3f * warm), fminf(bright, 1.5f));
     }
 }
 

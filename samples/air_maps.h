@@ -4,7 +4,7 @@
 
 #include "vec.h"
 
-enum { CLOUD_SIDE = 64, CLOUD_SLICES = 8, CLOUD_NOISE = 32, STAR_SIDE = 64 };
+enum { CLOUD_SIDE = 64, CLOUD_SLICES = 8, CLOUD_NOISE = 32, STAR_SIDE = 256 };
 
 struct air_maps {
     float density[CLOUD_SLICES][CLOUD_SIDE][CLOUD_SIDE], height[CLOUD_SLICES][CLOUD_SIDE][CLOUD_SIDE];

@@ -30,7 +30,12 @@ vec2 below(float high, float slope, float altitude) {
     float q = -0.5 * (b + (b < 0.0 ? -1.0 : 1.0) * sqrt(inner)), one = rest / q, other = c > 0.0 ? q / c : q > 0.0 ? LARGEST : -LARGEST;
     return vec2(min(one, other), max(one, other));
 }
-bool meets_ground(float high, float slope) { return below(high, slope, 0.0).x > 0.0; }
+// Where a ray from no lower than the ground meets it, or a negative number. On the ground a falling ray meets it where it starts.
+float ground_at(float high, float slope) {
+    vec2 inside = below(max(high, 0.0), slope, 0.0);
+    return inside.y > max(inside.x, 0.0) ? inside.x : -1.0;
+}
+bool meets_ground(float high, float slope) { return ground_at(high, slope) >= 0.0; }
 
 // Where steps of a ray begin and end: shorter ones near its start. part: in [0, 1].
 float step_place(vec2 range, float part) { return mix(range.x, range.y, part * part); }
@@ -59,9 +64,36 @@ vec3 air_depth(vec2 air) { return frame.rayleigh.rgb * air.x + vec3(frame.mie.y 
 // The part of the sun's light that comes through the air to an altitude.
 vec3 sun_through_air(float high, float slope, int steps) {
     if (!(frame.atmosphere.x > 0.0)) return vec3(1.0);
+    high = max(high, 0.0);
     if (meets_ground(high, slope)) return vec3(0.0);
     float end = below(high, slope, frame.atmosphere.y).y;
     return end > 0.0 ? exp(-air_depth(air_along(high, slope, vec2(0.0, end), steps))) : vec3(1.0);
+}
+
+// Sunlight that molecules and particles between two places of a ray scatter to its start, without phase functions, and the part of light from behind that
+// passes them. Within a step light is absorbed as evenly as it is scattered, so that no step sends on more than it gets.
+struct Scattered {
+    vec3 molecules, particles, passed;
+};
+Scattered scattered(float high, float slope, vec2 range, vec3 direction, int steps, int light_steps) {
+    float upward = dot(frame.sun_direction.xyz, frame.up.xyz), ahead = dot(frame.sun_direction.xyz, direction);
+    Scattered s = Scattered(vec3(0.0), vec3(0.0), vec3(1.0));
+    float place = range.x, altitude = altitude_at(high, slope, place);
+    for (int i = 1; i <= steps; ++i) {
+        float next = step_place(range, float(i) / float(steps)), then = altitude_at(high, slope, next), middle = 0.5 * (place + next);
+        vec2 air = air_between(place, next, altitude, then);
+        vec3 depth = air_depth(air), kept = exp(-depth);
+        vec3 mean = mix(1.0 - 0.5 * depth, (1.0 - kept) / max(depth, vec3(1e-20)), greaterThan(depth, vec3(1e-3)));
+        vec3 sun = sun_through_air(altitude_at(high, slope, middle), slope_towards(high, slope, middle, upward, ahead), light_steps);
+        s.molecules += s.passed * mean * sun * air.x;
+        s.particles += s.passed * mean * sun * air.y;
+        s.passed *= kept;
+        place = next, altitude = then;
+    }
+    float light = dot(frame.sun_direction.xyz, frame.sun_direction.xyz) > 0.0 ? 1.0 : 0.0;
+    s.molecules *= light * frame.sun_above.rgb * frame.rayleigh.rgb;
+    s.particles *= light * frame.sun_above.rgb * frame.mie.x;
+    return s;
 }
 
 // Scattered light per solid angle. Lord Rayleigh 1871; L. Henyey, J. Greenstein, Diffuse radiation in the galaxy, 1941.

@@ -36,6 +36,9 @@ void build_meadow(struct scene *scene) {
     scene->cell = 2;
     scene_mesh(scene, &grass, MESH_PLAIN);
     scene_ground(scene, ground, 0.5f, v3(-80, 0, -110), 4, 40, 31);
+    scene->cell = 400; /* up to the horizon */
+    scene_quad(scene, v3(-4000, -1.2f, 1000), v3(8000, 0, 0), v3(0, 0, -5000));
+    scene->cell = 2;
     scene_mesh(scene, &bark, MESH_PLAIN);
     scene_tube(scene, v3(-6, ground(-6, -14) - 0.2f, -14), v3(-5.8f, 3.4f, -14), 0.28f, 12);
     scene_mesh(scene, &leaves, MESH_PLAIN);

@@ -29,43 +29,35 @@ vec3 star_light(vec3 direction) {
                mix(texelFetch(stars, first + ivec2(a.x, b.y), 0).rgb, texelFetch(stars, first + b, 0).rgb, weight.x), weight.y);
 }
 
-// The part of the atmosphere's light that comes from in front of a place of the ray, and of that place's light what passes.
-struct Haze {
-    vec3 before, passed;
-};
-Haze haze_before(float high, float slope, float far_m, vec3 passed_all) {
-    Haze h = Haze(vec3(0.0), vec3(1.0));
-    if (!haze || !has_sky_rayleigh) return h;
-    h.passed = exp(-air_depth(air_along(high, slope, vec2(0.0, far_m), steps)));
-    h.before = clamp((1.0 - h.passed) / max(1.0 - passed_all, vec3(1e-6)), 0.0, 1.0);
-    return h;
-}
-
 // The sun's light on a cloud. Clouds without an atmosphere have that on surfaces.
 vec3 sun_on_cloud(float high, float slope, float far_m, vec3 direction) {
     if (!(frame.atmosphere.x > 0.0)) return frame.sun_irradiance.rgb;
     float upward = dot(frame.sun_direction.xyz, frame.up.xyz), ahead = dot(frame.sun_direction.xyz, direction);
-    return frame.sun_above.rgb * sun_through_air(altitude_at(high, slope, far_m), slope_towards(high, slope, far_m, upward, ahead), steps);
+    return frame.sun_above.rgb * sun_through_air(altitude_at(high, slope, far_m), slope_towards(high, slope, far_m, upward, ahead), light_steps);
 }
 
 vec3 sky_light(ivec2 pixel, vec3 captured) {
     vec2 uv = (vec2(pixel) + 0.5) / vec2(frame.size.xy);
-    vec3 direction = ray_at(uv), air = vec3(0.0), behind = captured, passed = vec3(1.0);
+    vec3 direction = ray_at(uv), molecules = vec3(0.0), particles = vec3(0.0), behind = captured;
     float cosine = dot(direction, frame.sun_direction.xyz);
     if (has_sky_rayleigh) {
         vec4 through = upsampled(sky_passed, uv);
-        passed = through.rgb;
-        behind = through.w * passed * star_light(direction);
-        if (rayleigh) air += rayleigh_phase(cosine) * upsampled(sky_rayleigh, uv).rgb;
-        if (mie) air += mie_phase(cosine, frame.mie.w) * upsampled(sky_mie, uv).rgb;
+        behind = through.w * through.rgb * star_light(direction);
+        if (rayleigh) molecules = rayleigh_phase(cosine) * upsampled(sky_rayleigh, uv).rgb;
+        if (mie) particles = mie_phase(cosine, frame.mie.w) * upsampled(sky_mie, uv).rgb;
     }
+    vec3 air = molecules + particles;
     if (!has_cloud_map || !clouds) return air + behind;
     vec4 cloud = texelFetch(cloud_map, pixel, 0);
     if (!(cloud.x > 0.0)) return air + behind;
-    float far_m = 1000.0 * cloud.w, slope = dot(direction, frame.up.xyz), high = max(has_sky_rayleigh ? frame.atmosphere.z : frame.cloud_layer.z, 0.0);
-    Haze h = haze_before(high, slope, far_m, passed);
+    float far_m = 1000.0 * cloud.w, slope = dot(direction, frame.up.xyz), high = max(frame.atmosphere.x > 0.0 ? frame.atmosphere.z : frame.cloud_layer.z, 0.0);
+    Scattered before = Scattered(vec3(0.0), vec3(0.0), vec3(1.0));
+    if (haze && has_sky_rayleigh) before = scattered(high, slope, vec2(0.0, far_m), direction, steps, light_steps);
     vec3 own = (cloud.y + (multiple ? cloud.z : 0.0)) * sun_on_cloud(high, slope, far_m, direction);
-    return air * h.before + (1.0 - cloud.x) * (air * (1.0 - h.before) + behind) + h.passed * own;
+    vec3 front = vec3(0.0);
+    if (rayleigh) front += min(rayleigh_phase(cosine) * before.molecules, molecules);
+    if (mie) front += min(mie_phase(cosine, frame.mie.w) * before.particles, particles);
+    return front + (1.0 - cloud.x) * (air - front + behind) + before.passed * own;
 }
 
 void main() {

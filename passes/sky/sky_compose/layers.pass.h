@@ -9,4 +9,5 @@ SPEC(bool, starry,   true, 0, 1, "1", "Mafia DE article, Atmospheric Sky + Stars
 SPEC(bool, clouds,   true, 0, 1, "1", "Mafia DE article, Clouds", "clouds before both; off: none")
 SPEC(bool, multiple, true, 0, 1, "1", "Mafia DE article, Clouds", "light that clouds scatter more than once; off: once alone")
 SPEC(bool, haze,     true, 0, 1, "1", "Mafia DE article, Atmospheric Sky + Stars", "air in front of clouds hides them by their distance; off: they are before all of the air")
-SPEC(int,  steps,    8,    1, 256, "steps", "glint", "steps through the air to a cloud, and from there towards the sun")
+SPEC(int,  steps,    4,    1, 256, "steps", "glint", "steps through the air in front of a cloud")
+SPEC(int,  light_steps, 6, 1, 256, "steps", "glint", "steps from there, and from the cloud, towards the sun")
