@@ -329,8 +329,8 @@ static bool check_air(struct glint_check *check, const struct glint_part_info *o
     const struct glint_atmosphere *air = &frame->atmosphere;
     const struct glint_clouds *clouds = &frame->clouds;
     if (frame->has_atmosphere && !(air->mie_extinction >= air->mie) &&
-        !BROKEN(AIR, "glint.atmosphere.mieExtinction", "expected at least mieScattering, %g, found %g",
-                air->mie, air->mie_extinction))
+        !BROKEN(AIR, "glint.atmosphere.mieExtinction", "expected at least mieScattering, %g, found %g", air->mie,
+                air->mie_extinction))
         return false;
     return !frame->has_clouds || clouds->top > clouds->bottom ||
            BROKEN(AIR, "glint.cloudTop", "expected more than cloudBottom, %g, found %g", clouds->bottom, clouds->top);
@@ -352,8 +352,8 @@ static bool check_clouds(struct glint_check *check, const struct glint_part_info
         if (!found[k]) return glint_violation(check, GLINT_RULE_AIR, names[k], NULL, "missing beside other clouds");
     const struct glint_part_info *out = found[0];
     if (!frame->has_clouds && !BROKEN(AIR, NULL, "expected glint.cloudBottom on gbuffer, found none")) return false;
-    if (out->height % CLOUD_SLICES && !BROKEN(AIR, NULL, "expected a height of a whole number of %d slices, found %u",
-                                              CLOUD_SLICES, out->height))
+    if (out->height % CLOUD_SLICES &&
+        !BROKEN(AIR, NULL, "expected a height of a whole number of %d slices, found %u", CLOUD_SLICES, out->height))
         return false;
     return (found[1]->width == out->width && found[1]->height == out->height) ||
            glint_violation(check, GLINT_RULE_AIR, names[1], NULL, "expected %u x %u pixels as in %s, found %u x %u",

@@ -125,7 +125,8 @@ static bool hits_ground(const struct air *air, const struct ray *ray) {
 static struct rgb extinction(const struct air *air, double high, double *molecules, double *particles) {
     struct rgb e;
     *molecules = exp(-high / air->gas.rayleigh_height), *particles = exp(-high / air->gas.mie_height);
-    for (int i = 0; i < 3; i++) e.c[i] = (double)air->gas.rayleigh[i] * *molecules + air->gas.mie_extinction * *particles;
+    for (int i = 0; i < 3; i++)
+        e.c[i] = (double)air->gas.rayleigh[i] * *molecules + air->gas.mie_extinction * *particles;
     return e;
 }
 
@@ -163,8 +164,8 @@ static struct seen scattered(const struct air *air, const struct ray *ray, doubl
         for (int k = 0; k < 3; k++) {
             const double source = (double)air->gas.rayleigh[k] * m * rayleigh + air->gas.mie * p * mie,
                          kept = exp(-e.c[k] * step);
-            s.light.c[k] += s.passed.c[k] * air->irradiance[k] * sun.c[k] * source *
-                            (e.c[k] > 0 ? (1 - kept) / e.c[k] : step);
+            s.light.c[k] +=
+                s.passed.c[k] * air->irradiance[k] * sun.c[k] * source * (e.c[k] > 0 ? (1 - kept) / e.c[k] : step);
             s.passed.c[k] *= kept;
         }
     }
@@ -208,7 +209,10 @@ static double cloud_at(const struct air *air, const struct ray *ray, double t) {
     const double x = ray->world[0] + t * ray->direction[0] - c->offset[0],
                  z = ray->world[1] + t * ray->direction[2] - c->offset[1];
     double full = layered(&air->maps.density[0][0][0], x / c->tile, z / c->tile, rise);
-    if (full > 0) full *= fmin(fmax(1 + CLOUD_SLICES * (layered(&air->maps.height[0][0][0], x / c->tile, z / c->tile, rise) - rise), 0), 1);
+    if (full > 0)
+        full *= fmin(
+            fmax(1 + CLOUD_SLICES * (layered(&air->maps.height[0][0][0], x / c->tile, z / c->tile, rise) - rise), 0),
+            1);
     if (full > 0) full -= c->erosion * noise_at(air, x / c->noise_tile, z / c->noise_tile, high / c->noise_tile);
     return c->extinction * fmax(full, 0);
 }
@@ -236,17 +240,20 @@ static struct cloud clouds_along(const struct air *air, const struct ray *ray) {
     static const double FARTHEST = 60000, SHADOW = 1500;
     struct cloud found = {0, 0, 0};
     double low[2], high[2], passed = 1;
-    if (hits_ground(air, ray) || !crosses(air, ray, air->clouds.bottom, low) || !crosses(air, ray, air->clouds.top, high))
+    if (hits_ground(air, ray) || !crosses(air, ray, air->clouds.bottom, low) ||
+        !crosses(air, ray, air->clouds.top, high))
         return found;
     const double begin = fmax(low[1], 0), step = (fmin(high[1], FARTHEST) - begin) / STEPS,
                  cosine = dot3(ray->direction, air->sun);
     for (int i = 0; i < STEPS && step > 0 && passed > 1e-5; i++) {
-        const double t = begin + step * (i + 0.5), density = cloud_at(air, ray, t), covered = passed * (1 - exp(-density * step));
+        const double t = begin + step * (i + 0.5), density = cloud_at(air, ray, t),
+                     covered = passed * (1 - exp(-density * step));
         if (!(covered > 0)) continue;
         const struct ray up = towards_sun(air, ray, t);
         const double depth = cloud_depth(air, &up, SHADOW, LIGHT_STEPS);
         if (!hits_ground(air, &up))
-            for (int k = 0; k < OCTAVES; k++) found.light += covered * ldexp(lobes(cosine, ldexp(1, -k)) * exp(-ldexp(depth, -k)), -k);
+            for (int k = 0; k < OCTAVES; k++)
+                found.light += covered * ldexp(lobes(cosine, ldexp(1, -k)) * exp(-ldexp(depth, -k)), -k);
         found.distance += covered * t;
         passed -= covered;
     }
@@ -271,7 +278,8 @@ static struct rgb stars_at(const struct air *air, const double d[3]) {
                  y = fmin(fmax((dot3(axes[face][2], d) / far + 1) / 2 * STAR_SIDE - 0.5, 0), most);
     for (int corner = 0; corner < 4; corner++) {
         const int i = (int)fmin(floor(x) + (corner & 1), most), j = (int)fmin(floor(y) + (corner >> 1), most);
-        const double weight = (corner & 1 ? x - floor(x) : 1 - (x - floor(x))) * (corner >> 1 ? y - floor(y) : 1 - (y - floor(y)));
+        const double weight =
+            (corner & 1 ? x - floor(x) : 1 - (x - floor(x))) * (corner >> 1 ? y - floor(y) : 1 - (y - floor(y)));
         double star[3];
         put3(air->maps.stars[face][j][i], star);
         for (int k = 0; k < 3; k++) sum.c[k] += weight * star[k];

@@ -56,9 +56,10 @@ static void fill_noise(struct air_maps *maps) {
     for (int k = 0; k < CLOUD_NOISE; k++)
         for (int y = 0; y < CLOUD_NOISE; y++)
             for (int x = 0; x < CLOUD_NOISE; x++)
-                maps->noise[k][y][x] = byte(1.6f * fractal(((float)x + 0.5f) / CLOUD_NOISE, ((float)y + 0.5f) / CLOUD_NOISE,
-                                                           ((float)k + 0.5f) / CLOUD_NOISE, 4, 3, 91) -
-                                            0.3f);
+                maps->noise[k][y][x] =
+                    byte(1.6f * fractal(((float)x + 0.5f) / CLOUD_NOISE, ((float)y + 0.5f) / CLOUD_NOISE,
+                                        ((float)k + 0.5f) / CLOUD_NOISE, 4, 3, 91) -
+                         0.3f);
 }
 
 /* Few are bright, as many as there are in equal parts of space. */

@@ -162,8 +162,8 @@ bool truth_average(const struct world *world, const struct glint_sample_options 
     for (uint32_t k = 0; ok && k < VIEW_PLACES; k++) {
         struct view view = view_through(world_scene(world), o, o->width, o->height, number, k);
         ok = render_frame(world, &view, &view, seen, job, 0, err) &&
-             render_truth(world, &view, seen, o->truth_samples, k * o->truth_samples, o->finished_samples > 0, found, job,
-                          0, err);
+             render_truth(world, &view, seen, o->truth_samples, k * o->truth_samples, o->finished_samples > 0, found,
+                          job, 0, err);
         for (size_t i = 0; ok && i < pixels; i++) truth_add(&sums[i], &found[i]);
     }
     for (size_t i = 0; ok && i < pixels; i++) truth_mean(&sums[i], &truth[i]);

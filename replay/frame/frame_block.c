@@ -235,8 +235,8 @@ static void fill_air(struct frame_block *block, const struct glint_frame *frame,
     if (frame->has_atmosphere) {
         const float *sun = air->irradiance, *r = air->rayleigh;
         const double height = air->rayleigh_height > 0 ? air->rayleigh_height : 8000;
-        block->atmosphere = (vec4){(float)air->planet_radius, (float)air->top,
-                                   (float)((eye[axis] * sign - air->ground) * metres), 0};
+        block->atmosphere =
+            (vec4){(float)air->planet_radius, (float)air->top, (float)((eye[axis] * sign - air->ground) * metres), 0};
         block->sun_above = (vec4){sun[0], sun[1], sun[2], 0};
         block->rayleigh = (vec4){r[0], r[1], r[2], (float)height};
         block->mie = (vec4){(float)air->mie, (float)air->mie_extinction,
@@ -246,9 +246,8 @@ static void fill_air(struct frame_block *block, const struct glint_frame *frame,
     const double noise = clouds->noise_tile > 0 ? clouds->noise_tile : 1000;
     for (int i = 0, k = 0; i < 3; i++)
         if (i != axis) across[k] = eye[i] * metres - clouds->offset[k], k++;
-    block->cloud_layer =
-        (vec4){(float)clouds->bottom, (float)clouds->top, (float)((eye[axis] * sign - clouds->ground) * metres),
-               (float)clouds->extinction};
+    block->cloud_layer = (vec4){(float)clouds->bottom, (float)clouds->top,
+                                (float)((eye[axis] * sign - clouds->ground) * metres), (float)clouds->extinction};
     block->cloud_tile = (vec4){(float)clouds->tile, (float)noise, (float)clouds->erosion, 0};
     block->cloud_place = (vec4){(float)part_of(across[0], clouds->tile), (float)part_of(across[1], clouds->tile),
                                 (float)part_of(across[0], noise), (float)part_of(across[1], noise)};

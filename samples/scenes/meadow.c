@@ -5,7 +5,8 @@
 /* What lights the ground. With an atmosphere in the capture its picture is drawn of that. */
 static vec3 sky(vec3 d) {
     const float up = d.y > 0 ? d.y : 0, sun = fmaxf(dot(d, unit(v3(0.35f, 0.21f, -0.9f))), 0);
-    return along(mix(v3(0.95f, 0.72f, 0.5f), v3(0.16f, 0.32f, 0.62f), powf(up, 0.5f)), v3(0.9f, 0.55f, 0.25f), powf(sun, 24));
+    return along(mix(v3(0.95f, 0.72f, 0.5f), v3(0.16f, 0.32f, 0.62f), powf(up, 0.5f)), v3(0.9f, 0.55f, 0.25f),
+                 powf(sun, 24));
 }
 
 static float ground(float x, float z) {
@@ -44,7 +45,8 @@ void build_meadow(struct scene *scene) {
     scene_mesh(scene, &leaves, MESH_PLAIN);
     for (int i = 0; i < 24; i++) {
         const float turn = 2.4f * (float)i, out = 1.9f * cell_random(i, 0, 3), up = 3.3f + 2.6f * cell_random(i, 1, 3);
-        scene_sphere(scene, v3(-5.8f + out * cosf(turn), up, -14 + out * sinf(turn)), 0.6f + 0.5f * cell_random(i, 2, 3), 10);
+        scene_sphere(scene, v3(-5.8f + out * cosf(turn), up, -14 + out * sinf(turn)),
+                     0.6f + 0.5f * cell_random(i, 2, 3), 10);
     }
     scene_place(scene, v3(9, ground(9, -22), -22), 0.4f);
     scene_mesh(scene, &boards, MESH_PLAIN);

@@ -19,16 +19,16 @@ struct glint_fog {
 /* A planet's atmosphere, whose molecules and particles thin out with the altitude: coefficient · exp(-altitude / scale height). Lengths are in
    metres, but for `ground`. */
 struct glint_atmosphere {
-    double planet_radius;     /* from the middle to the ground */
-    double ground;            /* height of the ground in units along up: altitudes count from there */
-    double top;               /* altitude at which the atmosphere ends */
-    float irradiance[3];      /* radiance · sr, of the sun above the atmosphere */
-    float rayleigh[3];        /* scattering by molecules, 1/m at the ground */
-    double rayleigh_height;   /* scale height; 0: 8000 */
-    double mie;               /* by particles, 1/m at the ground */
-    double mie_extinction;    /* at least as much */
-    double mie_height;        /* scale height; 0: 1200 */
-    double mie_asymmetry;     /* mean cosine of the angle by which particles scatter, between -1 and 1 */
+    double planet_radius;   /* from the middle to the ground */
+    double ground;          /* height of the ground in units along up: altitudes count from there */
+    double top;             /* altitude at which the atmosphere ends */
+    float irradiance[3];    /* radiance · sr, of the sun above the atmosphere */
+    float rayleigh[3];      /* scattering by molecules, 1/m at the ground */
+    double rayleigh_height; /* scale height; 0: 8000 */
+    double mie;             /* by particles, 1/m at the ground */
+    double mie_extinction;  /* at least as much */
+    double mie_height;      /* scale height; 0: 1200 */
+    double mie_asymmetry;   /* mean cosine of the angle by which particles scatter, between -1 and 1 */
 };
 
 /* Where the clouds of the parts `cloud.*` lie. Lengths are in metres, but for `ground`. */
