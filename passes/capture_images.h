@@ -20,6 +20,7 @@ CAPTURE(indirect_lit,     RGBA16F, "radiance", FULL, "indirect", "R G B -", fals
 CAPTURE(emissive,         RGBA16F, "radiance", FULL, "emissive", "R G B -", false, 0, "the part of lit that the surfaces emit themselves")
 CAPTURE(engine_ao,        R16F,    "1",  FULL,     "ao",      "visibility", false, 1, "the engine's own ambient occlusion: 1 where nothing occludes")
 CAPTURE(sun_mask,         R16F,    "1",  FULL,     "sun",     "visibility", false, 1, "the engine's own shadow mask of the sun: 1 in the sun, 0 in its shadow")
+CAPTURE(sun_clouds,       R16F,    "1",  FULL,     "sun",     "clouds", false, 1, "the part of the sun's light that clouds let through")
 CAPTURE(shadow_map,       R32F,    "1",  SHADOW,   "shadow", "depth.Z", false, 1, "depths of the surfaces nearest to the sun, of all its shadow maps, one below the other as frame.shadow_place has them")
 CAPTURE(stipple_mask,     R16F,    "1",  FULL,     "stipple", "drawn", false, 0, "1 where a surface was drawn that the engine draws into every other pixel alone")
 CAPTURE(skin_strength,    R16F,    "1",  FULL,     "skin",    "strength", false, 1, "how widely light scatters under the surface: 1 as the profile of skin says, 0: no skin")

@@ -315,17 +315,33 @@ static vec3 look(const struct air *air, vec3 eye, vec3 direction) {
 
 struct paint_work {
     const struct air *air;
+    const struct world *world;
     const struct view *view;
     struct pixel *pixels;
     vec3 eye;
     uint32_t size;
     struct texel *texels;
 };
+/* Takes away the sun's light that clouds keep from a surface, which is a part of the light that is neither indirect nor its own. */
+static void shade_pixel(const struct paint_work *work, uint32_t x, uint32_t y, struct pixel *pixel) {
+    const struct scene *scene = work->air->scene;
+    const struct hit hit = primary_hit(work->world, work->view, x, y);
+    const float cosine = hit.t < INFINITY ? dot(hit.normal, scene->sun_direction) : 0;
+    if (cosine <= 0 || world_blocked(work->world, world_leave(&hit, hit.normal), scene->sun_direction, INFINITY))
+        return;
+    const float kept = 1 - air_sunlight(work->air, hit.position),
+                light = kept * scene->gain * cosine * (1 - pixel->metalness) / PI_F;
+    const vec3 most = sub(sub(pixel->lit, pixel->indirect), pixel->emission),
+               sun = times(scale(scene->sun_irradiance, light), pixel->albedo);
+    pixel->lit = sub(pixel->lit, v3(clampf(sun.x, 0, fmaxf(most.x, 0)), clampf(sun.y, 0, fmaxf(most.y, 0)),
+                                    clampf(sun.z, 0, fmaxf(most.z, 0))));
+}
 static void paint_row(void *user, uint32_t y) {
     const struct paint_work *work = user;
     for (uint32_t x = 0; x < work->view->width; x++) {
         struct pixel *pixel = &work->pixels[(size_t)y * work->view->width + x];
-        if (!(pixel->depth < INFINITY)) pixel->lit = look(work->air, view_eye(work->view), view_ray(work->view, x, y));
+        if (pixel->depth < INFINITY) shade_pixel(work, x, y, pixel);
+        else pixel->lit = look(work->air, view_eye(work->view), view_ray(work->view, x, y));
     }
 }
 static void paint_cube_row(void *user, uint32_t row) {
@@ -335,9 +351,9 @@ static void paint_cube_row(void *user, uint32_t row) {
             look(work->air, work->eye, cube_direction(row / work->size, x, row % work->size, work->size));
 }
 
-bool air_paint(const struct air *air, const struct view *view, struct pixel *pixels, struct job *job,
-               struct glint_error *err) {
-    struct paint_work work = {.air = air, .view = view, .pixels = pixels};
+bool air_paint(const struct air *air, const struct world *world, const struct view *view, struct pixel *pixels,
+               struct job *job, struct glint_error *err) {
+    struct paint_work work = {.air = air, .world = world, .view = view, .pixels = pixels};
     return parallel_for(job, "drawing the sky", 0, view->height, paint_row, &work, err);
 }
 bool air_paint_cube(const struct air *air, vec3 eye, uint32_t size, struct texel *texels, struct job *job,

@@ -13,9 +13,10 @@ struct air *air_create(const struct scene *scene, double time, struct glint_erro
 void air_destroy(struct air **air);
 /* The frame's attributes, with the world moved by the offset. */
 void air_describe(const struct air *air, const double offset[3], struct glint_frame *frame);
-/* Draws the sky into the pixels that show it, and into a cube map of N × 6N texels around the camera. */
-bool air_paint(const struct air *air, const struct view *view, struct pixel *pixels, struct job *job,
-               struct glint_error *err);
+/* Draws the sky into the pixels that show it, and the shadows of clouds into the others. */
+bool air_paint(const struct air *air, const struct world *world, const struct view *view, struct pixel *pixels,
+               struct job *job, struct glint_error *err);
+/* Draws it into a cube map of N × 6N texels around the camera. */
 bool air_paint_cube(const struct air *air, vec3 eye, uint32_t size, struct texel *texels, struct job *job,
                     struct glint_error *err);
 /* The part of the sun's light that clouds let through to a point. */

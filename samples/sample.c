@@ -273,7 +273,7 @@ static bool write_parts(struct session *s, const struct dump *dump, const struct
                                               : dump_gbuffer(dump, "gbuffer", view, s->pixels, err)) ||
         !dump_lit(dump, "lit", s->pixels, err) || !dump_gbuffer(dump, "previous.gbuffer", previous, s->previous, err) ||
         !dump_lit(dump, "previous.lit", s->previous, err) ||
-        !light_write(dump, s->now, s->pixels, &s->options, &s->job, err) ||
+        !light_write(dump, s->now, s->air, s->pixels, &s->options, &s->job, err) ||
         !extra_write(dump, s->now, &s->options, &s->job, err) || !lens_write(dump, &s->options, err) ||
         (s->air && !air_write(dump, s->air, err)))
         return false;
@@ -311,10 +311,10 @@ static bool render_views(struct session *s, const struct view views[3], bool ren
     s->previous = s->pixels;
     s->pixels = swapped;
     if (!rendered && !(render_frame(s->before, &views[1], &views[2], s->previous, &s->job, 2, err) &&
-                       (!s->earlier || air_paint(s->earlier, &views[1], s->previous, &s->job, err))))
+                       (!s->earlier || air_paint(s->earlier, s->before, &views[1], s->previous, &s->job, err))))
         return false;
     return render_frame(s->now, &views[0], &views[1], s->pixels, &s->job, 2, err) &&
-           (!s->air || air_paint(s->air, &views[0], s->pixels, &s->job, err));
+           (!s->air || air_paint(s->air, s->now, &views[0], s->pixels, &s->job, err));
 }
 
 static bool write_frame(struct session *s, const char *path, uint32_t number, bool rendered, bool shot,

@@ -44,6 +44,7 @@ ROLE(ao, "ao", FRAME, false, false, true, false, "the engine's own ambient occlu
 END(ao)
 ROLE(sun, "sun", FRAME, false, false, true, false, "the engine's own shadow mask of the sun")
     CHANNEL("visibility", true, "1", "", "1 in the sun, 0 in its shadow")
+    CHANNEL("clouds",     false, "1", "", "the part of the sun's light that clouds let through, whatever else casts a shadow; not in visibility, but in lit")
 END(sun)
 ROLE(stipple, "stipple", FRAME, false, false, false, false, "where surfaces were drawn as a checkerboard, in every other pixel, as engines fade objects")
     CHANNEL("drawn", true, "1", "", "1 where such a surface was drawn; 0 elsewhere, also in the pixels that it leaves out, which show what is behind")

@@ -170,9 +170,45 @@ static void clouds_lie_in_haze(void **state) {
     free(hazy), free(map), free(without), free(bright);
 }
 
+/* ---- shadows of clouds on surfaces ---- */
+
+static float visible[PIXELS], through[PIXELS];
+static const struct glint_channel mask_channels[] = {{.name = "visibility", .type = GLINT_F32, .data = visible},
+                                                     {.name = "clouds", .type = GLINT_F32, .data = through}};
+
+/* Both masks are multiplied. What is in both has left the captured light already, so that without contact shadows nothing more does. */
+static void cloud_shadows_are_in_the_mask(void **state) {
+    static const char *const words[][6] = {
+        {"shadow_mask=captured", "contact_trace=linear", "contact_apply=bilinear", "contact_trace.length_m=0", NULL},
+        {"shadow_mask=map", "contact_trace=linear", "contact_apply=bilinear", "contact_trace.length_m=0", NULL},
+        {"shadow_mask=captured", "shadow_mask.clouds=false", NULL},
+        {"shadow_mask=map", "shadow_mask.clouds=false", NULL}};
+    static const char *const rgb[] = {"R", "G", "B"};
+    struct gpu *gpu = *state;
+    for (uint32_t i = 0; i < PIXELS; i++) visible[i] = (float)(i % 5) / 4, through[i] = (float)(i % 7) / 8;
+    through[9] = NAN; /* no light */
+    for (int kind = 0; kind < 8; kind++) {
+        struct plain plain = sky_plain(NULL, NULL, NULL);
+        const struct glint_part sun = {
+            .name = "sun", .width = WIDE, .height = HIGH, .channels = mask_channels, .channel_count = kind < 4 ? 2 : 1};
+        plain.user = &sun; /* no sky */
+        plain.part = &sun, plain.part_count = 1;
+        float *found = sky_image(gpu, &plain, "shadow_mask", words[kind % 4]), *lit = gpu_part(gpu, "lit", rgb, 3),
+              *composed = gpu_floats(gpu, "composed", NULL, NULL);
+        for (uint32_t i = 0; i < PIXELS; i++) {
+            const float cloud = kind >= 4 || kind % 4 >= 2 ? 1 : i == 9 ? 0 : through[i];
+            if (!(found[i] == cloud * visible[i]))
+                fail_msg("kind %d pixel %u: %g, expected %g", kind, i, (double)found[i], (double)(cloud * visible[i]));
+            for (uint32_t k = 0; k < 3; k++) assert_true(composed[4 * i + k] == lit[3 * i + k]);
+        }
+        free(found), free(lit), free(composed);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(a_slab_of_cloud_hides_and_scatters),
                                        cmocka_unit_test(clouds_have_switches),
-                                       cmocka_unit_test(clouds_lie_in_the_world), cmocka_unit_test(clouds_lie_in_haze)};
+                                       cmocka_unit_test(clouds_lie_in_the_world), cmocka_unit_test(clouds_lie_in_haze),
+                                       cmocka_unit_test(cloud_shadows_are_in_the_mask)};
     return cmocka_run_group_tests_name("gpu_clouds", tests, gpu_set_up, gpu_tear_down);
 }
