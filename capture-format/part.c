@@ -336,28 +336,22 @@ static bool check_air(struct glint_check *check, const struct glint_part_info *o
            BROKEN(AIR, "glint.cloudTop", "expected more than cloudBottom, %g, found %g", clouds->bottom, clouds->top);
 }
 
-enum { CLOUD_SLICES = 8 };
-
-/* Both textures of clouds, with the attributes that say where they lie. */
+/* The textures of clouds: the attributes say where they lie. */
 static bool check_clouds(struct glint_check *check, const struct glint_part_info *parts, size_t count,
                          const struct glint_frame *frame) {
-    static const char *const names[] = {"cloud.density", "cloud.height", "cloud.noise"};
-    const struct glint_part_info *found[3] = {NULL};
-    bool any = frame->has_clouds;
+    enum { SLICES = 8 };
+    const struct glint_part_info *out = NULL, *height = NULL;
     for (size_t i = 0; i < count; i++)
-        for (int k = 0; k < 3; k++)
-            if (!strcmp(parts[i].name, names[k])) found[k] = &parts[i], any = true;
-    if (!any) return true;
-    for (int k = 0; k < 2; k++)
-        if (!found[k]) return glint_violation(check, GLINT_RULE_AIR, names[k], NULL, "missing beside other clouds");
-    const struct glint_part_info *out = found[0];
+        if (!strcmp(parts[i].name, "cloud.density")) out = &parts[i];
+        else if (!strcmp(parts[i].name, "cloud.height")) height = &parts[i];
+    if (!out) return true;
     if (!frame->has_clouds && !BROKEN(AIR, NULL, "expected glint.cloudBottom on gbuffer, found none")) return false;
-    if (out->height % CLOUD_SLICES &&
-        !BROKEN(AIR, NULL, "expected a height of a whole number of %d slices, found %u", CLOUD_SLICES, out->height))
+    if (out->height % SLICES &&
+        !BROKEN(AIR, NULL, "expected a height of a whole number of %d slices, found %u", SLICES, out->height))
         return false;
-    return (found[1]->width == out->width && found[1]->height == out->height) ||
-           glint_violation(check, GLINT_RULE_AIR, names[1], NULL, "expected %u x %u pixels as in %s, found %u x %u",
-                           out->width, out->height, names[0], found[1]->width, found[1]->height);
+    return !height || (height->width == out->width && height->height == out->height) ||
+           glint_violation(check, GLINT_RULE_AIR, height->name, NULL, "expected %u x %u pixels as in %s, found %u x %u",
+                           out->width, out->height, out->name, height->width, height->height);
 }
 
 static bool check_required_roles(struct glint_check *check, const struct glint_part_info *parts, size_t count) {

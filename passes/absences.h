@@ -23,6 +23,7 @@ ABSENCE("lut", "", "the finished picture has the colours of the tone curve alone
 ABSENCE("dirt", "", "no dirt is on the lens of the finished picture")
 ABSENCE("stars", "", "no stars are behind the sky that is drawn")
 ABSENCE("cloud.density", "", "no clouds are drawn into the sky")
+ABSENCE("cloud.height", "", "the clouds reach up to the upper side of their layer")
 ABSENCE("cloud.noise", "", "the clouds are as smooth as their other textures")
 ABSENCE("gbuffer", "motion.X", "moving objects are reprojected as if they stood still, and smear")
 ABSENCE("gbuffer", "motion.Z", "objects that move along the view are compared with the previous frame at the wrong depth")

@@ -40,7 +40,8 @@ float cloud_density_at(vec3 world, float altitude) {
     vec2 across = horizontal(world), part = fract(frame.cloud_place.xy + across / frame.cloud_tile.x);
     float full = in_layer(cloud_density, part, rise);
     if (!(full > 0.0)) return 0.0;
-    full *= clamp(1.0 + float(SLICES) * (in_layer(cloud_height, part, rise) - rise), 0.0, 1.0);
+    if (textureSize(cloud_height, 0) == textureSize(cloud_density, 0))
+        full *= clamp(1.0 + float(SLICES) * (in_layer(cloud_height, part, rise) - rise), 0.0, 1.0);
     if (!(full > 0.0) || frame.cloud_tile.z == 0.0 || textureSize(cloud_noise, 0).x < 2) return full;
     vec3 place = vec3(frame.cloud_place.zw + across / frame.cloud_tile.y, altitude / frame.cloud_tile.y);
     return max(full - frame.cloud_tile.z * in_noise(fract(place)), 0.0);

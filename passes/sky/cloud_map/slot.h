@@ -9,5 +9,6 @@ WRITE(image2D, cloud_map, RGBA16F, "1", FULL, "mask single multiple distance", 0
 DISPATCH(cloud_map)
 NEEDS(clouds)
 NEEDS(sky)
+WITHOUT(cloud_height, "clouds reach up to the upper side of their layer")
 WITHOUT(cloud_noise, "clouds are as smooth as their other textures")
 REFERENCE_NONE("it is part of a picture, and the reference is compared with truths of surfaces")
