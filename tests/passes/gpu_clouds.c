@@ -130,6 +130,25 @@ static void clouds_lie_in_the_world(void **state) {
     for (int k = 0; k < 5; k++) free(found[k]);
 }
 
+/* Textures that were moved over their borders lie where they lay if the wind moves them back, and the ground the noise. */
+static void clouds_repeat(void **state) {
+    static const char *const words[] = {"cloud_map.jitter=false", NULL};
+    struct gpu *gpu = *state;
+    struct glint_clouds worn = sky_slab, moved;
+    worn.erosion = 0.5, worn.noise_tile = worn.tile;
+    moved = worn;
+    const double texel = worn.tile / SIDE;
+    moved.offset[0] = -3 * texel, moved.offset[1] = -2 * texel;
+    moved.ground = -5 * texel, moved.bottom += 5 * texel, moved.top += 5 * texel;
+    const struct plain plains[2] = {sky_plain(NULL, &worn, NULL), sky_plain(NULL, &moved, NULL)};
+    sky_fill_unevenly();
+    float *found = sky_image(gpu, &plains[0], "cloud_map", words);
+    sky_roll(3, 2, 5);
+    float *rolled = sky_image(gpu, &plains[1], "cloud_map", words);
+    same_images(found, rolled, 1e-4, "rolled");
+    free(found), free(rolled);
+}
+
 /* Air before an opaque cloud at a known distance: the cloud's own light passes exp(-depth), and the air scatters what it does up to there. */
 static void clouds_lie_in_haze(void **state) {
     static const char *const all[] = {"cloud_map.jitter=false", "sky_compose.multiple=false", NULL},
@@ -208,7 +227,9 @@ static void cloud_shadows_are_in_the_mask(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(a_slab_of_cloud_hides_and_scatters),
                                        cmocka_unit_test(clouds_have_switches),
-                                       cmocka_unit_test(clouds_lie_in_the_world), cmocka_unit_test(clouds_lie_in_haze),
+                                       cmocka_unit_test(clouds_lie_in_the_world),
+                                       cmocka_unit_test(clouds_repeat),
+                                       cmocka_unit_test(clouds_lie_in_haze),
                                        cmocka_unit_test(cloud_shadows_are_in_the_mask)};
     return cmocka_run_group_tests_name("gpu_clouds", tests, gpu_set_up, gpu_tear_down);
 }

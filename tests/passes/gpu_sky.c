@@ -118,6 +118,51 @@ static void an_even_atmosphere_scatters(void **state) {
     free(found);
 }
 
+/* After sunset the ground's shadow lies in the air up to where the sun's rays pass the planet. Hardly anything is scattered, and nothing absorbed, so that
+   what is left is the air in the sun. A step counts as a whole, by its middle. */
+static void the_planet_shades_the_air(void **state) {
+    enum { STEPS = 64, FINE = 200 };
+    static const char *const words[] = {"sky_scatter.steps=64", NULL};
+    static const struct glint_sun dusk = {.direction = {0, -0.1, -0.99498743710662}, .irradiance = {1, 1, 1}};
+    struct gpu *gpu = *state;
+    struct glint_atmosphere air = earth;
+    double least = 1, worst = 0;
+    for (int k = 0; k < 3; k++) air.irradiance[k] = 1e12F, air.rayleigh[k] = 1e-12F;
+    air.mie = air.mie_extinction = 0, air.ground = -2;
+    struct plain plain = sky_plain(&air, NULL, NULL);
+    plain.sun = &dusk;
+    float *found = sky_image(gpu, &plain, "sky_rayleigh", words);
+    for (uint32_t i = 0; i < LOW_WIDE * LOW_HIGH; i++) {
+        double d[3], lit = 0, all = 0, bound = 0;
+        sky_ray((i % LOW_WIDE + 0.5) / LOW_WIDE, (i / LOW_WIDE + 0.5) / LOW_HIGH, NULL, d);
+        const double from = air.planet_radius + 2, ground = sphere(from, d[1], air.planet_radius, false),
+                     far = ground > 0 ? ground : sphere(from, d[1], air.planet_radius + air.top, true);
+        for (int n = 0; n < STEPS; n++) {
+            const double a = far * n * n / ((double)STEPS * STEPS), s = far * (2 * n + 1) / ((double)STEPS * STEPS);
+            double step = 0, bright = 0;
+            for (int k = 0; k < FINE; k++) {
+                const double t = a + s * (k + 0.5) / FINE, y = from + t * d[1],
+                             ahead = y * dusk.direction[1] + t * d[2] * dusk.direction[2],
+                             beside = t * t * (1 - d[1] * d[1]) + y * y - ahead * ahead,
+                             part = s / FINE * exp(-altitude(&air, 2, d[1], t) / air.rayleigh_height);
+                step += part;
+                if (ahead >= 0 || beside > air.planet_radius * air.planet_radius) bright += part;
+            }
+            lit += bright, all += step;
+            bound += bright > 0 && bright < step
+                         ? step
+                         : -step * expm1(-s * s / (8 * air.planet_radius * air.rayleigh_height));
+        }
+        bound += 1e-4 * lit + 1e-3; /* sums of floats, and the midpoints of the fine parts */
+        least = fmin(least, lit / all), worst = fmax(worst, fabs((double)found[4 * i] - lit) / bound);
+        if (!(fabs((double)found[4 * i] - lit) <= bound))
+            fail_msg("texel %u: %g m of air in the sun, expected %g within %g", i, (double)found[4 * i], lit, bound);
+    }
+    print_message("# at most %.2f of the bound; least part in the sun %.3f\n", worst, least);
+    assert_true(least < 0.5);
+    free(found);
+}
+
 /* ---- the picture ---- */
 
 /* Without molecules and with particles that absorb alone, nothing but stars is seen, and none through a cloud that absorbs everything. */
@@ -324,9 +369,9 @@ static void the_engine_draws_the_same_sky(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_air_is_integrated),        cmocka_unit_test(an_even_atmosphere_scatters),
-        cmocka_unit_test(dark_air_shows_stars_alone),   cmocka_unit_test(scattering_has_switches),
-        cmocka_unit_test(without_sky_there_is_no_pass), cmocka_unit_test(fog_comes_after_the_sky),
-        cmocka_unit_test(the_engine_draws_the_same_sky)};
+        cmocka_unit_test(the_air_is_integrated),     cmocka_unit_test(an_even_atmosphere_scatters),
+        cmocka_unit_test(the_planet_shades_the_air), cmocka_unit_test(dark_air_shows_stars_alone),
+        cmocka_unit_test(scattering_has_switches),   cmocka_unit_test(without_sky_there_is_no_pass),
+        cmocka_unit_test(fog_comes_after_the_sky),   cmocka_unit_test(the_engine_draws_the_same_sky)};
     return cmocka_run_group_tests_name("gpu_sky", tests, gpu_set_up, gpu_tear_down);
 }

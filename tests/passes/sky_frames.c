@@ -49,6 +49,21 @@ void sky_fill_unevenly(void) {
     }
 }
 
+static void roll(float *values, uint32_t slices, uint32_t right, uint32_t down, uint32_t up) {
+    float kept[SIDE * SIDE * SIDE];
+    memcpy(kept, values, slices * SIDE * SIDE * sizeof *kept);
+    for (uint32_t k = 0; k < slices; k++)
+        for (uint32_t y = 0; y < SIDE; y++)
+            for (uint32_t x = 0; x < SIDE; x++)
+                values[((k + up) % slices * SIDE + (y + down) % SIDE) * SIDE + (x + right) % SIDE] =
+                    kept[(k * SIDE + y) * SIDE + x];
+}
+void sky_roll(uint32_t right, uint32_t down, uint32_t up) {
+    roll(density, 8, right, down, 0);
+    roll(height, 8, right, down, 0);
+    roll(noise, SIDE, right, down, up);
+}
+
 /* The lowest rows are the wall, the others the sky; with `user` all are the wall. */
 static void spoil_sky(const struct plain *plain, float *values) {
     for (uint32_t i = 0; i < PIXELS; i++) {

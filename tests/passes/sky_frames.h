@@ -15,6 +15,8 @@ extern const struct glint_clouds sky_slab, sky_solid;
 /* What the textures of clouds and stars hold in the captures that are written next. */
 void sky_fill_evenly(float cloud);
 void sky_fill_unevenly(void);
+/* Moves what they hold by texels, over their borders to the other side; of the noise by slices, too. */
+void sky_roll(uint32_t right, uint32_t down, uint32_t up);
 /* The lowest rows are the wall, the others the sky; with `user` all are the wall. view: NULL: along -z. */
 struct plain sky_plain(const struct glint_atmosphere *air, const struct glint_clouds *clouds, const double *view);
 bool sky_shows(uint32_t pixel);
