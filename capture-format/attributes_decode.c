@@ -47,6 +47,8 @@ static bool in_range(enum glint_range range, double v) {
         return v >= 0 && v < PI / 2;
     case GLINT_RANGE_ANGLE:
         return v >= 0 && v <= PI;
+    case GLINT_RANGE_COSINE:
+        return v > -1 && v < 1;
     case GLINT_RANGE_ANY:
         break;
     }

@@ -57,7 +57,7 @@ static void write_encodings(FILE *out) {
 }
 
 static void write_attributes(FILE *out) {
-    static const char *const ranges[] = {"any", "> 0", "≥ 0", "(0, 1]", "[−90, 90]", "[0, π/2)", "[0, π]"};
+    static const char *const ranges[] = {"any", "> 0", "≥ 0", "(0, 1]", "[−90, 90]", "[0, π/2)", "[0, π]", "(−1, 1)"};
     size_t count = 0;
     const struct glint_attribute_row *rows = glint_attribute_rows(&count);
     for (int scope = 0; scope < GLINT_SCOPE_COUNT; scope++) {

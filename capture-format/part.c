@@ -344,6 +344,36 @@ static bool check_lut_stops(struct glint_check *check, const struct glint_frame 
                            "expected two increasing numbers from -64 to 64, found %g and %g", stops[0], stops[1]);
 }
 
+/* What atmosphere and clouds say on gbuffer. */
+static bool check_air(struct glint_check *check, const struct glint_part_info *out, const struct glint_frame *frame) {
+    const struct glint_atmosphere *air = &frame->atmosphere;
+    const struct glint_clouds *clouds = &frame->clouds;
+    if (frame->has_atmosphere && !(air->mie_extinction >= air->mie) &&
+        !BROKEN(AIR, "glint.atmosphere.mieExtinction", "expected at least mieScattering, %g, found %g", air->mie,
+                air->mie_extinction))
+        return false;
+    return !frame->has_clouds || clouds->top > clouds->bottom ||
+           BROKEN(AIR, "glint.cloudTop", "expected more than cloudBottom, %g, found %g", clouds->bottom, clouds->top);
+}
+
+/* The textures of clouds: the attributes say where they lie. */
+static bool check_clouds(struct glint_check *check, const struct glint_part_info *parts, size_t count,
+                         const struct glint_frame *frame) {
+    enum { SLICES = 8 };
+    const struct glint_part_info *out = NULL, *height = NULL;
+    for (size_t i = 0; i < count; i++)
+        if (!strcmp(parts[i].name, "cloud.density")) out = &parts[i];
+        else if (!strcmp(parts[i].name, "cloud.height")) height = &parts[i];
+    if (!out) return true;
+    if (!frame->has_clouds && !BROKEN(AIR, NULL, "expected glint.cloudBottom on gbuffer, found none")) return false;
+    if (out->height % SLICES &&
+        !BROKEN(AIR, NULL, "expected a height of a whole number of %d slices, found %u", SLICES, out->height))
+        return false;
+    return !height || (height->width == out->width && height->height == out->height) ||
+           glint_violation(check, GLINT_RULE_AIR, height->name, NULL, "expected %u x %u pixels as in %s, found %u x %u",
+                           out->width, out->height, out->name, height->width, height->height);
+}
+
 static bool check_required_roles(struct glint_check *check, const struct glint_part_info *parts, size_t count) {
     size_t role_count = 0;
     const struct glint_role *roles = glint_roles(&role_count);
@@ -368,7 +398,8 @@ bool glint_parts_check(struct glint_check *check, const struct glint_exr_part_in
         if (parts[i].role && !strcmp(parts[i].name, "gbuffer")) {
             gbuffer = &parts[i];
             *has_frame = true;
-            if (!glint_attributes_decode(check, files[i], GLINT_SCOPE_FRAME, frame) || !check_lut_stops(check, frame))
+            if (!glint_attributes_decode(check, files[i], GLINT_SCOPE_FRAME, frame) || !check_lut_stops(check, frame) ||
+                !check_air(check, &parts[i], frame))
                 return false;
         }
         cubes_only = cubes_only && parts[i].has_cubemap && !parts[i].sibling[0];
@@ -384,5 +415,5 @@ bool glint_parts_check(struct glint_check *check, const struct glint_exr_part_in
             !BROKEN(PREVIOUS, NULL, "expected previousWorldToView and previousViewToClip on gbuffer, found none"))
             return false;
     }
-    return glint_probes_check(check, parts, count);
+    return (!gbuffer || check_clouds(check, parts, count, frame)) && glint_probes_check(check, parts, count);
 }

@@ -166,6 +166,8 @@ int glint_encoding_value(const char *which, const char *name) {
 #define GROUP_has_lut_stops(scope) offsetof(STRUCT_##scope, has_lut_stops)
 #define GROUP_has_player(scope) offsetof(STRUCT_##scope, has_player)
 #define GROUP_has_fog(scope) offsetof(STRUCT_##scope, has_fog)
+#define GROUP_has_atmosphere(scope) offsetof(STRUCT_##scope, has_atmosphere)
+#define GROUP_has_clouds(scope) offsetof(STRUCT_##scope, has_clouds)
 #define GROUP_has_ground(scope) offsetof(STRUCT_##scope, has_ground)
 #define GROUP_has_roughness(scope) offsetof(STRUCT_##scope, has_roughness)
 #define GROUP_has_box(scope) offsetof(STRUCT_##scope, has_box)

@@ -56,7 +56,8 @@ enum glint_range {
     GLINT_RANGE_UNIT,
     GLINT_RANGE_ELEVATION,
     GLINT_RANGE_ACUTE,
-    GLINT_RANGE_ANGLE
+    GLINT_RANGE_ANGLE,
+    GLINT_RANGE_COSINE
 };
 enum glint_scope {
 #define SCOPE(id, role, type, place) GLINT_SCOPE_##id,

@@ -44,6 +44,10 @@ FACT(fog, PARTS, s->has_fog || s->has_froxels, SAY("%s", s->has_fog ? "fog" : s-
 FACT(froxels, PARTS, s->has_froxels, SAY("%s", s->has_froxels ? "light in the air, in slices" : "no slices of light in the air"))
 FACT(shafts, PARTS, s->has_fog && s->has_sun && s->has_shadows,
      SAY("%s", !s->has_fog ? "no fog" : !s->has_sun ? "no sun" : s->has_shadows ? "fog, a sun and its shadow map" : "no shadow map"))
+FACT(atmosphere, PARTS, s->has_atmosphere, SAY("%s atmosphere", s->has_atmosphere ? "an" : "no"))
+FACT(clouds, PARTS, s->has_clouds, SAY("%s", s->has_clouds ? "clouds" : "no clouds"))
+FACT(air, PARTS, s->has_atmosphere || s->has_clouds,
+     SAY("%s", s->has_atmosphere ? "an atmosphere" : s->has_clouds ? "clouds" : "no atmosphere and no clouds"))
 FACT(indirect_light, PARTS, s->has_indirect, SAY("%s part of the light that is indirect", s->has_indirect ? "a" : "no"))
 /* Whether surfaces can receive light from others or the sky: where nothing is lit, only what other parts than the picture hold. */
 #define OTHER_LIGHT                                                                                                             \

@@ -60,7 +60,8 @@ void light_describe(const struct scene *scene, const double offset[3], struct gl
 struct light_work {
     const struct world *world;
     const struct view *view;
-    float *out;
+    const struct air *air;
+    float *out, *clouds; /* the latter with air alone */
 };
 
 static void mask_row(void *user, uint32_t y) {
@@ -70,6 +71,9 @@ static void mask_row(void *user, uint32_t y) {
         struct hit hit = primary_hit(work->world, work->view, x, y);
         float *out = &work->out[(size_t)y * work->view->width + x];
         *out = 1;
+        if (work->air)
+            work->clouds[(size_t)y * work->view->width + x] =
+                hit.t < INFINITY ? air_sunlight(work->air, hit.position) : 1;
         if (!(hit.t < INFINITY)) continue;
         *out = dot(hit.normal, sun) > 0 && !world_blocked(work->world, world_leave(&hit, hit.normal), sun, INFINITY);
     }
@@ -84,12 +88,21 @@ static bool write_visibility(const struct dump *dump, const char *name, const fl
     return dump_end(&part, dump, err);
 }
 
-static bool write_mask(const struct dump *dump, const struct world *world, struct job *job, struct glint_error *err) {
-    float *mask = calloc((size_t)dump->view->width * dump->view->height, sizeof *mask);
-    struct light_work work = {world, dump->view, mask};
+static bool write_mask(const struct dump *dump, const struct world *world, const struct air *air, struct job *job,
+                       struct glint_error *err) {
+    static const struct storage byte = {GLINT_UNORM8, "R8"};
+    const size_t pixels = (size_t)dump->view->width * dump->view->height;
+    float *mask = calloc(2 * pixels, sizeof *mask);
+    struct light_work work = {world, dump->view, air, mask, mask + pixels};
+    struct dump_part part;
     bool ok = mask || glint_fail(err, GLINT_ERROR_MEMORY, "no memory for the shadow mask");
-    ok = ok && parallel_for(job, "rendering the shadow mask", 0, dump->view->height, mask_row, &work, err) &&
-         write_visibility(dump, "sun", mask, sizeof *mask, err);
+    ok = ok && parallel_for(job, "rendering the shadow mask", 0, dump->view->height, mask_row, &work, err);
+    if (ok) {
+        dump_begin(&part, dump, "sun", dump->view->width, dump->view->height);
+        dump_channel(&part, "visibility", byte, mask, sizeof *mask);
+        if (air) dump_channel(&part, "clouds", byte, work.clouds, sizeof *mask);
+        ok = dump_end(&part, dump, err);
+    }
     free(mask);
     return ok;
 }
@@ -293,7 +306,7 @@ static bool write_indirect(const struct dump *dump, const struct pixel *pixels, 
     return dump_end(&part, dump, err);
 }
 
-bool light_write(const struct dump *dump, const struct world *world, const struct pixel *pixels,
+bool light_write(const struct dump *dump, const struct world *world, const struct air *air, const struct pixel *pixels,
                  const struct glint_sample_options *options, struct job *job, struct glint_error *err) {
     const struct scene *scene = world_scene(world);
     const uint32_t also = options->also;
@@ -301,7 +314,7 @@ bool light_write(const struct dump *dump, const struct world *world, const struc
     if (emits(dump->view, pixels) && !dump_picture(dump, "emissive", &pixels->emission, sizeof *pixels, err))
         return false;
     return (!(also & GLINT_ALSO_AO) || write_occlusion(dump, world, (float)options->occlusion_radius, job, err)) &&
-           (!(also & GLINT_ALSO_SUN && has_sun(scene)) || write_mask(dump, world, job, err)) &&
+           (!(also & GLINT_ALSO_SUN && has_sun(scene)) || write_mask(dump, world, air, job, err)) &&
            (!(also & GLINT_ALSO_SHADOW && has_sun(scene)) ||
             write_shadows(dump, world, options->cascades, options->offset, job, err)) &&
            (!(also & GLINT_ALSO_LAMPS) || lamps_write(dump, world, pixels, options, job, err)) &&

@@ -60,4 +60,8 @@ bool render_truth(const struct world *world, const struct view *view, const stru
                   uint32_t first, bool finished, struct truth *truth, struct job *job, double weight,
                   struct glint_error *err);
 
+/* Averages lobes over all jitter positions of a pixel that show a surface. Distances stay those of the sample. */
+bool truth_average(const struct world *world, const struct glint_sample_options *options, uint32_t number,
+                   struct truth *truth, struct job *job, struct glint_error *err);
+
 #endif

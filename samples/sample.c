@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "air.h"
 #include "bake.h"
 #include "decals.h"
 #include "dump.h"
@@ -49,6 +50,7 @@ struct session {
     const char *out;
     struct job job;
     struct world *now, *before, *probes;
+    struct air *air, *earlier; /* of this frame and the one before, with GLINT_ALSO_SKY */
     struct pixel *pixels, *previous;
     struct texel *texels;
     struct truth *truth;
@@ -164,6 +166,7 @@ static struct glint_frame frame_of_views(const struct session *s, const struct v
     memcpy(frame.classes, scene->classes, sizeof scene->classes);
     frame.class_count = scene->class_count;
     light_describe(scene, offset, &frame);
+    if (s->air) air_describe(s->air, offset, &frame);
     return frame;
 }
 
@@ -198,29 +201,9 @@ static bool name_cubemaps(const struct session *s, const struct dump *dump, stru
 static bool write_sky(struct session *s, const struct dump *dump, struct glint_error *err) {
     if (!s->scene.sky) return true;
     uint32_t size = s->options.cube_size;
-    return render_sky(s->now, size, s->texels, &s->job, 1, err) && dump_sky(dump, size, s->texels, err);
-}
-
-/* Averages lobes over all jitter positions of a pixel that show a surface. Distances stay those of the sample. */
-static bool average_truth(struct session *s, uint32_t number, struct glint_error *err) {
-    const struct glint_sample_options *o = &s->options;
-    size_t pixels = (size_t)o->width * o->height;
-    struct truth_sum *sums = calloc(pixels, sizeof *sums);
-    struct pixel *seen = calloc(pixels, sizeof *seen);
-    struct truth *truth = calloc(pixels, sizeof *truth);
-    bool ok = (sums && seen && truth) || glint_fail(err, GLINT_ERROR_MEMORY, "no memory for the truth of pixels");
-    for (uint32_t k = 0; ok && k < VIEW_PLACES; k++) {
-        struct view view = view_through(&s->scene, o, o->width, o->height, number, k);
-        ok = render_frame(s->now, &view, &view, seen, &s->job, 0, err) &&
-             render_truth(s->now, &view, seen, o->truth_samples, k * o->truth_samples, o->finished_samples > 0, truth,
-                          &s->job, 0, err);
-        for (size_t i = 0; ok && i < pixels; i++) truth_add(&sums[i], &truth[i]);
-    }
-    for (size_t i = 0; ok && i < pixels; i++) truth_mean(&sums[i], &s->truth[i]);
-    free(sums);
-    free(seen);
-    free(truth);
-    return ok;
+    return render_sky(s->now, size, s->texels, &s->job, 1, err) &&
+           (!s->air || air_paint_cube(s->air, view_eye(dump->view), size, s->texels, &s->job, err)) &&
+           dump_sky(dump, size, s->texels, err);
 }
 
 /* Writes water, the image with it, and the planar reflection map. */
@@ -290,8 +273,9 @@ static bool write_parts(struct session *s, const struct dump *dump, const struct
                                               : dump_gbuffer(dump, "gbuffer", view, s->pixels, err)) ||
         !dump_lit(dump, "lit", s->pixels, err) || !dump_gbuffer(dump, "previous.gbuffer", previous, s->previous, err) ||
         !dump_lit(dump, "previous.lit", s->previous, err) ||
-        !light_write(dump, s->now, s->pixels, &s->options, &s->job, err) ||
-        !extra_write(dump, s->now, &s->options, &s->job, err) || !lens_write(dump, &s->options, err))
+        !light_write(dump, s->now, s->air, s->pixels, &s->options, &s->job, err) ||
+        !extra_write(dump, s->now, &s->options, &s->job, err) || !lens_write(dump, &s->options, err) ||
+        (s->air && !air_write(dump, s->air, err)))
         return false;
     if (!(shot ? name_cubemaps(s, dump, err) : write_cubemaps(s, dump, err)) || !write_sky(s, dump, err)) return false;
     if (s->scene.water.there && !write_water(s, dump, view, number, err)) return false;
@@ -304,7 +288,7 @@ static bool write_parts(struct session *s, const struct dump *dump, const struct
     if (!(o->truths & GLINT_TRUTH_REFLECTION)) return true;
     return render_truth(s->now, view, s->pixels, o->truth_samples, 0, o->finished_samples > 0, s->truth, &s->job,
                         o->truth_samples, err) &&
-           (!o->truth_of_pixels || average_truth(s, number, err)) &&
+           (!o->truth_of_pixels || truth_average(s->now, o, number, s->truth, &s->job, err)) &&
            dump_truth(dump, s->truth, o->truth_samples * (o->truth_of_pixels ? VIEW_PLACES : 1), err);
 }
 
@@ -313,7 +297,12 @@ static bool make_worlds(struct session *s, double time, struct glint_error *err)
     world_destroy(&s->before);
     s->now = world_create(&s->scene, WORLD_ALL, time, err);
     s->before = s->now ? world_create(&s->scene, WORLD_ALL, time - 1, err) : NULL;
-    return s->before != NULL;
+    if (!s->before || !(s->options.also & GLINT_ALSO_SKY)) return s->before != NULL;
+    air_destroy(&s->air);
+    air_destroy(&s->earlier);
+    s->air = air_create(&s->scene, time, err);
+    s->earlier = s->air ? air_create(&s->scene, time - 1, err) : NULL;
+    return s->earlier != NULL;
 }
 
 /* `rendered`: `pixels` already holds the previous frame. */
@@ -321,8 +310,11 @@ static bool render_views(struct session *s, const struct view views[3], bool ren
     struct pixel *swapped = s->previous;
     s->previous = s->pixels;
     s->pixels = swapped;
-    if (!rendered && !render_frame(s->before, &views[1], &views[2], s->previous, &s->job, 2, err)) return false;
-    return render_frame(s->now, &views[0], &views[1], s->pixels, &s->job, 2, err);
+    if (!rendered && !(render_frame(s->before, &views[1], &views[2], s->previous, &s->job, 2, err) &&
+                       (!s->earlier || air_paint(s->earlier, s->before, &views[1], s->previous, &s->job, err))))
+        return false;
+    return render_frame(s->now, &views[0], &views[1], s->pixels, &s->job, 2, err) &&
+           (!s->air || air_paint(s->air, s->now, &views[0], s->pixels, &s->job, err));
 }
 
 static bool write_frame(struct session *s, const char *path, uint32_t number, bool rendered, bool shot,
@@ -332,10 +324,11 @@ static bool write_frame(struct session *s, const char *path, uint32_t number, bo
     const struct glint_sample_options *o = &s->options;
     for (uint32_t i = 0; i < 3; i++)
         views[i] = view_at(&s->scene, o, o->width, o->height, (int64_t)number - (int64_t)i);
+    if (!make_worlds(s, (double)number - 1, err)) return false;
     struct glint_frame frame = frame_of_views(s, &views[0], &views[1], number);
     struct dump dump = {
         .encodings = o->encodings, .pre_exposure = frame.pre_exposure, .view = &views[0], .settings = s->settings};
-    if (!make_worlds(s, (double)number - 1, err) || !render_views(s, views, rendered, err)) return false;
+    if (!render_views(s, views, rendered, err)) return false;
     share_reflections(o, s->pixels);
     dump.writer = glint_writer_create(
         path, &(struct glint_writer_options){.compression = o->compression, .threads = o->threads}, err);
@@ -486,6 +479,8 @@ bool glint_sample_write(const char *scene, const char *out, const struct glint_s
     world_destroy(&s.now);
     world_destroy(&s.before);
     world_destroy(&s.probes);
+    air_destroy(&s.air);
+    air_destroy(&s.earlier);
     free(s.pixels);
     free(s.previous);
     free(s.texels);

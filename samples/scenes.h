@@ -22,6 +22,7 @@
     SCENE(alley, "foggy alley at night between brick walls: point and spot lights, puddles, a van")                    \
     SCENE(courtyard, "sunlit yard with an arcade, trees with leaves, a parked car and a person")                       \
     SCENE(portrait, "head and shoulders in hard light from the side, its skin in a stencil class of its own")          \
+    SCENE(meadow, "grass with a tree and a hut under a wide sky, before a low sun")                                    \
     SCENE(kitchen, "two dim rooms by day: window, door and second window in a mirror, glossy worktops, HDR sky")
 
 #define DECLARE(name, summary) void build_##name(struct scene *scene);

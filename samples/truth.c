@@ -1,5 +1,7 @@
 /* The exact values of what a resolve pass estimates: the mean radiance over the whole lobe around the full-resolution normal, and the
    end of the exact mirror ray. */
+#include <stdlib.h>
+
 #include "finished.h"
 #include "lobes.h"
 #include "noise.h"
@@ -147,4 +149,26 @@ bool render_truth(const struct world *world, const struct view *view, const stru
                   struct glint_error *err) {
     struct truth_work work = {world, view, pixels, samples, first, finished, truth};
     return parallel_for(job, "tracing the truth", weight, view->height, truth_row, &work, err);
+}
+
+bool truth_average(const struct world *world, const struct glint_sample_options *options, uint32_t number,
+                   struct truth *truth, struct job *job, struct glint_error *err) {
+    const struct glint_sample_options *o = options;
+    size_t pixels = (size_t)o->width * o->height;
+    struct truth_sum *sums = calloc(pixels, sizeof *sums);
+    struct pixel *seen = calloc(pixels, sizeof *seen);
+    struct truth *found = calloc(pixels, sizeof *found);
+    bool ok = (sums && seen && found) || glint_fail(err, GLINT_ERROR_MEMORY, "no memory for the truth of pixels");
+    for (uint32_t k = 0; ok && k < VIEW_PLACES; k++) {
+        struct view view = view_through(world_scene(world), o, o->width, o->height, number, k);
+        ok = render_frame(world, &view, &view, seen, job, 0, err) &&
+             render_truth(world, &view, seen, o->truth_samples, k * o->truth_samples, o->finished_samples > 0, found,
+                          job, 0, err);
+        for (size_t i = 0; ok && i < pixels; i++) truth_add(&sums[i], &found[i]);
+    }
+    for (size_t i = 0; ok && i < pixels; i++) truth_mean(&sums[i], &truth[i]);
+    free(sums);
+    free(seen);
+    free(found);
+    return ok;
 }

@@ -10,9 +10,9 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 # Words with another meaning in these files.
 EXCEPTIONS = {}
-# Slots and effects whose names are also what replay/ calls things of its own: the survey, layers of a capture, its fog, dispatches, the picture, lights. In identifiers, includes
+# Slots and effects whose names are also what replay/ calls things of its own: the survey, layers of a capture, its fog and sky, dispatches, the picture, lights. In identifiers, includes
 # and keys of run.json they are that; in any other string they are the slots and effects.
-OWN_WORDS = {"survey", "planar", "water", "indirect", "shadow", "fog", "picture", "exposure", "display", "light", "lights"}
+OWN_WORDS = {"survey", "planar", "water", "indirect", "shadow", "fog", "picture", "exposure", "display", "light", "lights", "sky"}
 # Roles and size classes, some of which are called after images.
 DECLARED = re.compile(r"^GLINT_(ROLE|SIZE)_[A-Z_]+$")
 # JSON keys are the terms of run.json. These calls take literal keys; the argument of json_string is a value.

@@ -16,6 +16,7 @@ import subprocess
 import tempfile
 
 import pages
+import plan_matrix
 
 RECORDS = pages.HERE / "records/plans"
 SCENES = {"matte": "nothing reflects", "desert_night": "one mirror, no sky", "rain_street": "wet and rough, no mirror", "lake": "water and little else",
@@ -238,7 +239,8 @@ def page(args):
     left = everything_ran(counted)
     every = "With `--all` every pass was dispatched over all of its texels, in every scene." if not left else f"**With `--all` left out**: {', '.join(left)}."
     text = pathlib.Path(__file__).with_name("plans.md.in").read_text(encoding="utf-8")
-    for key, value in {"WORKED": worked(counted), "RULES": rules(counted), "EVERY": every, "DEVICES": "\n".join(parts)}.items():
+    matrix, reasons = plan_matrix.tables(args.glint)
+    for key, value in {"MATRIX": matrix, "REASONS": reasons, "WORKED": worked(counted), "RULES": rules(counted), "EVERY": every, "DEVICES": "\n".join(parts)}.items():
         text = text.replace(f"@{key}@", value)
     (args.output / "plans.md").write_text(text, encoding="utf-8")
 

@@ -71,7 +71,7 @@ static const struct argp_option options[] = {
     {"truth-of",    KEY_TRUTH_OF,    "WHAT,...", 0, "Which truths --truth traces: reflection (default), occlusion, sun, indirect, antialiased, picture, lamps", 0},
     {"occlusion-radius", KEY_RADIUS, "M",     0, "How far away surfaces occlude, in metres, in the truth of occlusion (default 1)", 0},
     {"contact-length", KEY_LENGTH,   "M",     0, "How far away surfaces cast contact shadows, in metres, in the truth of the sun (default 0.5)", 0},
-    {"also",        KEY_ALSO,        "WHAT,...", 0, "Also write the engine's own: ao (ambient occlusion), sun (shadow mask), shadow (shadow map), volume (of light), lut (table of colours), dirt (on the lens), stipple (mask of stippled pixels), decals (on the ground, in buffers of their own), lamps (their light, and shadow maps of spot lights), caustics (on the bottom of water), froxels (light in the air, where the scene has fog), curvature (of the surfaces)", 0},
+    {"also",        KEY_ALSO,        "WHAT,...", 0, "Also write the engine's own: ao (ambient occlusion), sun (shadow mask), shadow (shadow map), volume (of light), lut (table of colours), dirt (on the lens), stipple (mask of stippled pixels), decals (on the ground, in buffers of their own), lamps (their light, and shadow maps of spot lights), caustics (on the bottom of water), froxels (light in the air, where the scene has fog), curvature (of the surfaces), sky (atmosphere, clouds and stars, of which the sky of the picture is then drawn)", 0},
     {"cascades",    KEY_CASCADES,    "N",     0, "Shadow maps that --also shadow writes, from the finest on, each three times as wide as the one before (default 1, at most 4)", 0},
     {"truth-of-pixels", KEY_TRUTH_OF_PIXELS, NULL, 0, "Average the truth over the area of each pixel, as over the jitter of a static camera, instead of at the frame's single "
         "sample", 0},
@@ -113,7 +113,7 @@ static const char *const probes[] = {"imperfect", "perfect", "auto", NULL};
 static const char *const truths[] = {"reflection",  "occlusion", "sun",   "indirect",
                                      "antialiased", "picture",   "lamps", NULL};
 static const char *const extras[] = {"ao",     "sun",   "shadow",   "volume",  "lut",       "dirt", "stipple",
-                                     "decals", "lamps", "caustics", "froxels", "curvature", NULL};
+                                     "decals", "lamps", "caustics", "froxels", "curvature", "sky",  NULL};
 static const char *const compressions[] = {"zip", "none", "zips", "piz", "pxr24", "rle", NULL};
 
 static const struct arg_target targets[] = {

@@ -4,7 +4,7 @@
    ATTRIBUTE(scope, name, kind, member, group, need, range, fallback, unit, meaning)
      group: the bool member that says whether the engine has it, or NONE
      need: REQUIRED (with its group, when it has one) or OPTIONAL; a missing optional one reads as `fallback`, NAN: as nothing, which its group says
-     range: ANY, POSITIVE, NOT_NEGATIVE, UNIT (0 < v <= 1), ELEVATION (-90 to 90), ACUTE (0 <= v < π/2), ANGLE (0 to π); every number is finite
+     range: ANY, POSITIVE, NOT_NEGATIVE, UNIT (0 < v <= 1), ELEVATION (-90 to 90), ACUTE (0 <= v < π/2), ANGLE (0 to π), COSINE (-1 < v < 1); every number is finite
    NNN in a name stands for the number of a light. */
 /* clang-format off */
 SCOPE(FRAME, "gbuffer", glint_frame, "on `gbuffer`")
@@ -40,6 +40,24 @@ SCOPE(FRAME, "gbuffer", glint_frame, "on `gbuffer`")
     ATTRIBUTE(FRAME, "glint.sunDirection",        DIRECTION,   sun.direction,          has_sun,      REQUIRED, ANY,          0, "",      "unit vector in world space towards the sun, or the moon, or whatever light is infinitely far away")
     ATTRIBUTE(FRAME, "glint.sunAngularRadius",    DOUBLE,      sun.angular_radius_rad, has_sun,      OPTIONAL, ACUTE,        0, "rad",   "angle between the middle and the rim of its disc; 0: a point")
     ATTRIBUTE(FRAME, "glint.sunIrradiance",       V3FLOAT,     sun.irradiance,         has_sun,      OPTIONAL, NOT_NEGATIVE, 0, "radiance · sr", "irradiance on a surface that faces it, with nothing between; 0 0 0 when not known")
+    ATTRIBUTE(FRAME, "glint.atmosphere.planetRadius",  DOUBLE,  atmosphere.planet_radius,   has_atmosphere, REQUIRED, POSITIVE,     0, "m",   "from the middle of the planet to the ground")
+    ATTRIBUTE(FRAME, "glint.atmosphere.ground",        DOUBLE,  atmosphere.ground,          has_atmosphere, OPTIONAL, ANY,          0, "units", "height of the ground along up: altitudes count from there")
+    ATTRIBUTE(FRAME, "glint.atmosphere.top",           DOUBLE,  atmosphere.top,             has_atmosphere, REQUIRED, POSITIVE,     0, "m",   "altitude at which the atmosphere ends")
+    ATTRIBUTE(FRAME, "glint.atmosphere.irradiance",    V3FLOAT, atmosphere.irradiance,      has_atmosphere, REQUIRED, NOT_NEGATIVE, 0, "radiance · sr", "irradiance of the sun above the atmosphere, on a surface that faces it")
+    ATTRIBUTE(FRAME, "glint.atmosphere.rayleigh",      V3FLOAT, atmosphere.rayleigh,        has_atmosphere, REQUIRED, NOT_NEGATIVE, 0, "1/m", "scattering by molecules at the ground; they absorb nothing")
+    ATTRIBUTE(FRAME, "glint.atmosphere.rayleighHeight", DOUBLE, atmosphere.rayleigh_height, has_atmosphere, OPTIONAL, POSITIVE,  8000, "m",   "altitude at which there are 1/e as many molecules as at the ground")
+    ATTRIBUTE(FRAME, "glint.atmosphere.mieScattering", DOUBLE,  atmosphere.mie,             has_atmosphere, OPTIONAL, NOT_NEGATIVE, 0, "1/m", "scattering by particles at the ground")
+    ATTRIBUTE(FRAME, "glint.atmosphere.mieExtinction", DOUBLE,  atmosphere.mie_extinction,  has_atmosphere, OPTIONAL, NOT_NEGATIVE, 0, "1/m", "what particles scatter and absorb there, at least mieScattering")
+    ATTRIBUTE(FRAME, "glint.atmosphere.mieHeight",     DOUBLE,  atmosphere.mie_height,      has_atmosphere, OPTIONAL, POSITIVE,  1200, "m",   "altitude at which there are 1/e as many particles as at the ground")
+    ATTRIBUTE(FRAME, "glint.atmosphere.mieAsymmetry",  DOUBLE,  atmosphere.mie_asymmetry,   has_atmosphere, OPTIONAL, COSINE,       0, "",    "mean cosine of the angle by which particles turn light")
+    ATTRIBUTE(FRAME, "glint.cloudGround",         DOUBLE,      clouds.ground,          has_clouds,   OPTIONAL, ANY,          0, "units", "height of the ground along up: altitudes of clouds count from there")
+    ATTRIBUTE(FRAME, "glint.cloudBottom",         DOUBLE,      clouds.bottom,          has_clouds,   REQUIRED, NOT_NEGATIVE, 0, "m",     "altitude of the lower side of the layer that holds the clouds")
+    ATTRIBUTE(FRAME, "glint.cloudTop",            DOUBLE,      clouds.top,             has_clouds,   REQUIRED, POSITIVE,     0, "m",     "altitude of its upper side, above cloudBottom")
+    ATTRIBUTE(FRAME, "glint.cloudTile",           DOUBLE,      clouds.tile,            has_clouds,   REQUIRED, POSITIVE,     0, "m",     "side of the square over which cloud.density and cloud.height repeat")
+    ATTRIBUTE(FRAME, "glint.cloudNoiseTile",      DOUBLE,      clouds.noise_tile,      has_clouds,   OPTIONAL, POSITIVE,  1000, "m",     "side of the cube over which cloud.noise repeats")
+    ATTRIBUTE(FRAME, "glint.cloudExtinction",     DOUBLE,      clouds.extinction,      has_clouds,   REQUIRED, NOT_NEGATIVE, 0, "1/m",   "extinction at a density of 1")
+    ATTRIBUTE(FRAME, "glint.cloudErosion",        DOUBLE,      clouds.erosion,         has_clouds,   OPTIONAL, NOT_NEGATIVE, 0, "",      "what a noise of 1 takes from the density")
+    ATTRIBUTE(FRAME, "glint.cloudOffset",         V2,          clouds.offset,          has_clouds,   OPTIONAL, ANY,          0, "m",     "how far the wind has moved the clouds, along the two horizontal world axes")
 SCOPE(LIGHT, "gbuffer", glint_light, "on `gbuffer`, of each point or spot light, numbered from 000 on")
     ATTRIBUTE(LIGHT, "glint.light.NNN.position",  V3,        position,       NONE,     REQUIRED, ANY,          0, "units", "world position")
     ATTRIBUTE(LIGHT, "glint.light.NNN.intensity", V3FLOAT,   intensity,      NONE,     REQUIRED, NOT_NEGATIVE, 0, "radiance · sr · m²", "radiant intensity: at a distance of d metres the irradiance on a surface that faces the light is this divided by d²; of a spot light within its inner cone")

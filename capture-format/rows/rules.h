@@ -22,6 +22,7 @@ RULE(LIGHT,     "lights",           "Point and spot lights are numbered from 000
 RULE(SHADOW,    "shadow",           "The ends of a shadow map's range differ and lie in [0, 1]; the map is of the sun or of a light, which the frame has, and of all surfaces or of a stencil class that it has.")
 RULE(GRID,      "volume",           "The height of a volume of light is a whole number of its slices, and its matrix has the last row 0 0 0 1.")
 RULE(FROXELS,   "froxels",          "The height of `froxels` is a whole number of its slices, which are 1 to 1024; 0 ≤ near < far ≤ 1e9 units, and exponential slices have near ≥ far / 1e9.")
+RULE(AIR,       "air",              "The mieExtinction of an atmosphere is not below its mieScattering; cloudTop is above cloudBottom. A part `cloud.density` comes with the attributes of clouds on `gbuffer`; its height is a whole number of 8 slices, and `cloud.height` has its size.")
 RULE(SIBLING,   "sibling",          "A sibling is a plain file name in the capture's own folder, its bytes have the stated hash, and it holds a part of the same name with pixels. The part that names it is 1 × 6 pixels, which are black.")
 /* ---- pixels: checked by validate alone ---- */
 RULE(PIXEL_FINITE,    "pixels-finite",    "No NaN, and no infinity but +inf in view-linear depth and in distances under sky. Where depth says sky (or no surface), the other channels are not checked.")

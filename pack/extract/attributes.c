@@ -41,6 +41,24 @@ static const struct row rows[] = {
     {"fog", "glint.fogBase", "base", NUMBER},
     {"fog", "glint.fogScaleHeight", "scale_height", NUMBER},
     {"fog", "glint.fogAdds", "adds", FLAG},
+    {"atmosphere", "glint.atmosphere.planetRadius", "planet_radius", NUMBER},
+    {"atmosphere", "glint.atmosphere.ground", "ground", NUMBER},
+    {"atmosphere", "glint.atmosphere.top", "top", NUMBER},
+    {"atmosphere", "glint.atmosphere.irradiance", "irradiance", NUMBERS},
+    {"atmosphere", "glint.atmosphere.rayleigh", "rayleigh", NUMBERS},
+    {"atmosphere", "glint.atmosphere.rayleighHeight", "rayleigh_height", NUMBER},
+    {"atmosphere", "glint.atmosphere.mieScattering", "mie_scattering", NUMBER},
+    {"atmosphere", "glint.atmosphere.mieExtinction", "mie_extinction", NUMBER},
+    {"atmosphere", "glint.atmosphere.mieHeight", "mie_height", NUMBER},
+    {"atmosphere", "glint.atmosphere.mieAsymmetry", "mie_asymmetry", NUMBER},
+    {"clouds", "glint.cloudGround", "ground", NUMBER},
+    {"clouds", "glint.cloudBottom", "bottom", NUMBER},
+    {"clouds", "glint.cloudTop", "top", NUMBER},
+    {"clouds", "glint.cloudTile", "tile", NUMBER},
+    {"clouds", "glint.cloudNoiseTile", "noise_tile", NUMBER},
+    {"clouds", "glint.cloudExtinction", "extinction", NUMBER},
+    {"clouds", "glint.cloudErosion", "erosion", NUMBER},
+    {"clouds", "glint.cloudOffset", "offset", NUMBERS},
     {"material", "glint.metalReflectance", "metal_reflectance", NUMBER},
     {"material", "glint.roughestReflection", "roughest_reflection", NUMBER},
     {"material", "glint.glossScale", "gloss_scale", NUMBER},
@@ -171,7 +189,7 @@ static json_t *classes_of(const struct glint_exr_attribute *a) {
 }
 
 json_t *extract_frame(const struct glint_exr_part_info *gbuffer) {
-    static const char *const objects[] = {"fog", "material", "sun"};
+    static const char *const objects[] = {"fog", "atmosphere", "clouds", "material", "sun"};
     json_t *frame = scope_of(gbuffer, "frame"), *lights = lights_of(gbuffer);
     const struct glint_exr_attribute *classes = glint_exr_attribute(gbuffer, "glint.stencilClasses");
     json_object_set_new(frame, "layout", json_string("row_major"));

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "air.h"
 #include "keys.h"
 #include "light.h"
 
@@ -93,6 +94,7 @@ static bool read_values(const struct node *node, struct glint_frame *frame, stru
     frame->depth_far = node_number(node, "depth_far", 0);
     frame->has_lut_stops = node_numbers(node, "lut_stops", frame->lut_stops);
     node_numbers(node, "jitter", frame->jitter_px);
+    air_read(node, frame);
     return read_positive(node, "exposure", &frame->exposure, err) &&
            read_positive(node, "pre_exposure", &frame->pre_exposure, err) &&
            read_positive(node, "metres_per_unit", &frame->metres_per_unit, err) &&

@@ -199,7 +199,7 @@ void count_block(int place) {
     barrier();
     const vec2 NONE = vec2(INFINITE, -INFINITE);
     const Row EMPTY = Row(0, 0u);
-    Sums sums = Sums(EMPTY, EMPTY, EMPTY, EMPTY, uvec2(0u), 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, NONE, NONE, NONE, NONE, 0.0);
+    Sums sums = Sums(EMPTY, EMPTY, EMPTY, EMPTY, uvec2(0u), 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u, NONE, NONE, NONE, NONE, 0.0);
     for (int row = lane / 64; row < 64; row += LANES / 64) {
         ivec2 pixel = 64 * ivec2(gl_WorkGroupID.xy) + ivec2(lane % 64, row);
         if (all(lessThan(pixel, ivec2(frame.size.xy)))) count_pixel(pixel, sums);

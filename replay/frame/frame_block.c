@@ -248,6 +248,37 @@ static void fill_sun(struct frame_block *block, const struct glint_frame *frame)
     block->sun_irradiance = (vec4){sun->irradiance[0], sun->irradiance[1], sun->irradiance[2], 0};
 }
 
+static double part_of(double place_m, double side_m) {
+    return place_m / side_m - floor(place_m / side_m);
+}
+
+/* Atmosphere and clouds. Clouds repeat, so that a camera far from the origin is somewhere in a square near it. */
+static void fill_air(struct frame_block *block, const struct glint_frame *frame, const double eye[3], double metres) {
+    const struct glint_atmosphere *air = &frame->atmosphere;
+    const struct glint_clouds *clouds = &frame->clouds;
+    double sign, across[2];
+    const int axis = up_axis(frame->up, &sign);
+    if (frame->has_atmosphere) {
+        const float *sun = air->irradiance, *r = air->rayleigh;
+        const double height = air->rayleigh_height > 0 ? air->rayleigh_height : 8000;
+        block->atmosphere =
+            (vec4){(float)air->planet_radius, (float)air->top, (float)((eye[axis] * sign - air->ground) * metres), 0};
+        block->sun_above = (vec4){sun[0], sun[1], sun[2], 0};
+        block->rayleigh = (vec4){r[0], r[1], r[2], (float)height};
+        block->mie = (vec4){(float)air->mie, (float)air->mie_extinction,
+                            (float)(air->mie_height > 0 ? air->mie_height : 1200), (float)air->mie_asymmetry};
+    }
+    if (!frame->has_clouds) return;
+    const double noise = clouds->noise_tile > 0 ? clouds->noise_tile : 1000;
+    for (int i = 0, k = 0; i < 3; i++)
+        if (i != axis) across[k] = eye[i] * metres - clouds->offset[k], k++;
+    block->cloud_layer = (vec4){(float)clouds->bottom, (float)clouds->top,
+                                (float)((eye[axis] * sign - clouds->ground) * metres), (float)clouds->extinction};
+    block->cloud_tile = (vec4){(float)clouds->tile, (float)noise, (float)clouds->erosion, 0};
+    block->cloud_place = (vec4){(float)part_of(across[0], clouds->tile), (float)part_of(across[1], clouds->tile),
+                                (float)part_of(across[0], noise), (float)part_of(across[1], noise)};
+}
+
 static uvec4 class_of(const struct glint_frame *frame, const char *name) {
     for (uint32_t i = 0; i < frame->class_count; i++)
         if (strcmp(frame->classes[i].name, name) == 0) return class_ids(&frame->classes[i]);
@@ -273,6 +304,7 @@ void frame_block_fill(struct frame_block *block, const struct glint_frame *frame
         (vec4){(float)(fmin(one, other) * metres), (float)(fmax(one, other) * metres), (float)p.front, (float)q.front};
     fill_fog(block, frame, eye, metres);
     fill_sun(block, frame);
+    fill_air(block, frame, eye, metres);
     block->size = (uvec4){sizes->full[0], sizes->full[1], sizes->half[0], sizes->half[1]};
     block->counts = (uvec4){sizes->active, frame->number, sizes->cube_face, sizes->sky_face};
     block->flags = (uvec4){sizes->history, frame->cut, sizes->chain, 0};

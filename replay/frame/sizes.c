@@ -185,6 +185,11 @@ bool plan_describe(const struct frame_plan *plan, const struct graph_image *imag
     case GLINT_SIZE_DIRT:
         expected[0] = sizes->dirt[0], expected[1] = sizes->dirt[1];
         break;
+    case GLINT_SIZE_PART: {
+        const struct glint_part_info *part = row->role ? glint_capture_find(plan->source->capture, row->role) : NULL;
+        if (part) expected[0] = part->width, expected[1] = part->height;
+        break;
+    }
     case GLINT_SIZE_GRID:
         expected[0] = sizes->grid[0], expected[1] = sizes->grid[1];
         break;

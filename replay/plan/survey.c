@@ -75,6 +75,7 @@ void survey_capture_parts(const struct glint_capture *capture, struct glint_surv
     survey->has_fog = glint_capture_frame(capture)->has_fog;
     survey->has_sun = glint_capture_frame(capture)->has_sun;
     survey->lamps = glint_capture_frame(capture)->light_count;
+    survey->has_atmosphere = glint_capture_frame(capture)->has_atmosphere;
 }
 
 bool glint_survey_capture(struct glint_capture *capture, struct glint_survey *survey, struct glint_error *err) {

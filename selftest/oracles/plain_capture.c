@@ -197,6 +197,10 @@ static struct glint_frame frame_of(const struct plain *plain) {
     frame.has_previous = true;
     frame.has_fog = plain->fog != NULL;
     if (plain->fog) frame.fog = *plain->fog;
+    frame.has_atmosphere = plain->atmosphere != NULL;
+    if (plain->atmosphere) frame.atmosphere = *plain->atmosphere;
+    frame.has_clouds = plain->clouds != NULL;
+    if (plain->clouds) frame.clouds = *plain->clouds;
     frame.has_material = plain->material != NULL;
     if (plain->material) frame.material = *plain->material;
     frame.has_sun = plain->sun != NULL;

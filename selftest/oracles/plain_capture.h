@@ -49,6 +49,8 @@ struct plain {
     double jitter_px[2], previous_jitter_px[2];  /* of the projection; the wall's motion says both */
     const double *world_to_view;                 /* 16 values; NULL: as above */
     const struct glint_fog *fog;                 /* NULL: none */
+    const struct glint_atmosphere *atmosphere;   /* NULL: none */
+    const struct glint_clouds *clouds;           /* NULL: none; their textures are parts */
     const struct glint_material_model *material; /* NULL: as the format has it */
     const struct glint_sun *sun;                 /* NULL: none */
     const struct glint_light *lights;            /* light_count of them */

@@ -58,6 +58,10 @@ struct glint_frame fixture_frame(void) {
     frame.motion_range = 0.5;
     frame.has_fog = true;
     frame.fog = (struct glint_fog){{0.5f, 0.6f, 0.7f}, 0.01, -2, 80, false};
+    frame.has_atmosphere = frame.has_clouds = true;
+    frame.atmosphere = (struct glint_atmosphere){6360e3, -3,   60e3,   {20, 19, 18}, {5.8e-6f, 13.5e-6f, 33.1e-6f},
+                                                 7900,   4e-6, 4.4e-6, 1300,         -0.25};
+    frame.clouds = (struct glint_clouds){-3, 1500, 1750.5, 9000, 800, 0.03, 0.25, {1e6 + 0.5, -7}};
     frame.class_count = 2;
     frame.classes[0] = (struct glint_stencil_class){.value = 3, .mask = 7, .name = "sky"};
     frame.classes[1] = (struct glint_stencil_class){.value = 4, .name = "character = player"};
@@ -194,6 +198,10 @@ struct glint_part fixture_part(const struct fixture *f, enum fixture_part which,
                                         "volume.000",
                                         "froxels",
                                         "curvature",
+                                        "stars",
+                                        "cloud.density",
+                                        "cloud.height",
+                                        "cloud.noise",
                                         "truth.occlusion",
                                         "truth.sun",
                                         "truth.indirect",
@@ -202,7 +210,7 @@ struct glint_part fixture_part(const struct fixture *f, enum fixture_part which,
                                         "lamps",
                                         "truth.lamps"};
     const bool cube = which == FIXTURE_CUBEMAP_0 || which == FIXTURE_CUBEMAP_1 || which == FIXTURE_SKY ||
-                      which == FIXTURE_PROBE || which == FIXTURE_PROBE_1;
+                      which == FIXTURE_STARS || which == FIXTURE_PROBE || which == FIXTURE_PROBE_1;
     const uint32_t face = which == FIXTURE_PROBE_1 ? FIX_CUBE / 2 : FIX_CUBE;
     struct glint_part part = {.name = names[which], .width = cube ? face : FIX_W, .height = cube ? 6 * face : FIX_H};
     static const char *const rgba[] = {"R", "G", "B", "A"};
@@ -253,6 +261,13 @@ struct glint_part fixture_part(const struct fixture *f, enum fixture_part which,
     }
     if (which == FIXTURE_CURVATURE) {
         add_fixture_channel(&part, c, "curvature", f->color, 4);
+        return part;
+    }
+    if (which >= FIXTURE_CLOUD_DENSITY && which <= FIXTURE_CLOUD_NOISE) {
+        static const char *const values[] = {"density", "height", "noise"};
+        part.width = which == FIXTURE_CLOUD_NOISE ? 4 : 5;
+        part.height = 16;
+        add_fixture_channel(&part, c, values[which - FIXTURE_CLOUD_DENSITY], f->color + 1, 1);
         return part;
     }
     const float *color = cube ? f->cube : f->color;

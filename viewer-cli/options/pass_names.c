@@ -54,6 +54,7 @@ const char *size_name(enum glint_size_class size) {
         [GLINT_SIZE_SHADOW - FIRST] = "shadow maps",
         [GLINT_SIZE_TABLE - FIRST] = "table of colours",
         [GLINT_SIZE_DIRT - FIRST] = "dirt",
+        [GLINT_SIZE_PART - FIRST] = "the part's",
         [GLINT_SIZE_GRID - FIRST] = "grid of light",
         [GLINT_SIZE_FROXELS - FIRST] = "froxels",
         [GLINT_SIZE_FROXEL_SLICE - FIRST] = "slice of froxels",

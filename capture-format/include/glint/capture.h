@@ -10,6 +10,7 @@
 
 #include <stdint.h>
 
+#include "glint/air.h"
 #include "glint/common.h"
 
 #ifdef __cplusplus
@@ -93,14 +94,6 @@ void glint_camera_position(const struct glint_camera *camera, double position[3]
 void glint_camera_standard(const struct glint_camera *camera, enum glint_clip_y clip_y, double world_to_camera[16],
                            double world_to_ndc[16]);
 
-struct glint_fog {
-    float color[3];      /* radiance far inside the fog */
-    double density;      /* extinction per unit at `base` */
-    double base;         /* height at which `density` applies, in units along up */
-    double scale_height; /* units of height over which density falls to 1/e; 0: uniform fog */
-    bool adds;           /* its colour is added, and what lies behind it loses nothing */
-};
-
 /* How the engine's materials differ from those of this format. */
 struct glint_material_model {
     double metal_reflectance;         /* of a metal at normal incidence, as a multiple of its albedo, at most 1; 0: 1 */
@@ -159,6 +152,9 @@ struct glint_frame {
     enum glint_clip_z clip_z;  /* default: [0, 1] */
     bool has_fog;
     struct glint_fog fog;
+    bool has_atmosphere, has_clouds;
+    struct glint_atmosphere atmosphere;
+    struct glint_clouds clouds;
     bool has_material;
     struct glint_material_model material;
     struct glint_stencil_class classes[GLINT_MAX_STENCIL_CLASSES];

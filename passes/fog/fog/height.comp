@@ -89,6 +89,7 @@ void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, imageSize(composed_fog)))) return;
     vec3 color = has_composed_water ? texelFetch(composed_water, pixel, 0).rgb : texelFetch(composed, pixel, 0).rgb;
+    if (has_composed_sky) color = texelFetch(composed_sky, pixel, 0).rgb;
     float depth_m = texelFetch(depth_full, pixel, 0).x;
     if (has_composed_water && textureSize(water_depth, 0) == ivec2(frame.size.xy)) depth_m = min(depth_m, texelFetch(water_depth, pixel, 0).x);
     bool is_sky = !(depth_m < LARGEST);

@@ -72,6 +72,7 @@ enum glint_size_class {
     GLINT_SIZE_SHADOW,         /* 2D, the shadow maps one below the other (passes/shared/shadow_maps.h) */
     GLINT_SIZE_TABLE,          /* 2D, the size of the capture's table of colours */
     GLINT_SIZE_DIRT,           /* 2D, the size of the capture's dirt on the lens */
+    GLINT_SIZE_PART,           /* 2D, the size of the capture's part that the image comes from */
     GLINT_SIZE_GRID,           /* 2D, slices of the capture's volume of light, or of 24³ cells that a pass fills */
     GLINT_SIZE_FROXELS,        /* 2D, slices of the capture's light in the air one below the other */
     GLINT_SIZE_FROXEL_SLICE,   /* 2D, the size of one of them */

@@ -3,6 +3,7 @@
 SLOT("Transparent surfaces over the picture")
 READ(texture2D, composed)
 OPTIONAL_READ(texture2D, composed_water, RGBA16F, FULL, 0)
+OPTIONAL_READ(texture2D, composed_sky, RGBA16F, FULL, 0)
 OPTIONAL_READ(texture2D, composed_fog, RGBA16F, FULL, 0)
 READ(texture2D, water_depth)
 READ(texture2D, transparent_color)

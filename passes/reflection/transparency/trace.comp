@@ -49,6 +49,7 @@ bool under_water(ivec2 pixel, float depth_m) {
 vec3 composed_color(ivec2 pixel) {
     probe_pixel(pixel);
     vec3 behind = has_composed_water ? texelFetch(composed_water, pixel, 0).rgb : texelFetch(composed, pixel, 0).rgb;
+    if (has_composed_sky) behind = texelFetch(composed_sky, pixel, 0).rgb;
     if (has_composed_fog) behind = texelFetch(composed_fog, pixel, 0).rgb;
     if (!tile_works) return behind;
     vec4 own = texelFetch(transparent_color, pixel, 0);
@@ -58,7 +59,7 @@ vec3 composed_color(ivec2 pixel) {
     vec2 uv = (vec2(pixel) + 0.5) / vec2(frame.size.xy);
     vec3 view = view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
     float cosine = fresnel ? clamp(abs(dot(normalize(mat3(frame.world_from_view) * view), normalize(normal))), 0.0, 1.0) : 1.0;
-    uint image = has_composed_fog ? IMAGE_composed_fog : has_composed_water ? IMAGE_composed_water : IMAGE_composed;
+    uint image = has_composed_fog ? IMAGE_composed_fog : has_composed_sky ? IMAGE_composed_sky : has_composed_water ? IMAGE_composed_water : IMAGE_composed;
     vec3 through = probed_mix(image, behind, IMAGE_transparent_color, own.rgb, own.a);
     float share = clamp(intensity * reflected_share(cosine), 0.0, 1.0);
     return probed_mix(IMAGE_mixture, through, IMAGE_mixture, mirrored(pixel, depth_m), share);

@@ -8,7 +8,7 @@
 };
 #include "shared/bayer.glsl"
 #include "shared/camera.glsl"
-#include "shared/sun.glsl"
+#include "clouds.glsl"
 #include "shadow_maps/lookup.glsl"
 
 // By the finest map of all surfaces that holds this one, and by each map of its own class; surfaces in none are lit.
@@ -36,7 +36,7 @@ void main() {
         vec2 uv = (vec2(pixel) + 0.5) / vec2(frame.size.xy);
         vec3 view = view_position(uv, depth_m, frame.view_from_uv, frame.depth_range.z);
         vec2 pattern = vec2(bayer4(pixel), bayer4(pixel.yx + 2)) - 0.5; // two patterns, so that a block of 4 x 4 pixels is spread over a square
-        if (textureSize(sun_mask, 0) == ivec2(frame.size.xy)) visible = valid_mask(texelFetch(sun_mask, pixel, 0).x);
+        if (textureSize(sun_mask, 0) == ivec2(frame.size.xy)) visible = through_clouds(pixel) * valid_mask(texelFetch(sun_mask, pixel, 0).x);
         else if (reflects(depth_m, normal)) visible = lit_by_maps(mat3(frame.world_from_view) * view, normalize(normal), texelFetch(stencil_full, pixel, 0).x, pattern);
     }
     imageStore(shadow_mask, pixel, vec4(visible));

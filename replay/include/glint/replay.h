@@ -137,18 +137,19 @@ struct glint_survey {
     float depth_m[2];                      /* lowest and highest, without sky */
     uint32_t cubemaps, volumes, distances; /* volumes, distances: cube maps with an inner volume, with distances */
     bool has_sky, has_probe, has_previous, has_planar, has_water, has_transparent, has_fresnel, has_fog;
-    bool has_indirect, has_sun; /* which part of the light is indirect is known; the capture declares a sun */
-    bool has_lamps;             /* which part of the light is that of lamps is known */
-    uint32_t lamps;             /* point and spot lights of the capture */
-    uint64_t lamplit;           /* surfaces that a lamp may light; all, where they were not counted */
-    bool has_stippling;         /* the capture has a mask of stippled pixels */
-    bool has_skin;              /* the capture has a mask or a stencil class of skin */
-    bool has_shadows;           /* the capture has a shadow map that passes use */
-    bool has_overlays;          /* buffers that are to be blended into the G-buffer */
-    bool has_volume;            /* the capture has a volume of light */
-    bool has_froxels;           /* the capture has light in the air */
-    bool has_scene;             /* the capture has the finished picture */
-    double exposure;            /* the capture's factor from radiance to what is displayed */
+    bool has_indirect, has_sun;      /* which part of the light is indirect is known; the capture declares a sun */
+    bool has_lamps;                  /* which part of the light is that of lamps is known */
+    uint32_t lamps;                  /* point and spot lights of the capture */
+    uint64_t lamplit;                /* surfaces that a lamp may light; all, where they were not counted */
+    bool has_stippling;              /* the capture has a mask of stippled pixels */
+    bool has_skin;                   /* the capture has a mask or a stencil class of skin */
+    bool has_atmosphere, has_clouds; /* the capture declares them */
+    bool has_shadows;                /* the capture has a shadow map that passes use */
+    bool has_overlays;               /* buffers that are to be blended into the G-buffer */
+    bool has_volume;                 /* the capture has a volume of light */
+    bool has_froxels;                /* the capture has light in the air */
+    bool has_scene;                  /* the capture has the finished picture */
+    double exposure;                 /* the capture's factor from radiance to what is displayed */
     bool has_earlier_lit, has_earlier_scene; /* pictures of the previous frame */
     uint64_t luminous; /* pixels of the lit picture that are not black; all, where it was not read */
     uint64_t

@@ -27,18 +27,19 @@ enum glint_truths {
 
 /* What the engine writes only when asked. */
 enum glint_also {
-    GLINT_ALSO_AO = 1 << 0,        /* its own, coarse ambient occlusion, over half the radius of the truth */
-    GLINT_ALSO_SUN = 1 << 1,       /* its shadow mask, in scenes with a sun */
-    GLINT_ALSO_SHADOW = 1 << 2,    /* shadow maps, in scenes with a sun */
-    GLINT_ALSO_VOLUME = 1 << 3,    /* a volume of light */
-    GLINT_ALSO_LUT = 1 << 4,       /* the table of colours that it grades with */
-    GLINT_ALSO_DIRT = 1 << 5,      /* the dirt on its lens */
-    GLINT_ALSO_STIPPLE = 1 << 6,   /* where stippled surfaces were drawn */
-    GLINT_ALSO_DECALS = 1 << 7,    /* decals on the ground, in buffers of their own */
-    GLINT_ALSO_LAMPS = 1 << 8,     /* the light of the lamps, and shadow maps of at most eight spot lights */
-    GLINT_ALSO_CAUSTICS = 1 << 9,  /* light that water focuses on its bottom, in scenes with water and a sun */
-    GLINT_ALSO_FROXELS = 1 << 10,  /* light in the air, in scenes with fog */
-    GLINT_ALSO_CURVATURE = 1 << 11 /* of the surfaces */
+    GLINT_ALSO_AO = 1 << 0,         /* its own, coarse ambient occlusion, over half the radius of the truth */
+    GLINT_ALSO_SUN = 1 << 1,        /* its shadow mask, in scenes with a sun */
+    GLINT_ALSO_SHADOW = 1 << 2,     /* shadow maps, in scenes with a sun */
+    GLINT_ALSO_VOLUME = 1 << 3,     /* a volume of light */
+    GLINT_ALSO_LUT = 1 << 4,        /* the table of colours that it grades with */
+    GLINT_ALSO_DIRT = 1 << 5,       /* the dirt on its lens */
+    GLINT_ALSO_STIPPLE = 1 << 6,    /* where stippled surfaces were drawn */
+    GLINT_ALSO_DECALS = 1 << 7,     /* decals on the ground, in buffers of their own */
+    GLINT_ALSO_LAMPS = 1 << 8,      /* the light of the lamps, and shadow maps of at most eight spot lights */
+    GLINT_ALSO_CAUSTICS = 1 << 9,   /* light that water focuses on its bottom, in scenes with water and a sun */
+    GLINT_ALSO_FROXELS = 1 << 10,   /* light in the air, in scenes with fog */
+    GLINT_ALSO_CURVATURE = 1 << 11, /* of the surfaces */
+    GLINT_ALSO_SKY = 1 << 12        /* atmosphere, clouds and stars, and the sky that they make in its picture */
 };
 
 struct glint_sample_options {

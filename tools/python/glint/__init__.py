@@ -12,13 +12,13 @@ docs/python.md explains it with examples. What the library or a file refuses is 
 caller's are TypeError, ValueError and KeyError. Importing raises ImportError where the library is missing or does not fit.
 """
 from glint.capture import Attribute, Capture, Channel, Part, Violation, faces, open, validate
-from glint.frame import (Camera, Cone, CubeMap, Encodings, Fog, Frame, Froxels, Indirect, Light, LightVolume, MaterialModel, Planar, Probe, ProbeBox, Shadow, Sky,
+from glint.frame import (Atmosphere, Camera, Clouds, Cone, CubeMap, Encodings, Fog, Frame, Froxels, Indirect, Light, LightVolume, MaterialModel, Planar, Probe, ProbeBox, Shadow, Sky,
                          StencilClass, Sun, Truth)
 from glint.library import Error
 from glint.registry import Role, RoleChannel, roles
 from glint.run import Image, Pass, Run, Times
 from glint.writer import Writer
 
-__all__ = ["Attribute", "Camera", "Capture", "Channel", "Cone", "CubeMap", "Encodings", "Error", "Fog", "Frame", "Froxels", "Image", "Indirect", "Light", "LightVolume",
+__all__ = ["Atmosphere", "Attribute", "Camera", "Capture", "Channel", "Clouds", "Cone", "CubeMap", "Encodings", "Error", "Fog", "Frame", "Froxels", "Image", "Indirect", "Light", "LightVolume",
            "MaterialModel", "Part", "Pass", "Planar", "Probe", "ProbeBox", "Role", "RoleChannel", "Run", "Shadow", "Sky", "StencilClass", "Sun", "Times", "Truth",
            "Violation", "Writer", "faces", "open", "roles", "validate"]

@@ -57,6 +57,54 @@ class Fog:
     """its colour is added, and what lies behind it loses nothing"""
 
 
+@mirrors("glint_atmosphere")
+@dataclass(eq=False)
+class Atmosphere:
+    """A planet's atmosphere. Lengths are in metres, but for `ground`."""
+    planet_radius: float
+    """from the middle of the planet to the ground, > 0"""
+    top: float
+    """altitude at which the atmosphere ends, > 0"""
+    irradiance: Floats
+    """(3,): radiance · sr, of the sun above the atmosphere, ≥ 0; stored as float32"""
+    rayleigh: Floats
+    """(3,): scattering by molecules at the ground, 1/m, ≥ 0; stored as float32"""
+    ground: float = 0.0
+    """height of the ground along up, units: altitudes count from there"""
+    rayleigh_height: float = 8000.0
+    """altitude at which there are 1/e as many molecules, > 0; 0: 8000"""
+    mie: float = 0.0
+    """scattering by particles at the ground, 1/m, ≥ 0"""
+    mie_extinction: float = 0.0
+    """what they scatter and absorb there, at least `mie`"""
+    mie_height: float = 1200.0
+    """altitude at which there are 1/e as many particles, > 0; 0: 1200"""
+    mie_asymmetry: float = 0.0
+    """mean cosine of the angle by which particles turn light, between −1 and 1"""
+
+
+@mirrors("glint_clouds")
+@dataclass(eq=False)
+class Clouds:
+    """Where the clouds of the parts cloud.* lie. Lengths are in metres, but for `ground`."""
+    bottom: float
+    """altitude of the lower side of the layer, ≥ 0"""
+    top: float
+    """altitude of its upper side, above `bottom`"""
+    tile: float
+    """side of the square over which density and height repeat, > 0"""
+    extinction: float
+    """1/m at a density of 1, ≥ 0"""
+    ground: float = 0.0
+    """height of the ground along up, units: altitudes count from there"""
+    noise_tile: float = 1000.0
+    """side of the cube over which the noise repeats, > 0; 0: 1000"""
+    erosion: float = 0.0
+    """what a noise of 1 takes from the density, ≥ 0"""
+    offset: Floats = _zeros(2)
+    """(2,): how far the wind has moved the clouds, along the two horizontal world axes"""
+
+
 @mirrors("glint_material_model")
 @dataclass(eq=False)
 class MaterialModel:
@@ -158,6 +206,8 @@ class Frame:
     clip_z: str = "zero_to_one"
     """range of NDC z: "zero_to_one" or "minus_one_to_one\""""
     fog: Fog | None = None
+    atmosphere: Atmosphere | None = None
+    clouds: Clouds | None = None
     classes: list[StencilClass] = counted("class_count", list)
     """at most 32"""
     material: MaterialModel | None = None

@@ -1,0 +1,18 @@
+/* What every variant of this slot reads and writes. */
+#line 102
+SLOT("The sky in the picture")
+READ(texture2D, composed)
+OPTIONAL_READ(texture2D, composed_water, RGBA16F, FULL, 0)
+READ(texture2D, water_depth)
+READ(texture2D, depth_full)
+OPTIONAL_READ(texture2D, sky_rayleigh, RGBA16F, QUARTER, 0)
+OPTIONAL_READ(texture2D, sky_mie, RGBA16F, QUARTER, 0)
+OPTIONAL_READ(texture2D, sky_passed, RGBA16F, QUARTER, 1)
+OPTIONAL_READ(texture2D, cloud_map, RGBA16F, FULL, 0)
+READ(texture2D, stars)
+WRITE(image2D, composed_sky, RGBA16F, "radiance", FULL, "R G B A", 0, "composed, or composed_water, with the sky in the pixels that show it; fog and transparent surfaces come over it; a is 1")
+DISPATCH(composed_sky)
+NEEDS(air)
+NEEDS(sky)
+WITHOUT(stars, "no stars are behind the atmosphere")
+REFERENCE_NONE("it works on the picture, and the reference is compared with truths of surfaces")
