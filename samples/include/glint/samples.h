@@ -35,7 +35,8 @@ enum glint_also {
     GLINT_ALSO_DIRT = 32,    /* the dirt on its lens */
     GLINT_ALSO_STIPPLE = 64, /* where stippled surfaces were drawn */
     GLINT_ALSO_DECALS = 128, /* decals on the ground, in buffers of their own */
-    GLINT_ALSO_LAMPS = 256   /* the light of the lamps, and shadow maps of eight spot lights at most, in scenes with lamps */
+    GLINT_ALSO_LAMPS =
+        256 /* the light of the lamps, and shadow maps of eight spot lights at most, in scenes with lamps */
 };
 
 struct glint_sample_options {
