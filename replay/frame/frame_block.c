@@ -158,8 +158,7 @@ static void fill_shadow(struct frame_block *block, size_t k, const struct glint_
     block->shadow_depth[k] = (vec4){falls ? -1 : 1, (float)shadow->bias, 0, 0};
 }
 
-void frame_block_shadows(struct frame_block *block, const struct glint_capture *capture,
-                         const uint32_t number[LAMPS]) {
+void frame_block_shadows(struct frame_block *block, const struct glint_capture *capture, const uint32_t number[LAMPS]) {
     const struct glint_part_info *maps[SHADOW_MAPS];
     const struct glint_frame *frame = glint_capture_frame(capture);
     const size_t count = frame_shadow_maps(capture, maps);

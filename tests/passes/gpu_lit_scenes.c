@@ -81,7 +81,8 @@ static struct glint_light any_lamp(void) {
         .position = {draw(-5, 5), draw(-4, 4), draw(-8, 3)}, .intensity = {1, 1, 1}, .range = draw(0.3, 4)};
     light.has_cone = draw(0, 1) < 0.8;
     const double up = draw(-1, 1), turn = draw(0, 2 * M_PI), side = sqrt(1 - up * up);
-    light.cone = (struct glint_cone){.axis = {side * cos(turn), up, side * sin(turn)}, .outer_rad = draw(0.1, draw(0, 1) < 0.6 ? 0.8 : 2)};
+    light.cone = (struct glint_cone){.axis = {side * cos(turn), up, side * sin(turn)},
+                                     .outer_rad = draw(0.1, draw(0, 1) < 0.6 ? 0.8 : 2)};
     return light;
 }
 static void rectangles_hold_all_that_lamps_reach(void **state) {

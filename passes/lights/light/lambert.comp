@@ -9,7 +9,7 @@
 #include "lamps/lamp.glsl"
 #include "shadow_maps/lookup.glsl"
 
-// The first map of the lamp that holds the place decides; places in none are lit.
+// The first map of the lamp that holds the place decides, of those of all surfaces; places in none are lit.
 float shadow_factor(int lamp, vec3 place, vec3 normal) {
     int first = int(frame.lamp_axis[lamp].w);
     for (int map = max(first, 0); shadows && first >= 0 && map < SHADOW_MAPS; ++map) {
