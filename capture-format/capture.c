@@ -101,8 +101,8 @@ static bool parse_headers(struct glint_capture *capture, struct glint_check *che
             return false;
     }
     if (!glint_parts_check(check, files, capture->parts, count, &capture->frame, &capture->has_frame)) return false;
-    if (!capture->has_frame) /* in a file of cube maps only, lengths are in units and colours are not pre-exposed */
-        capture->frame.metres_per_unit = capture->frame.pre_exposure = 1;
+    if (!capture->has_frame) /* in a file of cube maps only, lengths are in units and colours are not exposed */
+        capture->frame.metres_per_unit = capture->frame.pre_exposure = capture->frame.exposure = 1;
     return true;
 }
 

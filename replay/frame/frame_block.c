@@ -184,9 +184,8 @@ void frame_block_captured_light(struct frame_block *block, const struct glint_ca
     const struct glint_part_info *part = glint_capture_find(capture, GLINT_PART_INDIRECT);
     block->captured_light.x = part && part->has_indirect && part->indirect.occluded;
     const struct glint_frame *frame = glint_capture_frame(capture);
-    const double exposure = frame->exposure;
     if (frame->has_lut_stops) block->lut_stops = (vec4){(float)frame->lut_stops[0], (float)frame->lut_stops[1], 1, 0};
-    block->captured_light.y = exposure > 0 ? (float)exposure : 1;
+    block->captured_light.y = (float)frame->exposure;
 }
 
 void frame_block_far(struct frame_block *block, const struct glint_capture *capture) {

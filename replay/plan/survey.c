@@ -71,7 +71,7 @@ void survey_capture_parts(const struct glint_capture *capture, struct glint_surv
     const struct glint_part_info *gbuffer = glint_capture_find(capture, GLINT_PART_GBUFFER);
     survey->has_fresnel = gbuffer && glint_part_has_channel(gbuffer, "material.fresnel");
     survey->has_previous = glint_capture_frame(capture)->has_previous;
-    survey->exposure = glint_capture_frame(capture)->exposure > 0 ? glint_capture_frame(capture)->exposure : 1;
+    survey->exposure = glint_capture_frame(capture)->exposure;
     survey->has_fog = glint_capture_frame(capture)->has_fog;
     survey->has_sun = glint_capture_frame(capture)->has_sun;
     survey->lamps = glint_capture_frame(capture)->light_count;

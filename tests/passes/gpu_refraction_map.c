@@ -69,8 +69,12 @@ static float caustic_at(uint32_t i) {
     return (float)(i * 2654435761U % 1021) / 256;
 }
 
-static void load(struct gpu *gpu, void (*water)(uint32_t x, uint32_t y, float out[9]), bool caustics,
-                 const char *const *words) {
+struct pool {
+    void (*water)(uint32_t x, uint32_t y, float out[9]);
+    void (*spoil)(const struct plain *plain, float *values); /* NULL: the level bottom */
+    bool caustics;
+};
+static void load_pool(struct gpu *gpu, const struct pool *pool, const char *const *words) {
     static const char *const slots[] = {"screen_trace", "cubemap_select", "cubemap_trace", "resolve", "upscale", NULL};
     static const char *const names[3] = {"R", "G", "B"};
     static float light[PIXELS];
@@ -85,9 +89,9 @@ static void load(struct gpu *gpu, void (*water)(uint32_t x, uint32_t y, float ou
                                                                .height = SIDE,
                                                                .roughness = 0.5F,
                                                                .fov_y_degrees = 60,
-                                                               .spoil = spoil_bottom,
-                                                               .water = water,
-                                                               .part = caustics ? &part : NULL});
+                                                               .spoil = pool->spoil ? pool->spoil : spoil_bottom,
+                                                               .water = pool->water,
+                                                               .part = pool->caustics ? &part : NULL});
     gpu_load(gpu, "pool");
     gpu_reset(gpu);
     gpu_without(gpu, slots);
@@ -98,6 +102,11 @@ static void load(struct gpu *gpu, void (*water)(uint32_t x, uint32_t y, float ou
     gpu_set(gpu, "water.intensity=0");
     for (; *words; words++) (strchr(*words, '.') ? gpu_set : gpu_use)(gpu, *words);
     gpu_run(gpu);
+}
+
+static void load(struct gpu *gpu, void (*water)(uint32_t x, uint32_t y, float out[9]), bool caustics,
+                 const char *const *words) {
+    load_pool(gpu, &(struct pool){.water = water, .caustics = caustics}, words);
 }
 
 /* Where the refracted ray of a pixel ends, in pixels. Snell's law at a level plane: what of the direction is along it is divided by the index. */
@@ -166,6 +175,95 @@ static void the_refracted_ray_ends_where_snell_says(void **state) {
         if (s != 4) assert_true(farthest > 4 && (wide == 2 || behind_post > SIDE));
         free(found);
     }
+}
+
+/* ---- a bottom that descends away from the shore ---- */
+
+/* At z = -SHORE it meets the water, and is SLOPE deeper with each metre farther away. */
+static const double SLOPE = 0.2, SHORE = 1.8;
+static double slope_depth(double down) {
+    return (1 - SLOPE * SHORE) / (down - SLOPE);
+}
+static bool is_sloped(uint32_t y) {
+    const double down = down_at(y);
+    return down > SLOPE + 0.03 && slope_depth(down) > SHORE;
+}
+static void sloped(uint32_t x, uint32_t y, float out[9]) {
+    const double down = down_at(y), length = sqrt(1 + pow(across_at(x), 2) + down * down);
+    clear(x, y, out);
+    out[7] = is_sloped(y) ? (float)(1 / down) : INFINITY;
+    out[8] = is_sloped(y) ? (float)((slope_depth(down) - 1 / down) * length) : 0;
+}
+static void spoil_slope(const struct plain *plain, float *values) {
+    spoil_bottom(plain, values);
+    for (uint32_t i = 0; i < PIXELS; i++) {
+        const double down = down_at(i / SIDE);
+        values[PLAIN_DEPTH * PIXELS + i] = down > SLOPE + 0.03 ? (float)slope_depth(down) : INFINITY;
+    }
+}
+
+/* The refracted ray of a pixel: where it starts, and how far it comes to the side, down and away with each metre. */
+struct ray {
+    double from[2], across, sinks, away;
+};
+static struct ray ray_of(uint32_t x, uint32_t y) {
+    const double across = across_at(x), down = down_at(y),
+                 along = 1 / (INDEX * sqrt(1 + across * across + down * down));
+    return (struct ray){
+        {across / down, 1 / down}, along * across, sqrt(1 - along * along * (1 + across * across)), along};
+}
+static void place_of(const struct ray *ray, double way, double place[2]) {
+    const double far = ray->from[1] + way * ray->away;
+    place[0] = ((ray->from[0] + way * ray->across) / far / HALF_VIEW + 1) / 2 * SIDE;
+    place[1] = ((1 + way * ray->sinks) / far / HALF_VIEW + 1) / 2 * SIDE;
+}
+static double true_way(const struct ray *ray) {
+    return SLOPE * (ray->from[1] - SHORE) / (ray->sinks - SLOPE * ray->away);
+}
+
+/* How far from the ray's true end two lookups of the bottom come, in pixels: each takes the depth that shows at the last end, the second one by the
+   secant, where one end was too deep and one not deep enough. -1 where an end shows no water. */
+static double off_after_two(uint32_t x, uint32_t y, bool secant) {
+    const struct ray ray = ray_of(x, y);
+    double way = SLOPE * (slope_depth(down_at(y)) - SHORE) / ray.sinks, before = way, missed = 0, ends[2][2];
+    for (int i = 0; i < 2; i++) {
+        const double seen = (1 + way * ray.sinks) / (ray.from[1] + way * ray.away);
+        if (!(seen > SLOPE + 0.05 && seen < 0.97 * HALF_VIEW && slope_depth(seen) > SHORE + 0.1)) return -1;
+        const double missing = SLOPE * (slope_depth(seen) - SHORE) / ray.sinks - way, here = way;
+        way += secant && missing * missed < 0 ? -missing * (way - before) / (missing - missed) : missing;
+        before = here, missed = missing;
+    }
+    place_of(&ray, way, ends[0]), place_of(&ray, true_way(&ray), ends[1]);
+    for (int k = 0; k < 4; k++)
+        if (!(ends[k / 2][k % 2] > 1 && ends[k / 2][k % 2] < SIDE - 1)) return -1;
+    return hypot(ends[0][0] - ends[1][0], ends[0][1] - ends[1][1]);
+}
+
+/* What is looked up is the middle of a texel, half a pixel at most from where the ray ends, so that the mean over pixels differs by less than that;
+   a quarter tells it from lookups that alternate between the two sides. */
+static void a_slope_is_met_by_the_secant(void **state) {
+    static const char *const words[] = {"downsample=none", NULL};
+    struct gpu *gpu = *state;
+    double mean = 0, by_secant = 0, alternating = 0;
+    int count = 0;
+    load_pool(gpu, &(struct pool){.water = sloped, .spoil = spoil_slope}, words);
+    float *found = gpu_floats(gpu, "composed_water", NULL, NULL);
+    for (uint32_t i = 0; i < PIXELS; i++) {
+        const uint32_t x = i % SIDE, y = i / SIDE;
+        if (!is_sloped(y)) continue;
+        const double off = off_after_two(x, y, true), other = off_after_two(x, y, false);
+        const struct ray ray = ray_of(x, y);
+        double right[2];
+        if (off < 0 || other < 0) continue;
+        place_of(&ray, true_way(&ray), right);
+        mean += hypot((double)found[4 * i] * SIDE - right[0], (double)found[4 * i + 1] * SIDE - right[1]);
+        by_secant += off, alternating += other, count++;
+    }
+    assert_true(count > 500);
+    print_message("# %d pixels: %.3f px from the end in the mean; expected %.3f, alternating %.3f\n", count,
+                  mean / count, by_secant / count, alternating / count);
+    assert_true(alternating - by_secant > 0.5 * count && fabs(mean - by_secant) < 0.25 * count);
+    free(found);
 }
 
 static double left_of(uint32_t x, uint32_t y, int along) {
@@ -382,6 +480,7 @@ static void the_plan_changes_no_bit(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_refracted_ray_ends_where_snell_says),
+        cmocka_unit_test(a_slope_is_met_by_the_secant),
         cmocka_unit_test(the_map_absorbs_and_scatters),
         cmocka_unit_test(one_pixel_stands_for_the_texel),
         cmocka_unit_test(without_water_there_is_no_pass),

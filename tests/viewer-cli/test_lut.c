@@ -188,6 +188,33 @@ static void grade_shows_what_view_does(void **state) {
     }
 }
 
+/* Another table takes the place of one that is there, and all else of the capture keeps its bits. */
+static void a_table_is_replaced(void **state) {
+    (void)state;
+    char tables[2][512];
+    float *values[2];
+    uint32_t width;
+    for (int i = 0; i < 2; i++) {
+        snprintf(tables[i], sizeof tables[i], "%s", in_folder(i ? "second.exr" : "first.exr"));
+        free(glint_ok("set", i ? tables[0] : in_folder("street.exr"), "--lut", i ? "sRGB" : "ACES", "--lut-size", "9",
+                      "--lut-stops", i ? "-8,6" : "-9,5", "-o", tables[i]));
+        free(glint_ok("validate", tables[i]));
+        values[i] = read_part(tables[i], "lut", &width);
+        assert_int_equal(width, 9);
+        assert_true(values[i][0] < 1e-3F && values[i][3 * 728] > 0.99F); /* black, and light above white */
+    }
+    assert_true(memcmp(values[0], values[1], 3 * 729 * sizeof *values[0]) != 0);
+    float *before = read_part(in_folder("street.exr"), "lit", &width), *after = read_part(tables[1], "lit", &width);
+    assert_memory_equal(before, after, 3 * PIXELS * sizeof *before);
+    struct glint_error err = {0};
+    struct glint_capture *capture = glint_capture_open(tables[1], NULL, &err);
+    if (!capture) fail_msg("%s", err.message);
+    const struct glint_frame *frame = glint_capture_frame(capture);
+    assert_true(frame->has_lut_stops && frame->lut_stops[0] == -8 && frame->lut_stops[1] == 6);
+    glint_capture_close(&capture);
+    free(values[0]), free(values[1]), free(before), free(after);
+}
+
 static void what_cannot_be_made_is_refused(void **state) {
     (void)state;
     char from[512], out[512];
@@ -203,6 +230,7 @@ static void what_cannot_be_made_is_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(grade_shows_what_view_does),
+                                       cmocka_unit_test(a_table_is_replaced),
                                        cmocka_unit_test(what_cannot_be_made_is_refused)};
     return cmocka_run_group_tests_name("cli_lut", tests, make_all, remove_folder);
 }

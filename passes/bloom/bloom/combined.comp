@@ -9,14 +9,8 @@
 #include "shared/constants.glsl"
 #include "this_frame/picture.glsl"
 
-// Interpolated between texels, whose borders repeat; by hand, since samplers round the weights.
-vec3 blurred_at(vec2 uv, int level) {
-    ivec2 last = textureSize(bloom_blurred, level) - 1;
-    vec2 place = uv * vec2(last + 1) - 0.5, part = place - floor(place);
-    ivec2 low = clamp(ivec2(floor(place)), ivec2(0), last), high = clamp(ivec2(floor(place)) + 1, ivec2(0), last);
-    return mix(mix(texelFetch(bloom_blurred, low, level).rgb, texelFetch(bloom_blurred, ivec2(high.x, low.y), level).rgb, part.x),
-               mix(texelFetch(bloom_blurred, ivec2(low.x, high.y), level).rgb, texelFetch(bloom_blurred, high, level).rgb, part.x), part.y);
-}
+vec3 level_color(ivec2 texel, int level) { return texelFetch(bloom_blurred, texel, level).rgb; }
+#include "filtering/between.glsl"
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -25,7 +19,8 @@ void main() {
     vec3 color = last_picture(pixel), sum = vec3(0.0);
     float weight = 1.0, total = 0.0;
     for (int level = 0; level < min(mips, textureQueryLevels(bloom_blurred)); ++level) {
-        sum += weight * blurred_at(uv, level);
+        ivec2 size = textureSize(bloom_blurred, level);
+        sum += weight * color_between(uv * vec2(size), size, level);
         total += weight;
         weight *= spread;
     }

@@ -33,20 +33,26 @@ vec4 map_at(vec2 uv) {
     return sum.a > 0.0 ? vec4(sum.rgb / sum.a, 1.0) : vec4(0.0);
 }
 
-// The map where the refracted ray hits the bottom: first as deep as behind the pixel, then as deep as it is there. Where that position shows
-// no water, such as an object in front of it, straight through.
-vec3 seen_through(Water water, ivec2 pixel) {
-    vec2 own = (vec2(pixel) + 0.5) / vec2(frame.size.xy), uv = own;
-    if (refraction) {
-        vec3 ray = refract(water.towards, water.normal, 1.0 / index);
-        float way_m = way_through(water.towards, water.thickness_m, ray), under_m = 1.0;
-        uv = seen_at(water.position + way_m * ray);
-        for (int i = 0; i < refinements && under_m > 0.0; ++i) {
-            under_m = depth_under(water.position, uv, way_m);
-            if (under_m > 0.0) way_m = under_m / max(-dot(ray, frame.up.xyz), 0.05);
-            uv = seen_at(water.position + way_m * ray);
-        }
+// Where the refracted ray hits the bottom: first as deep as behind the pixel, then as deep as it is where the ray would end. Between an end that is
+// not deep enough and one that is too deep, such as on a slope, by the secant.
+vec2 refracted_end(Water water) {
+    vec3 ray = refract(water.towards, water.normal, 1.0 / index);
+    float way_m = way_through(water.towards, water.thickness_m, ray), before_m = way_m, missing_before_m = 0.0;
+    for (int i = 0; i < refinements; ++i) {
+        float under_m = depth_under(water.position, seen_at(water.position + way_m * ray), way_m);
+        if (!(under_m > 0.0)) break;
+        float missing_m = under_m / max(-dot(ray, frame.up.xyz), 0.05) - way_m, here_m = way_m;
+        if (missing_m * missing_before_m < 0.0) way_m -= missing_m * (way_m - before_m) / (missing_m - missing_before_m);
+        else way_m += missing_m;
+        before_m = here_m;
+        missing_before_m = missing_m;
     }
+    return seen_at(water.position + way_m * ray);
+}
+
+// The map there. Where that position shows no water, such as an object in front of it, straight through.
+vec3 seen_through(Water water, ivec2 pixel) {
+    vec2 own = (vec2(pixel) + 0.5) / vec2(frame.size.xy), uv = refraction ? refracted_end(water) : own;
     vec4 behind = map_at(uv);
     if (behind.a == 0.0) {
         uv = own;
