@@ -112,9 +112,8 @@ static const struct example examples[] = {
 static const char *const probes[] = {"imperfect", "perfect", "auto", NULL};
 static const char *const truths[] = {"reflection",  "occlusion", "sun",   "indirect",
                                      "antialiased", "picture",   "lamps", NULL};
-static const char *const extras[] = {"ao",       "sun",       "shadow",   "volume",  "lut",      
-                                     "dirt", "stipple",
-                                     "decals", "lamps", "caustics", "froxels", "curvature", "sky",   NULL};
+static const char *const extras[] = {"ao",     "sun",   "shadow",   "volume",  "lut",       "dirt", "stipple",
+                                     "decals", "lamps", "caustics", "froxels", "curvature", "sky",  NULL};
 static const char *const compressions[] = {"zip", "none", "zips", "piz", "pxr24", "rle", NULL};
 
 static const struct arg_target targets[] = {

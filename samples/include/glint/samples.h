@@ -35,8 +35,7 @@ enum glint_also {
     GLINT_ALSO_DIRT = 1 << 5,       /* the dirt on its lens */
     GLINT_ALSO_STIPPLE = 1 << 6,    /* where stippled surfaces were drawn */
     GLINT_ALSO_DECALS = 1 << 7,     /* decals on the ground, in buffers of their own */
-    GLINT_ALSO_LAMPS =
-        1 << 8,    /* the light of the lamps, and shadow maps of at most eight spot lights */
+    GLINT_ALSO_LAMPS = 1 << 8,      /* the light of the lamps, and shadow maps of at most eight spot lights */
     GLINT_ALSO_CAUSTICS = 1 << 9,   /* light that water focuses on its bottom, in scenes with water and a sun */
     GLINT_ALSO_FROXELS = 1 << 10,   /* light in the air, in scenes with fog */
     GLINT_ALSO_CURVATURE = 1 << 11, /* of the surfaces */
