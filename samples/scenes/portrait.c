@@ -131,12 +131,15 @@ void build_portrait(struct scene *scene) {
     scene->light_samples = 32;
     scene->classes[scene->class_count++] = (struct glint_stencil_class){STENCIL_SKIN, STENCIL_SKIN, "skin"};
     person(scene);
-    begin(scene, v3(0.30f, 0.30f, 0.32f), 0.9f, 0.3f, STENCIL_WORLD); /* a wall of plaster behind */
-    scene_quad(scene, v3(-1.5f, 0.5f, -0.9f), v3(3, 0, 0), v3(0, 2.4f, 0));
+    begin(scene, v3(0.22f, 0.22f, 0.24f), 0.9f, 0.3f, STENCIL_WORLD); /* a dark room, open to the left of the head */
+    scene_room(scene, v3(-1.9f, 0, -0.9f), v3(1.4f, 2.6f, 2.3f), FACE_ALL & ~(uint32_t)FACE_PX);
+    begin(scene, v3(0.30f, 0.20f, 0.12f), 0.7f, 0.4f, STENCIL_WORLD); /* a cupboard, a shelf */
+    scene_box(scene, v3(-1.9f, 0, 0.6f), v3(-1.3f, 1.8f, 1.5f));
+    scene_box(scene, v3(-0.7f, 2.0f, 1.9f), v3(0.9f, 2.1f, 2.3f));
 
     scene->eye = v3(0.06f, 1.585f, 0.78f);
     scene->target = v3(0, 1.575f, 0);
     scene->fov_y_rad = 0.42f;
     scene->player = v3(0, 0, 0.8f);
-    for (int i = 0; i < 4; i++) scene_cubemap(scene, v3(i % 2 ? 0.4f : -0.4f, i < 2 ? 1.9f : 1.3f, 0.5f), false);
+    for (int i = 0; i < 4; i++) scene_cubemap(scene, v3(i % 2 ? 0.5f : -0.5f, i < 2 ? 1.8f : 1.2f, 1.5f), false);
 }
