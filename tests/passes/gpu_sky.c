@@ -321,6 +321,54 @@ static void fog_comes_after_the_sky(void **state) {
     free(sky), free(kept), free(covered), free(every), free(lit);
 }
 
+static void at_wall(UNUSED uint32_t number, UNUSED const double direction[3], float out[5]) {
+    for (int k = 0; k < 4; k++) out[k] = 1;
+    out[4] = 100;
+}
+/* Panes in the left third, water in the right one. */
+static void pane_at(uint32_t x, UNUSED uint32_t y, float out[9]) {
+    const float values[9] = {0.25F, 0.5F, 0.75F, 0.5F, 0, 0, 1, x < WIDE / 3 ? 2 : INFINITY, 0.5F};
+    memcpy(out, values, sizeof values);
+}
+static void water_at(uint32_t x, UNUSED uint32_t y, float out[9]) {
+    const float values[9] = {0, 0.125F, 0.25F, 0.5F, 0, 0, 1, x >= 2 * WIDE / 3 ? 2 : INFINITY, 1};
+    memcpy(out, values, sizeof values);
+}
+
+/* Water before the sky hides it, panes lie over it, and what is displayed shows it. */
+static void the_sky_is_behind_all(void **state) {
+    static const char *const words[] = {"whole",
+                                        "water=combine",
+                                        "transparent_downsample=nearest",
+                                        "transparent_screen_trace=linear",
+                                        "transparent_cubemap_trace=march",
+                                        "transparent_resolve=hit",
+                                        "transparency=trace",
+                                        "transparency.intensity=0",
+                                        "exposure=stops",
+                                        NULL},
+                             *const bare[] = {"whole", "exposure=stops", NULL};
+    struct gpu *gpu = *state;
+    sky_fill_unevenly();
+    struct plain plain = sky_plain(&earth, &sky_slab, NULL);
+    plain.cube_size = 8, plain.cube_count = 1, plain.cube = at_wall, plain.pane = pane_at, plain.water = water_at;
+    float *sky = sky_image(gpu, &plain, "composed_sky", words), *water = gpu_floats(gpu, "composed_water", NULL, NULL),
+          *panes = gpu_floats(gpu, "composed_transparent", NULL, NULL), *shown = gpu_floats(gpu, "exposed", NULL, NULL);
+    plain.pane = plain.water = NULL;
+    float *alone = sky_image(gpu, &plain, "composed_sky", bare), *exposed = gpu_floats(gpu, "exposed", NULL, NULL);
+    for (uint32_t i = 0; i < PIXELS; i++) {
+        const bool pane = i % WIDE < WIDE / 3, wet = i % WIDE >= 2 * WIDE / 3;
+        for (uint32_t k = 0; k < 3; k++) {
+            const float own = 0.25F * (float)(k + 1), below = sky[4 * i + k];
+            if (sky_shows(i)) assert_true(below == (wet ? water : alone)[4 * i + k]);
+            else assert_true(below == water[4 * i + k]);
+            assert_true(fabsf(panes[4 * i + k] - (pane ? 0.5F * (below + own) : below)) <= 1e-6F * (below + own));
+            assert_true(shown[4 * i + k] == panes[4 * i + k] && exposed[4 * i + k] == alone[4 * i + k]);
+        }
+    }
+    free(sky), free(water), free(panes), free(shown), free(alone), free(exposed);
+}
+
 /* ---- the engine's own picture ---- */
 
 static double mean_error(struct gpu *gpu, const float *engine, const float *depth, size_t pixels) {
@@ -369,9 +417,10 @@ static void the_engine_draws_the_same_sky(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_air_is_integrated),     cmocka_unit_test(an_even_atmosphere_scatters),
-        cmocka_unit_test(the_planet_shades_the_air), cmocka_unit_test(dark_air_shows_stars_alone),
-        cmocka_unit_test(scattering_has_switches),   cmocka_unit_test(without_sky_there_is_no_pass),
-        cmocka_unit_test(fog_comes_after_the_sky),   cmocka_unit_test(the_engine_draws_the_same_sky)};
+        cmocka_unit_test(the_air_is_integrated),        cmocka_unit_test(an_even_atmosphere_scatters),
+        cmocka_unit_test(the_planet_shades_the_air),    cmocka_unit_test(dark_air_shows_stars_alone),
+        cmocka_unit_test(scattering_has_switches),      cmocka_unit_test(without_sky_there_is_no_pass),
+        cmocka_unit_test(fog_comes_after_the_sky),      cmocka_unit_test(the_sky_is_behind_all),
+        cmocka_unit_test(the_engine_draws_the_same_sky)};
     return cmocka_run_group_tests_name("gpu_sky", tests, gpu_set_up, gpu_tear_down);
 }
