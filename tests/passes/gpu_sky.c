@@ -211,6 +211,36 @@ static void dark_air_shows_stars_alone(void **state) {
     free(none), free(seen), free(lit), free(passed), free(hidden), free(mask), free(halved);
 }
 
+/* Without air they are where the cube map's texels say, between four of them. */
+static void stars_lie_on_their_faces(void **state) {
+    static const char *const words[] = {NULL};
+    struct gpu *gpu = *state;
+    bool faces[7] = {false};
+    sky_fill_stars();
+    struct glint_atmosphere none = sky_even;
+    memset(none.rayleigh, 0, sizeof none.rayleigh);
+    for (int kind = 0; kind < 2; kind++) {
+        const double *view = kind ? sky_upwards : NULL;
+        const struct plain plain = sky_plain(&none, NULL, view);
+        float *found = sky_image(gpu, &plain, "composed_sky", words);
+        for (uint32_t i = 0; i < PIXELS; i++) {
+            double d[3], star[3];
+            sky_pixel_ray(i, view, d);
+            const float *at = found + 4 * i;
+            if (!sky_shows(i) || d[1] < 0.3) continue; /* others may be mixed with rays that meet the ground */
+            const uint32_t face = (uint32_t)(at[0] + 0.5F);
+            assert_true(face >= 1 && face <= 6 && fabsf(at[0] - (float)face) < 1e-5F);
+            faces[face] = true;
+            if (at[1] <= 0 || at[2] <= 0 || at[1] >= SIDE - 1 || at[2] >= SIDE - 1)
+                continue; /* nothing beyond the rim */
+            plain_direction(face - 1, (double)at[1], (double)at[2], SIDE, star);
+            for (int k = 0; k < 3; k++) assert_true(fabs(star[k] - d[k]) < 1e-5);
+        }
+        free(found);
+    }
+    for (int face = 1; face <= 6; face++) assert_true(faces[face] == (face != 4)); /* none below */
+}
+
 /* Molecules and particles by themselves make both together; each has its phase function. */
 static void scattering_has_switches(void **state) {
     static const char *const both[] = {"sky_compose.starry=false", NULL},
@@ -419,8 +449,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_air_is_integrated),        cmocka_unit_test(an_even_atmosphere_scatters),
         cmocka_unit_test(the_planet_shades_the_air),    cmocka_unit_test(dark_air_shows_stars_alone),
-        cmocka_unit_test(scattering_has_switches),      cmocka_unit_test(without_sky_there_is_no_pass),
-        cmocka_unit_test(fog_comes_after_the_sky),      cmocka_unit_test(the_sky_is_behind_all),
-        cmocka_unit_test(the_engine_draws_the_same_sky)};
+        cmocka_unit_test(stars_lie_on_their_faces),     cmocka_unit_test(scattering_has_switches),
+        cmocka_unit_test(without_sky_there_is_no_pass), cmocka_unit_test(fog_comes_after_the_sky),
+        cmocka_unit_test(the_sky_is_behind_all),        cmocka_unit_test(the_engine_draws_the_same_sky)};
     return cmocka_run_group_tests_name("gpu_sky", tests, gpu_set_up, gpu_tear_down);
 }
