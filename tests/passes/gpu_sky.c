@@ -316,6 +316,19 @@ static void without_sky_there_is_no_pass(void **state) {
     }
 }
 
+/* Passes that are told to run change nothing then, neither without an atmosphere nor with clouds that have no textures. */
+static void without_air_all_passes_change_nothing(void **state) {
+    static const char *const all[] = {"whole", "all", NULL};
+    struct gpu *gpu = *state;
+    for (int kind = 0; kind < 2; kind++) {
+        struct plain plain = sky_plain(NULL, kind ? &sky_slab : NULL, NULL);
+        plain.part = NULL;
+        float *found = sky_image(gpu, &plain, "composed_sky", all), *composed = gpu_floats(gpu, "composed", NULL, NULL);
+        assert_memory_equal(found, composed, 4 * PIXELS * sizeof *found);
+        free(found), free(composed);
+    }
+}
+
 /* Fog leaves the sky as it is, or covers it where it is told to; what is planned is what all passes make. */
 static void fog_comes_after_the_sky(void **state) {
     static const struct glint_fog fog = {.color = {0.5F, 0.75F, 1}, .density = 0.15, .base = 0, .scale_height = 10};
@@ -450,7 +463,8 @@ int main(void) {
         cmocka_unit_test(the_air_is_integrated),        cmocka_unit_test(an_even_atmosphere_scatters),
         cmocka_unit_test(the_planet_shades_the_air),    cmocka_unit_test(dark_air_shows_stars_alone),
         cmocka_unit_test(stars_lie_on_their_faces),     cmocka_unit_test(scattering_has_switches),
-        cmocka_unit_test(without_sky_there_is_no_pass), cmocka_unit_test(fog_comes_after_the_sky),
-        cmocka_unit_test(the_sky_is_behind_all),        cmocka_unit_test(the_engine_draws_the_same_sky)};
+        cmocka_unit_test(without_sky_there_is_no_pass), cmocka_unit_test(without_air_all_passes_change_nothing),
+        cmocka_unit_test(fog_comes_after_the_sky),      cmocka_unit_test(the_sky_is_behind_all),
+        cmocka_unit_test(the_engine_draws_the_same_sky)};
     return cmocka_run_group_tests_name("gpu_sky", tests, gpu_set_up, gpu_tear_down);
 }

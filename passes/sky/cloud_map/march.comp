@@ -73,6 +73,6 @@ void main() {
     if (any(greaterThanEqual(pixel, imageSize(cloud_map)))) return;
     vec4 found = vec4(0.0);
     float depth_m = texelFetch(depth_full, pixel, 0).x;
-    if (depth_m > LARGEST) found = clouds_along(pixel, ray_at((vec2(pixel) + 0.5) / vec2(frame.size.xy)));
+    if (has_clouds() && depth_m > LARGEST) found = clouds_along(pixel, ray_at((vec2(pixel) + 0.5) / vec2(frame.size.xy)));
     imageStore(cloud_map, pixel, found);
 }
