@@ -325,7 +325,12 @@ static void without_air_all_passes_change_nothing(void **state) {
         plain.part = NULL;
         float *found = sky_image(gpu, &plain, "composed_sky", all), *composed = gpu_floats(gpu, "composed", NULL, NULL);
         assert_memory_equal(found, composed, 4 * PIXELS * sizeof *found);
-        free(found), free(composed);
+        float *map = gpu_floats(gpu, "cloud_map", NULL, NULL), *passed = gpu_floats(gpu, "sky_passed", NULL, NULL),
+              *light = gpu_floats(gpu, "sky_rayleigh", NULL, NULL);
+        for (uint32_t i = 0; i < 4 * PIXELS; i++) assert_true(map[i] == 0);
+        for (uint32_t i = 0; i < 4 * LOW_WIDE * LOW_HIGH; i++)
+            assert_true(light[i] == 0 && (i % 4 == 3 || passed[i] == 1));
+        free(found), free(composed), free(map), free(passed), free(light);
     }
 }
 
