@@ -18,7 +18,7 @@ void main() {
     bool open = ground < 0.0;
     if (!open) range.y = min(range.y, ground);
     Scattered s = Scattered(vec3(0.0), vec3(0.0), vec3(1.0));
-    if (frame.atmosphere.x > 0.0 && range.y > range.x) s = scattered(high, slope, range, direction, steps, light_steps);
+    if (range.y > range.x) s = scattered(high, slope, range, direction, steps, light_steps);
     imageStore(sky_rayleigh, texel, vec4(storable(s.molecules, frame.up.w), 0.0));
     imageStore(sky_mie, texel, vec4(storable(s.particles, frame.up.w), 0.0));
     imageStore(sky_passed, texel, vec4(s.passed, open ? 1.0 : 0.0));
