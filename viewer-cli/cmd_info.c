@@ -128,14 +128,15 @@ static enum status print_capture(const struct arguments *a, struct glint_capture
         json_t *parts = json_array(), *carries = survey ? carries_json(capture, NULL) : NULL;
         for (size_t i = 0; i < glint_capture_part_count(capture); i++)
             json_array_append_new(parts, part_json(capture, glint_capture_part(capture, i), all));
-        return print_json(json_pack("{s:s, s:b, s:I, s:o, s:o, s:o, s:b, s:b, s:o, s:f, s:o, s:o*, s:o, s:o*, s:o*}",
-                                    "file", a->path, "capture", 1, "frame", (json_int_t)frame->number, "camera",
-                                    camera_json(frame), "depth", depth_facts_json(&depth), "parts", parts,
-                                    "has_previous", frame->has_previous, "fog", frame->has_fog, "jitter_px",
-                                    json_numbers(frame->jitter_px, 2), "metres_per_unit",
-                                    frame->metres_per_unit > 0 ? frame->metres_per_unit : 1.0, "notes",
-                                    frame_notes_json(frame), "sun", sun_json(frame), "lights", lights_json(frame),
-                                    "survey", survey ? survey_json(survey) : NULL, "presets", carries));
+        return print_json(
+            json_pack("{s:s, s:b, s:I, s:o, s:o, s:o, s:b, s:b, s:b, s:b, s:o, s:f, s:o, s:o*, s:o, s:o*, s:o*}",
+                      "file", a->path, "capture", 1, "frame", (json_int_t)frame->number, "camera", camera_json(frame),
+                      "depth", depth_facts_json(&depth), "parts", parts, "has_previous", frame->has_previous, "fog",
+                      frame->has_fog, "atmosphere", frame->has_atmosphere, "clouds", frame->has_clouds, "jitter_px",
+                      json_numbers(frame->jitter_px, 2), "metres_per_unit",
+                      frame->metres_per_unit > 0 ? frame->metres_per_unit : 1.0, "notes", frame_notes_json(frame),
+                      "sun", sun_json(frame), "lights", lights_json(frame), "survey",
+                      survey ? survey_json(survey) : NULL, "presets", carries));
     }
     struct stat file = {0};
     stat(glint_capture_path(capture), &file);

@@ -60,5 +60,5 @@ void build_meadow(struct scene *scene) {
     scene->fov_y_rad = 1.15f;
     scene->player = v3(0, 0.5f, 2);
     scene->player_step = scene->eye_step;
-    scene_cubemap(scene, v3(0, 2, -6), true);
+    for (int i = 0; i < 4; i++) scene_cubemap(scene, v3(-6 + 12 * (float)(i % 2), 2, i < 2 ? -5.0f : -18.0f), true);
 }

@@ -62,6 +62,7 @@ static void a_slab_of_cloud_hides_and_scatters(void **state) {
                              (double)found[4 * i + c], right[c], bound[c]);
             }
             if (kind == 1) assert_true(found[4 * i + 2] == 0);
+            if (right[0] > 1 - 0.99 * ldexp(1, -12)) assert_true(found[4 * i] == 1); /* nothing shines through */
         }
         print_message("# worst differences: mask %.2g, single %.2g, multiple %.2g; at most %.2f of the bound\n",
                       worst[0], worst[1], worst[2], most);
@@ -128,6 +129,40 @@ static void clouds_lie_in_the_world(void **state) {
     same_images(found[2], found[4], 1e-4, "z up"); /* sums in another order */
     assert_true(memcmp(found[0], found[2], 4 * PIXELS * sizeof(float)) != 0);
     for (int k = 0; k < 5; k++) free(found[k]);
+}
+
+/* Over a planet the layer comes down to the horizon, and ends there. What is seen of opaque clouds lies at its lower side: the n-th step, n from 0, hides
+   q^n (1 - q) of it, with q what passes a step, so that their mean distance is half a step and q / (1 - q) steps behind where the layer begins. Of what
+   is left below 2^-12 none counts. */
+static void clouds_end_at_the_horizon(void **state) {
+    enum { STEPS = 48 };
+    static const char *const words[] = {"cloud_map.jitter=false", "cloud_map.length_m=1e6", NULL};
+    const struct glint_atmosphere air = {.planet_radius = 6360e3, .top = 60e3};
+    struct gpu *gpu = *state;
+    double farthest = 0, worst = 0;
+    sky_fill_evenly(1);
+    const struct plain plain = sky_plain(&air, &sky_solid, NULL);
+    float *found = sky_image(gpu, &plain, "cloud_map", words);
+    for (uint32_t i = 0; i < PIXELS; i++) {
+        double d[3];
+        sky_pixel_ray(i, NULL, d);
+        if (!sky_shows(i) || d[1] < 0) {
+            assert_true(found[4 * i] == 0);
+            continue;
+        }
+        const double r = air.planet_radius, b = r * d[1], begin = sqrt(b * b + 1000 * (2 * r + 1000)) - b,
+                     end = sqrt(b * b + 1500 * (2 * r + 1500)) - b, step = (end - begin) / STEPS,
+                     q = exp(-sky_solid.extinction * step), right = begin + step * (0.5 + q / (1 - q)),
+                     bound = ldexp(end - begin, -12) + right * ldexp(1, -18),
+                     difference = 1000 * (double)found[4 * i + 3] - right;
+        assert_true(found[4 * i] == 1);
+        farthest = fmax(farthest, right), worst = fmax(worst, fabs(difference) / bound);
+        if (!(fabs(difference) <= bound))
+            fail_msg("pixel %u,%u: at %g m, expected %g within %g", i % WIDE, i / WIDE, right + difference, right,
+                     bound);
+    }
+    print_message("# up to %.0f m, at most %.2f of the bound\n", farthest, worst);
+    free(found);
 }
 
 /* Textures that were moved over their borders lie where they lay if the wind moves them back, and the ground the noise. */
@@ -228,6 +263,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(a_slab_of_cloud_hides_and_scatters),
                                        cmocka_unit_test(clouds_have_switches),
                                        cmocka_unit_test(clouds_lie_in_the_world),
+                                       cmocka_unit_test(clouds_end_at_the_horizon),
                                        cmocka_unit_test(clouds_repeat),
                                        cmocka_unit_test(clouds_lie_in_haze),
                                        cmocka_unit_test(cloud_shadows_are_in_the_mask)};

@@ -211,6 +211,36 @@ static void dark_air_shows_stars_alone(void **state) {
     free(none), free(seen), free(lit), free(passed), free(hidden), free(mask), free(halved);
 }
 
+/* Without air they are where the cube map's texels say, between four of them. */
+static void stars_lie_on_their_faces(void **state) {
+    static const char *const words[] = {NULL};
+    struct gpu *gpu = *state;
+    bool faces[7] = {false};
+    sky_fill_stars();
+    struct glint_atmosphere none = sky_even;
+    memset(none.rayleigh, 0, sizeof none.rayleigh);
+    for (int kind = 0; kind < 2; kind++) {
+        const double *view = kind ? sky_upwards : NULL;
+        const struct plain plain = sky_plain(&none, NULL, view);
+        float *found = sky_image(gpu, &plain, "composed_sky", words);
+        for (uint32_t i = 0; i < PIXELS; i++) {
+            double d[3], star[3];
+            sky_pixel_ray(i, view, d);
+            const float *at = found + 4 * i;
+            if (!sky_shows(i) || d[1] < 0.3) continue; /* others may be mixed with rays that meet the ground */
+            const uint32_t face = (uint32_t)(at[0] + 0.5F);
+            assert_true(face >= 1 && face <= 6 && fabsf(at[0] - (float)face) < 1e-5F);
+            faces[face] = true;
+            if (at[1] <= 0 || at[2] <= 0 || at[1] >= SIDE - 1 || at[2] >= SIDE - 1)
+                continue; /* nothing beyond the rim */
+            plain_direction(face - 1, (double)at[1], (double)at[2], SIDE, star);
+            for (int k = 0; k < 3; k++) assert_true(fabs(star[k] - d[k]) < 1e-5);
+        }
+        free(found);
+    }
+    for (int face = 1; face <= 6; face++) assert_true(faces[face] == (face != 4)); /* none below */
+}
+
 /* Molecules and particles by themselves make both together; each has its phase function. */
 static void scattering_has_switches(void **state) {
     static const char *const both[] = {"sky_compose.starry=false", NULL},
@@ -286,6 +316,24 @@ static void without_sky_there_is_no_pass(void **state) {
     }
 }
 
+/* Passes that are told to run change nothing then, neither without an atmosphere nor with clouds that have no textures. */
+static void without_air_all_passes_change_nothing(void **state) {
+    static const char *const all[] = {"whole", "all", NULL};
+    struct gpu *gpu = *state;
+    for (int kind = 0; kind < 2; kind++) {
+        struct plain plain = sky_plain(NULL, kind ? &sky_slab : NULL, NULL);
+        plain.part = NULL;
+        float *found = sky_image(gpu, &plain, "composed_sky", all), *composed = gpu_floats(gpu, "composed", NULL, NULL);
+        assert_memory_equal(found, composed, 4 * PIXELS * sizeof *found);
+        float *map = gpu_floats(gpu, "cloud_map", NULL, NULL), *passed = gpu_floats(gpu, "sky_passed", NULL, NULL),
+              *light = gpu_floats(gpu, "sky_rayleigh", NULL, NULL);
+        for (uint32_t i = 0; i < 4 * PIXELS; i++) assert_true(map[i] == 0);
+        for (uint32_t i = 0; i < 4 * LOW_WIDE * LOW_HIGH; i++)
+            assert_true(light[i] == 0 && (i % 4 == 3 || passed[i] == 1));
+        free(found), free(composed), free(map), free(passed), free(light);
+    }
+}
+
 /* Fog leaves the sky as it is, or covers it where it is told to; what is planned is what all passes make. */
 static void fog_comes_after_the_sky(void **state) {
     static const struct glint_fog fog = {.color = {0.5F, 0.75F, 1}, .density = 0.15, .base = 0, .scale_height = 10};
@@ -319,6 +367,54 @@ static void fog_comes_after_the_sky(void **state) {
     }
     assert_true(changed > 3 * PIXELS / 2);
     free(sky), free(kept), free(covered), free(every), free(lit);
+}
+
+static void at_wall(UNUSED uint32_t number, UNUSED const double direction[3], float out[5]) {
+    for (int k = 0; k < 4; k++) out[k] = 1;
+    out[4] = 100;
+}
+/* Panes in the left third, water in the right one. */
+static void pane_at(uint32_t x, UNUSED uint32_t y, float out[9]) {
+    const float values[9] = {0.25F, 0.5F, 0.75F, 0.5F, 0, 0, 1, x < WIDE / 3 ? 2 : INFINITY, 0.5F};
+    memcpy(out, values, sizeof values);
+}
+static void water_at(uint32_t x, UNUSED uint32_t y, float out[9]) {
+    const float values[9] = {0, 0.125F, 0.25F, 0.5F, 0, 0, 1, x >= 2 * WIDE / 3 ? 2 : INFINITY, 1};
+    memcpy(out, values, sizeof values);
+}
+
+/* Water before the sky hides it, panes lie over it, and what is displayed shows it. */
+static void the_sky_is_behind_all(void **state) {
+    static const char *const words[] = {"whole",
+                                        "water=combine",
+                                        "transparent_downsample=nearest",
+                                        "transparent_screen_trace=linear",
+                                        "transparent_cubemap_trace=march",
+                                        "transparent_resolve=hit",
+                                        "transparency=trace",
+                                        "transparency.intensity=0",
+                                        "exposure=stops",
+                                        NULL},
+                             *const bare[] = {"whole", "exposure=stops", NULL};
+    struct gpu *gpu = *state;
+    sky_fill_unevenly();
+    struct plain plain = sky_plain(&earth, &sky_slab, NULL);
+    plain.cube_size = 8, plain.cube_count = 1, plain.cube = at_wall, plain.pane = pane_at, plain.water = water_at;
+    float *sky = sky_image(gpu, &plain, "composed_sky", words), *water = gpu_floats(gpu, "composed_water", NULL, NULL),
+          *panes = gpu_floats(gpu, "composed_transparent", NULL, NULL), *shown = gpu_floats(gpu, "exposed", NULL, NULL);
+    plain.pane = plain.water = NULL;
+    float *alone = sky_image(gpu, &plain, "composed_sky", bare), *exposed = gpu_floats(gpu, "exposed", NULL, NULL);
+    for (uint32_t i = 0; i < PIXELS; i++) {
+        const bool pane = i % WIDE < WIDE / 3, wet = i % WIDE >= 2 * WIDE / 3;
+        for (uint32_t k = 0; k < 3; k++) {
+            const float own = 0.25F * (float)(k + 1), below = sky[4 * i + k];
+            if (sky_shows(i)) assert_true(below == (wet ? water : alone)[4 * i + k]);
+            else assert_true(below == water[4 * i + k]);
+            assert_true(fabsf(panes[4 * i + k] - (pane ? 0.5F * (below + own) : below)) <= 1e-6F * (below + own));
+            assert_true(shown[4 * i + k] == panes[4 * i + k] && exposed[4 * i + k] == alone[4 * i + k]);
+        }
+    }
+    free(sky), free(water), free(panes), free(shown), free(alone), free(exposed);
 }
 
 /* ---- the engine's own picture ---- */
@@ -369,9 +465,11 @@ static void the_engine_draws_the_same_sky(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_air_is_integrated),     cmocka_unit_test(an_even_atmosphere_scatters),
-        cmocka_unit_test(the_planet_shades_the_air), cmocka_unit_test(dark_air_shows_stars_alone),
-        cmocka_unit_test(scattering_has_switches),   cmocka_unit_test(without_sky_there_is_no_pass),
-        cmocka_unit_test(fog_comes_after_the_sky),   cmocka_unit_test(the_engine_draws_the_same_sky)};
+        cmocka_unit_test(the_air_is_integrated),        cmocka_unit_test(an_even_atmosphere_scatters),
+        cmocka_unit_test(the_planet_shades_the_air),    cmocka_unit_test(dark_air_shows_stars_alone),
+        cmocka_unit_test(stars_lie_on_their_faces),     cmocka_unit_test(scattering_has_switches),
+        cmocka_unit_test(without_sky_there_is_no_pass), cmocka_unit_test(without_air_all_passes_change_nothing),
+        cmocka_unit_test(fog_comes_after_the_sky),      cmocka_unit_test(the_sky_is_behind_all),
+        cmocka_unit_test(the_engine_draws_the_same_sky)};
     return cmocka_run_group_tests_name("gpu_sky", tests, gpu_set_up, gpu_tear_down);
 }

@@ -49,6 +49,14 @@ void sky_fill_unevenly(void) {
     }
 }
 
+void sky_fill_stars(void) {
+    for (uint32_t i = 0; i < 6 * SIDE * SIDE; i++) {
+        stars[0][i] = (float)(1 + i / (SIDE * SIDE));
+        stars[1][i] = (float)(i % SIDE);
+        stars[2][i] = (float)(i / SIDE % SIDE);
+    }
+}
+
 static void roll(float *values, uint32_t slices, uint32_t right, uint32_t down, uint32_t up) {
     float kept[SIDE * SIDE * SIDE];
     memcpy(kept, values, slices * SIDE * SIDE * sizeof *kept);

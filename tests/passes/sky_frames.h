@@ -15,6 +15,8 @@ extern const struct glint_clouds sky_slab, sky_solid;
 /* What the textures of clouds and stars hold in the captures that are written next. */
 void sky_fill_evenly(float cloud);
 void sky_fill_unevenly(void);
+/* Stars that say where they lie: red is their face, from 1, green and blue are the texel's place in it. */
+void sky_fill_stars(void);
 /* Moves what they hold by texels, over their borders to the other side; of the noise by slices, too. */
 void sky_roll(uint32_t right, uint32_t down, uint32_t up);
 /* The lowest rows are the wall, the others the sky; with `user` all are the wall. view: NULL: along -z. */

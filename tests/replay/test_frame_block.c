@@ -258,6 +258,55 @@ static void the_sun_is_as_the_capture_says(UNUSED void **unused) {
     assert_true(block.sun_irradiance.x == 3 && block.sun_irradiance.y == 2 && block.sun_irradiance.z == 1);
 }
 
+/* Altitudes count along the axis that points up from the ground, which is in units; the wind moves clouds along the other two. Their places keep
+   millimetres at 1,000 km from the origin. */
+static void air_is_where_the_world_says(UNUSED void **unused) {
+    static const struct {
+        enum glint_axis up;
+        int axis, across[2];
+        double sign;
+    } ups[] = {{GLINT_AXIS_X, 0, {1, 2}, 1},      {GLINT_AXIS_Y, 1, {0, 2}, 1},      {GLINT_AXIS_Z, 2, {0, 1}, 1},
+               {GLINT_AXIS_NEG_X, 0, {1, 2}, -1}, {GLINT_AXIS_NEG_Y, 1, {0, 2}, -1}, {GLINT_AXIS_NEG_Z, 2, {0, 1}, -1}};
+    const double eye[3] = {1e8 + 12.5, -1e8 - 700, 1e8 + 33}; /* cm */
+    for (size_t i = 0; i < sizeof ups / sizeof *ups; i++) {
+        struct glint_frame frame = {
+            .metres_per_unit = 0.01, .up = ups[i].up, .has_atmosphere = true, .has_clouds = true};
+        struct frame_block block;
+        for (int k = 0; k < 3; k++)
+            frame.camera.world_to_view[5 * k] = 1, frame.camera.world_to_view[4 * k + 3] = -eye[k];
+        frame.camera.world_to_view[15] = 1;
+        frame.camera.view_to_clip[0] = frame.camera.view_to_clip[5] = 1, frame.camera.view_to_clip[14] = -1;
+        frame.camera.view_to_clip[10] = -1, frame.camera.view_to_clip[11] = -0.1;
+        const double along = ups[i].sign * eye[ups[i].axis];
+        frame.atmosphere = (struct glint_atmosphere){.planet_radius = 6e6,
+                                                     .ground = along - 200,
+                                                     .top = 5e4,
+                                                     .irradiance = {1, 2, 3},
+                                                     .rayleigh = {4, 5, 6},
+                                                     .mie = 7};
+        frame.clouds = (struct glint_clouds){.ground = along - 300,
+                                             .bottom = 1000,
+                                             .top = 1500,
+                                             .tile = 7000,
+                                             .extinction = 0.5,
+                                             .offset = {12345, -54321}};
+        fill_block(&block, &frame);
+        assert_true(block.atmosphere.x == 6e6F && block.atmosphere.y == 5e4F && fabsf(block.atmosphere.z - 2) < 1e-5F);
+        assert_true(block.sun_above.z == 3 && block.rayleigh.y == 5 && block.rayleigh.w == 8000);
+        assert_true(block.mie.x == 7 && block.mie.y == 0 && block.mie.z == 1200 && block.mie.w == 0);
+        assert_true(block.cloud_layer.x == 1000 && block.cloud_layer.y == 1500 &&
+                    fabsf(block.cloud_layer.z - 3) < 1e-5F);
+        assert_true(block.cloud_layer.w == 0.5F && block.cloud_tile.x == 7000 && block.cloud_tile.y == 1000);
+        const float found[4] = {block.cloud_place.x, block.cloud_place.y, block.cloud_place.z, block.cloud_place.w};
+        for (int k = 0; k < 4; k++) {
+            const double side = k < 2 ? 7000 : 1000,
+                         place = 0.01 * eye[ups[i].across[k % 2]] - frame.clouds.offset[k % 2],
+                         away = remainder(place - (double)found[k] * side, side);
+            assert_true(found[k] >= 0 && found[k] <= 1 && fabs(away) < 1e-3);
+        }
+    }
+}
+
 /* std140 as in the shader: offsets in a block of 16-byte members. */
 static void the_layout_is_std140(UNUSED void **unused) {
     assert_int_equal(offsetof(struct frame_block, world_from_view), 64);
@@ -274,6 +323,7 @@ int main(void) {
         cmocka_unit_test(rotations_in_floats_do_not_move_the_camera),
         cmocka_unit_test(fog_and_up_are_in_metres),
         cmocka_unit_test(the_sun_is_as_the_capture_says),
+        cmocka_unit_test(air_is_where_the_world_says),
         cmocka_unit_test(the_layout_is_std140),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -208,6 +208,8 @@ class Tests:
         frame = glint.Frame(glint.Camera(view, CLIP), glint.Camera(EYE, CLIP), True, numbers.standard_normal(3), [0.25, -0.5], 2.0, 0.125, 0.01, 0.1, 4000.0,
                             0.5, 16.0, 2 ** 32 - 1, "-z", "down", "minus_one_to_one", glint.Fog([0.5, 0.25, 1], 0.01, -3.0, 40.0, True),
                             [glint.StencilClass(i, 3, f"class {i}") for i in range(32)], glint.MaterialModel(4, 0.84, 8, 2))
+        frame.atmosphere = glint.Atmosphere(6360e3, 60e3, [20, 19, 18], [0.25, 0.5, 0.75], -3.0, 7900.0, 4e-6, 4.4e-6, 1300.0, -0.25)
+        frame.clouds = glint.Clouds(1500.0, 1750.5, 9000.0, 0.03, -3.0, 800.0, 0.25, [1e6 + 0.5, -7])
         hull = numbers.standard_normal((64, 4))
         cube = glint.CubeMap(numbers.standard_normal(3) * 1e6, True, 0.5, 9, "hull", planes=hull)
         box = glint.CubeMap([1, 2, 3], inner="box", box_min=[-1, -2, -3], box_max=[1, 2, 3])

@@ -203,11 +203,12 @@ void info_print_camera(const struct glint_frame *frame) {
     printf("field of view %.1f° × %.1f°, near %s, far %s, %s metres per unit, %s up\n", c.fov_x_deg, c.fov_y_deg,
            number_text(c.near), number_text(c.far),
            number_text(frame->metres_per_unit > 0 ? frame->metres_per_unit : 1), axis_name(frame->up));
-    printf("%s; exposure %s; %s\n",
+    printf("%s; exposure %s; %s%s%s\n",
            !frame->has_previous ? "no previous frame"
            : frame->cut         ? "after a cut"
                                 : "has the previous frame",
-           number_text(frame->exposure > 0 ? frame->exposure : 1), frame->has_fog ? "fog" : "no fog");
+           number_text(frame->exposure > 0 ? frame->exposure : 1), frame->has_fog ? "fog" : "no fog",
+           frame->has_atmosphere ? ", an atmosphere" : "", frame->has_clouds ? ", clouds" : "");
     frame_notes_print(frame);
 }
 

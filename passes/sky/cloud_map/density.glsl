@@ -29,6 +29,9 @@ float in_noise(vec3 part) {
     return mix(in_slice(cloud_noise, part.xy, ivec2(size), a * size), in_slice(cloud_noise, part.xy, ivec2(size), b * size), place - low);
 }
 
+// The pass may run without.
+bool has_clouds() { return frame.cloud_tile.x > 0.0 && textureSize(cloud_density, 0).y >= SLICES; }
+
 vec2 horizontal(vec3 world) {
     return frame.up.x != 0.0 ? world.yz : frame.up.y != 0.0 ? world.xz : world.xy;
 }

@@ -60,9 +60,9 @@ vec4 clouds_along(ivec2 pixel, vec3 direction) {
         float covered = passed * -expm1(-frame.cloud_layer.w * density * step_m), sun_slope = slope_towards(high, slope, along_m, upward, ahead);
         if (has_sun && !meets_ground(altitude, sun_slope))
             sum += covered * scattered(depth_to_sun(along_m * direction, altitude, sun_slope), ahead);
-        distance_m += covered * along_m;
         passed = max(passed - covered, 0.0);
-        if (passed < OPAQUE) passed = 0.0;
+        if (passed < OPAQUE) covered += passed, passed = 0.0;
+        distance_m += covered * along_m;
     }
     float mask = 1.0 - passed;
     return vec4(mask, storable(vec3(sum, mask > 0.0 ? 0.001 * distance_m / mask : 0.0), frame.up.w));
@@ -73,6 +73,6 @@ void main() {
     if (any(greaterThanEqual(pixel, imageSize(cloud_map)))) return;
     vec4 found = vec4(0.0);
     float depth_m = texelFetch(depth_full, pixel, 0).x;
-    if (depth_m > LARGEST) found = clouds_along(pixel, ray_at((vec2(pixel) + 0.5) / vec2(frame.size.xy)));
+    if (has_clouds() && depth_m > LARGEST) found = clouds_along(pixel, ray_at((vec2(pixel) + 0.5) / vec2(frame.size.xy)));
     imageStore(cloud_map, pixel, found);
 }

@@ -40,7 +40,8 @@ vec3 sky_light(ivec2 pixel, vec3 captured) {
     vec2 uv = (vec2(pixel) + 0.5) / vec2(frame.size.xy);
     vec3 direction = ray_at(uv), molecules = vec3(0.0), particles = vec3(0.0), behind = captured;
     float cosine = dot(direction, frame.sun_direction.xyz);
-    if (has_sky_rayleigh) {
+    bool has_atmosphere = has_sky_rayleigh && frame.atmosphere.x > 0.0; // the passes that make these images may run without
+    if (has_atmosphere) {
         vec4 through = upsampled(sky_passed, uv);
         behind = through.w * through.rgb * star_light(direction);
         if (rayleigh) molecules = rayleigh_phase(cosine) * upsampled(sky_rayleigh, uv).rgb;
@@ -52,7 +53,7 @@ vec3 sky_light(ivec2 pixel, vec3 captured) {
     if (!(cloud.x > 0.0)) return air + behind;
     float far_m = 1000.0 * cloud.w, slope = dot(direction, frame.up.xyz), high = max(frame.atmosphere.x > 0.0 ? frame.atmosphere.z : frame.cloud_layer.z, 0.0);
     Scattered before = Scattered(vec3(0.0), vec3(0.0), vec3(1.0));
-    if (haze && has_sky_rayleigh) before = scattered(high, slope, vec2(0.0, far_m), direction, steps, light_steps);
+    if (haze && has_atmosphere) before = scattered(high, slope, vec2(0.0, far_m), direction, steps, light_steps);
     vec3 own = (cloud.y + (multiple ? cloud.z : 0.0)) * sun_on_cloud(high, slope, far_m, direction);
     vec3 front = vec3(0.0);
     if (rayleigh) front += min(rayleigh_phase(cosine) * before.molecules, molecules);

@@ -206,14 +206,14 @@ class Frame:
     clip_z: str = "zero_to_one"
     """range of NDC z: "zero_to_one" or "minus_one_to_one\""""
     fog: Fog | None = None
-    atmosphere: Atmosphere | None = None
-    clouds: Clouds | None = None
     classes: list[StencilClass] = counted("class_count", list)
     """at most 32"""
     material: MaterialModel | None = None
     sun: Sun | None = None
     lights: list[Light] = counted("light_count", list)
     """at most 64"""
+    atmosphere: Atmosphere | None = None
+    clouds: Clouds | None = None
 
 
 @mirrors("glint_cubemap")
