@@ -23,7 +23,7 @@
 #undef MAXIMUM
 #line 25
 const int ALL_FIGURES = 512;
-const int FIGURES = whole ? ALL_FIGURES : 240; // words of a workgroup: plans only need the first lines of figures.h
+const int FIGURES = whole ? ALL_FIGURES : at_surface_roughness; // words of a workgroup: plans only need the lines of figures.h before it
 shared uint figures[ALL_FIGURES];
 // The bits of non-negative floats have the order of their values.
 const uint COUNTED = 0u, LOWEST = 1u, HIGHEST = 2u;

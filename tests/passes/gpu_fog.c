@@ -206,7 +206,7 @@ static void without_fog_there_is_no_pass(void **state) {
     struct gpu *gpu = *state;
     for (int kind = 0; kind < 2; kind++) { /* no fog; no shadow map */
         const struct plain plain = plain_of(kind ? &even : NULL, !kind, false);
-        bool ran[3];
+        bool ran[3] = {true, true, false};
         run(gpu, &plain, none);
         const char *const reasons[] = {reason_of(gpu, "shaft_march", &ran[0]), reason_of(gpu, "shaft_blur", &ran[1]),
                                        reason_of(gpu, "fog", &ran[2])};

@@ -84,8 +84,7 @@ static void several_captures_make_one_table_and_one_sheet(UNUSED void **state) {
     outcome_free(&csv);
     text = glint_ok("compare", in_folder("matte.exr"), "--repeat=1", "--effect=reflection", "--json");
     json = parse_json(text);
-    assert_non_null(preset_of(
-        json, 0, "mafia_de = mafia_de_display = mafia_de_frame = mafia_de_taa")); /* one and the same reflections */
+    assert_non_null(preset_of(json, 0, "mafia_de = mafia_de_frame = mafia_de_taa")); /* one and the same reflections */
     assert_non_null(preset_of(json, 0, "mafia3"));
     json_decref(json);
     free(text);

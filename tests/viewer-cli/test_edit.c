@@ -63,6 +63,9 @@ static const char *value_of(const char *key, const char *form) {
         {"volumeSlices", "2"},
         {"froxelSlices", "2"},
         {"froxelFar", "100"},
+        {"atmosphere.mieScattering", "1e-06"},
+        {"atmosphere.mieAsymmetry", "-0.5"},
+        {"cloudTop", "9000"},
     };
     for (size_t i = 0; i < sizeof values / sizeof *values; i++)
         if (!strcmp(values[i].key, key)) return values[i].value;

@@ -183,8 +183,6 @@ class Frame:
     """(2,): the sub-pixel offset that view_to_clip contains; +x right, +y down"""
     exposure: float = 1.0
     """factor from scene-referred to display, > 0; 0: 1"""
-    lut_stops: Floats | None = None
-    """(2,): the part lut is looked up by linear light between these stops, see lutStops in FORMAT.md; None: by sRGB-encoded colours"""
     pre_exposure: float = 1.0
     """factor that pre-exposed colour contains, > 0; 0: 1"""
     metres_per_unit: float = 1.0
@@ -214,6 +212,8 @@ class Frame:
     """at most 64"""
     atmosphere: Atmosphere | None = None
     clouds: Clouds | None = None
+    lut_stops: Floats | None = None
+    """(2,): the part lut is looked up by linear light between these stops, see lutStops in FORMAT.md; None: by sRGB-encoded colours"""
 
 
 @mirrors("glint_cubemap")
