@@ -350,7 +350,7 @@ static void without_the_part_nothing_changes(void **state) {
     static const char *const plain_fog[] = {NULL};
     struct gpu *gpu = *state;
     struct plain plain = plain_of(&even, false);
-    bool ran;
+    bool ran = true;
     whole = true;
     run(gpu, &plain, plain_fog);
     float *right = gpu_floats(gpu, "composed_fog", NULL, NULL);
