@@ -85,7 +85,7 @@ def compare(glint, capture, presets, rounds, together=6):
             files = [pathlib.Path(folder) / f"{first + i}.json" for i in range(len(chosen))]
             for file, key in zip(files, chosen):
                 file.write_text(json.dumps(presets[key]))
-            answer = json.loads(run(glint, "compare", capture, "--presets", ",".join(map(str, files)), "--repeat", rounds, "--json"))
+            answer = json.loads(run(glint, "compare", capture, "--effect", "reflection", "--presets", ",".join(map(str, files)), "--repeat", rounds, "--json"))
             report.update(zip(chosen, answer["captures"][0]["presets"]))
     return answer["device"], report
 

@@ -127,7 +127,7 @@ def measure(glint, scenes, names, docs):
     with tempfile.TemporaryDirectory() as folder:
         for scene in scenes:
             capture, out = sample(glint, scene, folder, SIZE, CUBE, "--truth", TRUTH), pathlib.Path(folder) / scene
-            run(glint, "compare", capture, "--presets", ",".join(names), "--repeat", 1, "-o", out)
+            run(glint, "compare", capture, "--effect", "reflection", "--presets", ",".join(names), "--repeat", 1, "-o", out)
             found[scene] = json.loads((out / "table.json").read_text())["captures"][0]["presets"]
             run("oiiotool", out / "sheet.png", "--ch", "R,G,B", "--compression", "jpeg:80", "-o", docs / f"presets-{scene}.jpg")
             capture.unlink()

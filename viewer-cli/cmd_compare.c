@@ -223,7 +223,7 @@ static enum status cmd_compare_run(int argc, char **argv) {
     struct arguments a = {.rounds = 3};
     command_parse(&cmd_compare, argc, argv, &a);
     struct glint_error err = {0};
-    struct contest contest = {.rounds = a.rounds, .join = a.every};
+    struct contest contest = {.rounds = a.rounds, .join = a.every, .skip = !a.effect};
     const struct glint_device_options device = {.select = a.device};
     bool ok = contest_begin(&contest, a.presets.items, &a.settings, &err);
     if (ok) pipeline_note_fog(&cmd_compare, contest.all[0].pipeline, captures_fogged(&a.captures));
@@ -250,8 +250,7 @@ const struct command cmd_compare = {
         "all passes, measured in alternating rounds. Passes that a scene does not need are not run, and listed. Fog "
         "is off, because the truth has none. Without --presets, presets that make the result by the same passes are "
         "measured once, and have the time of the first. Several effects are compared one after the other, each with "
-        "its own "
-        "table, or in a folder FOLDER/EFFECT of its own.",
+        "its own table of the presets that make it, or in a folder FOLDER/EFFECT of its own.",
     .options = options,
     .targets = targets,
     .operand = "capture",

@@ -52,6 +52,7 @@ struct contest {
     struct contestant *contestants; /* those of them that are measured */
     size_t count;
     bool join; /* measure presets once that make the effect's result in the same way */
+    bool skip; /* leave out presets that do not make it */
     uint32_t rounds;
     struct glint_device *device;
     struct glint_judge *judge; /* created with the first capture; the index of a contestant is its lineage */
@@ -64,8 +65,8 @@ struct contest {
 bool contest_begin(struct contest *contest, const char *const *presets, const struct list *settings,
                    struct glint_error *err);
 void contest_finish(struct contest *contest);
-/* Chooses the effect that is compared from here on, and with `join` the contestants: of several that make its result by the same passes the
-   first, which has the names of all. */
+/* Chooses the effect that is compared from here on, and the contestants: with `join` of several that make its result by the same passes the
+   first, which has the names of all; with `skip` only those that make it. */
 void contest_judge(struct contest *contest, const struct glint_effect *effect);
 
 /* Pictures of one capture: a column each for the truth and the presets. */

@@ -85,8 +85,10 @@ void contest_judge(struct contest *contest, const struct glint_effect *effect) {
     if (contest->judge) glint_judge_destroy(&contest->judge);
     contest->effect = effect;
     contest->count = 0;
-    for (size_t i = 0; i < contest->all_count; i++)
+    for (size_t i = 0; i < contest->all_count; i++) {
+        if (contest->skip && !glint_study_made(contest->all[i].pipeline, effect)) continue;
         if (!joined(contest, &contest->all[i])) contest->contestants[contest->count++] = contest->all[i];
+    }
 }
 
 void showing_finish(struct showing *showing) {

@@ -16,7 +16,7 @@ void main() {
     }
     if (any(greaterThanEqual(at, size))) return;
     float value = 0.0;
-    if (dispatch_phase == 0u) value = factor * float(at.x + size.x * at.y) + 0.0 * texelFetch(depth_full, ivec2(0), 0).x;
+    if (dispatch_phase == 0u) value = factor * float(at.x + size.x * at.y) + (texelFetch(depth_full, ivec2(0), 0).x < 0.0 ? 1.0 : 0.0);
     else if (dispatch_phase == 1u) {
         ivec2 last = textureSize(levels, level - 1) - 1;
         for (int i = 0; i < 4; ++i)

@@ -14,5 +14,5 @@ void main() {
     vec4 value = vec4(texelFetch(sum_before, here, 0).x + 1.0, valid ? 1.0 : 0.0, texelFetch(depth_before, here, 0).x, 0.0);
     if (valid) value.w = texelFetch(chain_before, min(at / 4, textureSize(chain_before, 2) - 1), 2).x;
     imageStore(sum, at, value);
-    imageStore(depth_now, at, vec4(texelFetch(depth_full, at, 0).x + 0.0 * texelFetch(chain, at, 0).x));
+    imageStore(depth_now, at, vec4(texelFetch(depth_full, at, 0).x + (texelFetch(chain, at, 0).x < 0.0 ? 1.0 : 0.0)));
 }
