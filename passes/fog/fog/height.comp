@@ -24,11 +24,9 @@ float covered(ivec2 pixel, float depth_m) {
     return fog_factor(optical_depth(ray, depth_m < LARGEST ? depth_m * length(ray) : INFINITE));
 }
 
-// Whether the light was blurred is asked at run time, not of the shader's specialization: NVIDIA's compiler would round the fog's exponentials
-// otherwise in one than in the other, also in frames without such light.
 vec3 light_of(ivec3 cell) {
     ivec2 texel = ivec2(cell.x, cell.y + cell.z * int(frame.froxels.y));
-    if (textureSize(froxel_blurred, 0) == textureSize(froxel_light, 0)) return texelFetch(froxel_blurred, texel, 0).rgb;
+    if (has_froxel_blurred) return texelFetch(froxel_blurred, texel, 0).rgb;
     vec4 light = texelFetch(froxel_light, texel, 0);
     return finite(vec4(light.rgb, 0.0)) ? max(light.rgb, 0.0) : vec3(0.0);
 }
@@ -47,7 +45,7 @@ Corners corners_around(vec2 uv) {
     for (int i = 0; i < 4; ++i) {
         c.at[i] = clamp(ivec2(corner) + ivec2(i & 1, i >> 1), ivec2(0), most);
         c.weight[i] = ((i & 1) == 0 ? 1.0 - part.x : part.x) * (i < 2 ? 1.0 - part.y : part.y);
-        c.far_m[i] = texelFetch(froxel_far, min(c.at[i], textureSize(froxel_far, 0) - 1), 0).x; // of a stand-in: infinite
+        c.far_m[i] = has_froxel_far ? texelFetch(froxel_far, c.at[i], 0).x : INFINITE;
     }
     return c;
 }
