@@ -24,9 +24,10 @@ def planned(glint, folder, scene, also):
     path = os.path.join(folder, f"{scene}-{also.replace(',', '-')}.exr")
     pages.run(glint, "sample", scene, "-o", path, "--size", "160x90", "--cube-size", "32", "--light", "4", *(["--also", also] if also else []))
     found = {}
-    for preset in reversed(PRESETS):
+    for preset in PRESETS:
         for step in json.loads(pages.run(glint, "plan", path, "--preset", preset, "--json"))["passes"]:
-            found[step["slot"]] = step
+            if step["runs"] or step["slot"] not in found:
+                found[step["slot"]] = step
     os.remove(path)
     return found
 

@@ -3,6 +3,7 @@
 #include <dirent.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 #include "glint/sort.h"
@@ -162,4 +163,13 @@ double quantile(double *values, size_t count, double part) {
     glint_sort_doubles(values, count);
     size_t i = (size_t)(part * (double)count);
     return values[i < count ? i : count - 1];
+}
+
+const struct glint_pass_result *gpu_result(const struct gpu *gpu, const char *slot) {
+    size_t count;
+    const struct glint_pass_result *results = glint_replay_results(gpu->replay, &count);
+    for (size_t i = 0; i < count; i++)
+        if (!strcmp(results[i].pass->slot, slot)) return &results[i];
+    fail_msg("the pipeline has no slot %s", slot);
+    return NULL;
 }

@@ -36,6 +36,8 @@ void gpu_sample(struct gpu *gpu, const char *scene, const char *name, const stru
 void gpu_load(struct gpu *gpu, const char *name);
 /* Runs with diagnostics. */
 void gpu_run(struct gpu *gpu);
+/* Whether a slot of the last run ran, and why; fails without such a slot. */
+const struct glint_pass_result *gpu_result(const struct gpu *gpu, const char *slot);
 /* Reads an image of the last run; the caller frees it. width and height may be NULL. */
 float *gpu_floats(struct gpu *gpu, const char *image, uint32_t *width, uint32_t *height);
 uint32_t *gpu_uints(struct gpu *gpu, const char *image, uint32_t *width, uint32_t *height);

@@ -210,15 +210,6 @@ static void every_level_holds_all_light(void **state) {
 
 /* ---- What does not change ---- */
 
-static bool ran(struct gpu *gpu, const char *slot) {
-    size_t count;
-    const struct glint_pass_result *results = glint_replay_results(gpu->replay, &count);
-    for (size_t i = 0; i < count; i++)
-        if (!strcmp(results[i].pass->slot, slot)) return results[i].ran;
-    fail_msg("no slot %s", slot);
-    return false;
-}
-
 static void expect_unchanged(struct gpu *gpu) {
     float *before = gpu_floats(gpu, "composed", NULL, NULL), *after = gpu_floats(gpu, "bloomed", NULL, NULL);
     for (int i = 0; i < 37 * 23; i++) assert_memory_equal(before + 4 * i, after + 4 * i, 3 * sizeof *after);
@@ -234,7 +225,7 @@ static void off_is_the_same_bits(void **state) {
         RESET(gpu, "bloom.strength=0");
         gpu->float_precision = !halves;
         gpu_run(gpu);
-        assert_true(ran(gpu, "bloom"));
+        assert_true(gpu_result(gpu, "bloom")->ran);
         expect_unchanged(gpu);
     }
 }
@@ -257,12 +248,12 @@ static void what_is_not_bright_needs_no_pass(void **state) {
         RESET(gpu, threshold);
         gpu_run(gpu);
         for (size_t s = 0; s < 3; s++)
-            if (ran(gpu, slots[s]) != frames[f].bright) fail_msg("frame %zu: %s", f, slots[s]);
+            if (gpu_result(gpu, slots[s])->ran != frames[f].bright) fail_msg("frame %zu: %s", f, slots[s]);
         if (frames[f].bright) continue;
         struct glint_error err = {0};
         const struct glint_replay_options options = {.force = slots, .float_precision = true};
         if (!glint_replay_run(gpu->replay, gpu->pipeline, &options, NULL, NULL, &err)) fail_msg("%s", err.message);
-        assert_true(ran(gpu, "bloom_threshold") && ran(gpu, "bloom"));
+        assert_true(gpu_result(gpu, "bloom_threshold")->ran && gpu_result(gpu, "bloom")->ran);
         expect_unchanged(gpu);
     }
 }

@@ -333,24 +333,11 @@ static void nothing_leaks_from_hidden_cells(void **state) {
     }
 }
 
-static const char *reason_of(struct gpu *gpu, const char *slot, bool *ran) {
-    size_t count;
-    const struct glint_pass_result *results = glint_replay_results(gpu->replay, &count);
-    for (size_t i = 0; i < count; i++)
-        if (!strcmp(results[i].pass->slot, slot)) {
-            *ran = results[i].ran;
-            return results[i].reason;
-        }
-    fail_msg("the pipeline has no slot %s", slot);
-    return NULL;
-}
-
 /* A capture without the part has the bits of a pipeline without the slot, also where every pass runs; one with light in the air alone runs fog. */
 static void without_the_part_nothing_changes(void **state) {
     static const char *const plain_fog[] = {NULL};
     struct gpu *gpu = *state;
     struct plain plain = plain_of(&even, false);
-    bool ran = true;
     whole = true;
     run(gpu, &plain, plain_fog);
     float *right = gpu_floats(gpu, "composed_fog", NULL, NULL);
@@ -359,9 +346,9 @@ static void without_the_part_nothing_changes(void **state) {
         run(gpu, &plain, blurring);
         float *found = gpu_floats(gpu, "composed_fog", NULL, NULL);
         assert_memory_equal(found, right, 4 * PIXELS * sizeof *right);
-        const char *reason = reason_of(gpu, "froxel_blur", &ran);
-        if (!all) assert_string_equal(reason, "no slices of light in the air");
-        assert_true(ran == all);
+        const struct glint_pass_result *blur = gpu_result(gpu, "froxel_blur");
+        if (!all) assert_string_equal(blur->reason, "no slices of light in the air");
+        assert_true(blur->ran == all);
         free(found);
     }
     plain = plain_of(&even, true);
@@ -378,13 +365,11 @@ static void without_the_part_nothing_changes(void **state) {
     all_passes = whole = false;
     plain = plain_of(NULL, false);
     run(gpu, &plain, blurring);
-    reason_of(gpu, "fog", &ran);
-    assert_false(ran);
+    assert_false(gpu_result(gpu, "fog")->ran);
     plain = plain_of(NULL, true);
     fill(&linear, one);
     run(gpu, &plain, blurring);
-    reason_of(gpu, "fog", &ran);
-    assert_true(ran);
+    assert_true(gpu_result(gpu, "fog")->ran);
     free(right);
 }
 

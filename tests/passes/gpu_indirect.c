@@ -309,13 +309,6 @@ static void blacken(const struct plain *plain, float *values) {
     shapes_spoil(plain, values);
     memset(values + PLAIN_LIT_R * pixels, 0, 3 * pixels * sizeof *values);
 }
-static bool ran(const struct gpu *gpu, const char *slot) {
-    size_t count;
-    const struct glint_pass_result *results = glint_replay_results(gpu->replay, &count);
-    for (size_t i = 0; i < count; i++)
-        if (!strcmp(results[i].pass->slot, slot)) return results[i].ran;
-    return false;
-}
 static void where_nothing_shines_nothing_is_traced(void **state) {
     static const char *const words[] = {"downsample=mips",
                                         "surface_levels=picked",
@@ -335,7 +328,7 @@ static void where_nothing_shines_nothing_is_traced(void **state) {
             indirect_arrange(gpu, words);
             gpu->all = all;
             gpu_run(gpu);
-            assert_true(ran(gpu, "indirect_trace") == (all || bright));
+            assert_true(gpu_result(gpu, "indirect_trace")->ran == (all || bright));
             composed[all] = gpu_floats(gpu, "composed", NULL, NULL);
         }
         gpu->all = false;

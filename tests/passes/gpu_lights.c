@@ -388,18 +388,6 @@ static void bits_say_what_a_light_reaches(void **state) {
 
 /* ---- Plans and the picture ---- */
 
-static bool has_run(struct gpu *gpu, const char *slot, const char **reason) {
-    size_t count;
-    const struct glint_pass_result *results = glint_replay_results(gpu->replay, &count);
-    for (size_t i = 0; i < count; i++) {
-        if (strcmp(results[i].pass->slot, slot) != 0) continue;
-        *reason = results[i].reason;
-        return results[i].ran;
-    }
-    fail_msg("the pipeline has no slot %s", slot);
-    return false;
-}
-
 static float lamps_lit[3][PIXELS];
 static struct glint_channel lamps_channels[] = {{.name = "R", .type = GLINT_F32, .data = lamps_lit[0]},
                                                 {.name = "G", .type = GLINT_F32, .data = lamps_lit[1]},
@@ -437,14 +425,14 @@ static void a_light_out_of_reach_leaves_the_passes_out(void **state) {
         for (uint32_t i = 0; i < PIXELS; i++)
             for (int c = 0; c < 3; c++) lamps_lit[c][i] = kind == 4 ? 0.125F : 0;
         struct plain plain = frame_with(&bare, kind == 2 ? &near_lamp : &lamp, kind != 1);
-        const char *reasons[3], *const word = kind == 3 ? "light.range=false" : NULL;
+        const char *const word = kind == 3 ? "light.range=false" : NULL;
         plain.spoil = matt;
         plain.part = &lamps_part;
         float *planned = picture_of(gpu, &plain, word, false);
-        const bool lit = has_run(gpu, "light", &reasons[0]), masked = has_run(gpu, "light_mask", &reasons[1]);
-        assert_true(lit == (kind >= 2) && masked == (kind == 2 || kind == 4));
-        if (kind == 0) assert_string_equal(reasons[0], "light of 1 lamp may reach 0 of 9600 surfaces");
-        if (kind == 1) assert_string_equal(reasons[0], "no lamps");
+        const struct glint_pass_result *light = gpu_result(gpu, "light"), *mask = gpu_result(gpu, "light_mask");
+        assert_true(light->ran == (kind >= 2) && mask->ran == (kind == 2 || kind == 4));
+        if (kind == 0) assert_string_equal(light->reason, "light of 1 lamp may reach 0 of 9600 surfaces");
+        if (kind == 1) assert_string_equal(light->reason, "no lamps");
         float *all = picture_of(gpu, &plain, word, true);
         assert_memory_equal(planned, all, 4 * PIXELS * sizeof *all);
         for (uint32_t i = 0; kind < 2 && i < PIXELS; i++) assert_true(planned[4 * i] == 0.25F);

@@ -232,15 +232,6 @@ static void the_picture_has_the_scattered_light(void **state) {
     free(light), free(picture);
 }
 
-static const struct glint_pass_result *result_of(struct gpu *gpu, const char *slot) {
-    size_t count;
-    const struct glint_pass_result *results = glint_replay_results(gpu->replay, &count);
-    for (size_t i = 0; i < count; i++)
-        if (!strcmp(results[i].pass->slot, slot)) return &results[i];
-    fail_msg("the pipeline has no slot %s", slot);
-    return NULL;
-}
-
 /* Half a row of the sky shows none. */
 static void sky_above(const struct plain *plain, float *values) {
     matt(plain, values);
@@ -273,7 +264,7 @@ static void passes_run_where_there_is_skin(void **state) {
         gpu_use(gpu, "sss_mask=classes");
         gpu_use(gpu, "sss_blur=separable");
         gpu_run(gpu);
-        const struct glint_pass_result *mask = result_of(gpu, "sss_mask"), *blur = result_of(gpu, "sss_blur");
+        const struct glint_pass_result *mask = gpu_result(gpu, "sss_mask"), *blur = gpu_result(gpu, "sss_blur");
         assert_memory_equal(mask->reason, reasons[k], strlen(reasons[k]));
         assert_true(mask->ran == (k == 1 || k == 2 || k == 4) && blur->ran == mask->ran);
         if (mask->ran) continue;
@@ -297,7 +288,7 @@ static void skipped_passes_change_no_bit(void **state) {
         gpu_use(gpu, "sss_mask=classes");
         gpu_use(gpu, "sss_blur=separable");
         gpu_run(gpu);
-        assert_true(result_of(gpu, "sss_blur")->ran == all);
+        assert_true(gpu_result(gpu, "sss_blur")->ran == all);
         pictures[all] = gpu_floats(gpu, "composed", NULL, NULL);
     }
     assert_memory_equal(pictures[0], pictures[1], 4 * WIDE * HIGH * sizeof **pictures);

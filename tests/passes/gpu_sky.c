@@ -275,18 +275,6 @@ static void scattering_has_switches(void **state) {
 
 /* ---- when there is nothing to do, and what comes next ---- */
 
-static const char *reason_of(struct gpu *gpu, const char *slot, bool *ran) {
-    size_t count;
-    const struct glint_pass_result *results = glint_replay_results(gpu->replay, &count);
-    for (size_t i = 0; i < count; i++)
-        if (!strcmp(results[i].pass->slot, slot)) {
-            *ran = results[i].ran;
-            return results[i].reason;
-        }
-    fail_msg("the pipeline has no slot %s", slot);
-    return NULL;
-}
-
 static void without_sky_there_is_no_pass(void **state) {
     static const char *const none[] = {NULL}, *const slots[] = {"sky_scatter", "cloud_map", "sky_compose"};
     static const struct {
@@ -308,10 +296,9 @@ static void without_sky_there_is_no_pass(void **state) {
         plain.user = cases[i].wall ? &sky_slab : NULL;
         sky_run(gpu, &plain, none);
         for (uint32_t k = 0; k < 3; k++) {
-            bool ran = false;
-            const char *reason = reason_of(gpu, slots[k], &ran);
-            assert_true(ran == cases[i].runs[k]);
-            if (!ran) assert_string_equal(reason, cases[i].reasons[k]);
+            const struct glint_pass_result *result = gpu_result(gpu, slots[k]);
+            assert_true(result->ran == cases[i].runs[k]);
+            if (!result->ran) assert_string_equal(result->reason, cases[i].reasons[k]);
         }
     }
 }
