@@ -10,6 +10,8 @@ WRITE(image2D, disocclusion, R16F, "1", FULL, "V", 1, "fraction of the pixel's h
 WRITE(image2D, depth_kept, R32F, "m", FULL, "Z", INFINITY, "depth_full for the next frame, whose capture may lack it")
 HISTORY(texture2D, previous_depth_kept, depth_kept)
 DISPATCH(disocclusion)
+NEEDS(reflections)
+NEEDED_IF_READ
 REFERENCE_NONE("the reference is a single frame, which has no history")
 REFERENCE_WITH(temporal_sharp, "of reflections only temporal_sharp reads it")
 SPEC(bool,  motion,    true,  0, 1, "1", "Mafia DE article, Temporal AA", "use motion vectors where the capture has them; off: the camera's motion only")
