@@ -234,8 +234,8 @@ static bool check_froxels(struct glint_check *check, const struct glint_part_inf
         return BROKEN(FROXELS, "glint.froxelSlices",
                       "expected 1 to %d slices in a height of a whole number of them, found %u and %u slices",
                       GLINT_MAX_FROXEL_SLICES, out->height, froxels->slices);
-    return (near < far && far <= 1e9 && (!froxels->exponential || near >= far / 1e9)) ||
-           BROKEN(FROXELS, "glint.froxelNear", "expected %s < froxelFar <= 1e9, found %g and %g",
+    return ((float)near < (float)far && far >= 1e-6 && far <= 1e9 && (!froxels->exponential || near >= far / 1e9)) ||
+           BROKEN(FROXELS, "glint.froxelNear", "expected %s < froxelFar, from 1e-6 to 1e9, found %g and %g",
                   froxels->exponential ? "froxelFar / 1e9 <= froxelNear" : "froxelNear", near, far);
 }
 
@@ -306,6 +306,9 @@ static bool check_depth(struct glint_check *check, const struct glint_part_info 
     return true;
 }
 
+/* A pass looks at all pixels of a cell at once. */
+enum { FROXEL_PIXELS = 256 };
+
 static bool check_shape(struct glint_check *check, const struct glint_part_info *out,
                         const struct glint_part_info *gbuffer) {
     if (!out->width || !out->height) return true; /* its size is that of a sibling, which is not open yet */
@@ -314,6 +317,11 @@ static bool check_shape(struct glint_check *check, const struct glint_part_info 
     if (out->role->shape == GLINT_SHAPE_TABLE &&
         (out->width < 2 || (uint64_t)out->height != (uint64_t)out->width * out->width))
         return BROKEN(SHAPE, NULL, "expected N x N² pixels, N at least 2, found %u x %u", out->width, out->height);
+    const uint32_t down = out->has_froxels && out->froxels.slices ? out->height / out->froxels.slices : 0;
+    if (down && gbuffer &&
+        ((uint64_t)out->width * FROXEL_PIXELS < gbuffer->width || (uint64_t)down * FROXEL_PIXELS < gbuffer->height))
+        return BROKEN(FROXELS, NULL, "expected a cell for each %d x %d of the %u x %u pixels, found %u x %u cells",
+                      FROXEL_PIXELS, FROXEL_PIXELS, gbuffer->width, gbuffer->height, out->width, down);
     if (out->role->shape == GLINT_SHAPE_FRAME && gbuffer &&
         (out->width != gbuffer->width || out->height != gbuffer->height))
         return BROKEN(SHAPE, NULL, "expected %u x %u pixels as in gbuffer, found %u x %u", gbuffer->width,
@@ -352,7 +360,20 @@ static bool check_air(struct glint_check *check, const struct glint_part_info *o
         !BROKEN(AIR, "glint.atmosphere.mieExtinction", "expected at least mieScattering, %g, found %g", air->mie,
                 air->mie_extinction))
         return false;
-    return !frame->has_clouds || clouds->top > clouds->bottom ||
+    if (!frame->has_clouds) return true;
+    const struct {
+        const char *name;
+        double value, least, most;
+    } bounds[] = {
+        {"glint.cloudTile", clouds->tile, 1e-3, 1e9},          {"glint.cloudNoiseTile", clouds->noise_tile, 0, 1e9},
+        {"glint.cloudOffset", clouds->offset[0], -1e12, 1e12}, {"glint.cloudOffset", clouds->offset[1], -1e12, 1e12},
+        {"glint.cloudBottom", clouds->bottom, -1e9, 1e9},      {"glint.cloudTop", clouds->top, -1e9, 1e9}};
+    for (size_t i = 0; i < sizeof bounds / sizeof *bounds; i++)
+        if (!(bounds[i].value >= bounds[i].least && bounds[i].value <= bounds[i].most) &&
+            !BROKEN(AIR, bounds[i].name, "expected %g to %g, found %g", bounds[i].least, bounds[i].most,
+                    bounds[i].value))
+            return false;
+    return (float)clouds->top > (float)clouds->bottom ||
            BROKEN(AIR, "glint.cloudTop", "expected more than cloudBottom, %g, found %g", clouds->bottom, clouds->top);
 }
 

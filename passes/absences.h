@@ -20,7 +20,7 @@ ABSENCE("skin", "", "only the stencil class `skin` says where light scatters und
 ABSENCE("curvature", "", "light scatters as widely under flat skin as under skin that bends")
 ABSENCE("stipple", "", "surfaces that the engine drew into every other pixel stay a pattern")
 ABSENCE("water.caustics", "", "no light is focused on the bottom of water")
-ABSENCE_UNLESS("sun", "shadow", "", "no shadow mask can be made from the engine's shadow map, and lamps cast no shadows")
+ABSENCE_UNLESS("sun", "shadow", "", "no shadow mask can be made from the engine's shadow map")
 ABSENCE_UNLESS("shadow", "sun", "", "contact shadows are all that shades the sun: what casts a shadow from farther away is not known")
 ABSENCE("froxels", "", "fog has its own colour everywhere: the light that lamps and the sun send into the air is not known")
 ABSENCE("lut", "", "the finished picture has the colours of the tone curve alone, without the engine's grading")

@@ -46,7 +46,7 @@ FACT(shafts, PARTS, s->has_fog && s->has_sun && s->has_shadows,
      SAY("%s", !s->has_fog ? "no fog" : !s->has_sun ? "no sun" : s->has_shadows ? "fog, a sun and its shadow map" : "no shadow map"))
 FACT(atmosphere, PARTS, s->has_atmosphere, SAY("%s atmosphere", s->has_atmosphere ? "an" : "no"))
 FACT(clouds, PARTS, s->has_clouds, SAY("%s", s->has_clouds ? "clouds" : "no clouds"))
-FACT(air, PARTS, s->has_atmosphere || s->has_clouds,
+FACT(drawn_sky, PARTS, s->has_atmosphere || s->has_clouds,
      SAY("%s", s->has_atmosphere ? "an atmosphere" : s->has_clouds ? "clouds" : "no atmosphere and no clouds"))
 FACT(indirect_light, PARTS, s->has_indirect, SAY("%s part of the light that is indirect", s->has_indirect ? "a" : "no"))
 /* Whether surfaces can receive light from others or the sky: where nothing is lit, only what other parts than the picture hold. */
@@ -57,10 +57,12 @@ FACT(bounce, PIXELS,
      s->surfaces.count == 0 ? SAY("%llu of %llu pixels have a surface", N(s->surfaces.count), N(s->pixels))
      : s->luminous > 0      ? SAY("%llu of %llu pixels are not black", N(s->luminous), N(s->pixels))
                             : SAY("the picture is black, and there %s other light", OTHER_LIGHT ? "may be" : "is no"))
-/* Whether a pixel of the picture, as it is displayed, may be brighter than the limit. How bright reflections, indirect light, surfaces in front and
-   earlier frames make it is not known beforehand, so that frames with any of them count. The factor is for rounding. */
+/* Whether a pixel of the picture, as it is displayed, may be brighter than the limit. How bright reflections, indirect light, lamps, sky, fog, surfaces in
+   front and earlier frames make it is not known beforehand, so that frames with any of them count. The factor is for rounding. */
 #define BRIGHTEST (s->exposure * (double)s->light[1])
-#define MORE_LIGHT (shown->count > 0 || s->has_transparent || s->has_water || s->has_scene || s->has_history || (s->surfaces.count > 0 && OTHER_LIGHT))
+#define MORE_LIGHT                                                                                                              \
+    (shown->count > 0 || s->has_transparent || s->has_water || s->has_scene || s->has_history || s->has_fog || s->has_froxels || s->has_atmosphere || \
+     s->has_clouds || s->lamps > 0 || (s->surfaces.count > 0 && OTHER_LIGHT))
 FACT_BY(bright, PIXELS, 1.00001 * BRIGHTEST > limit || MORE_LIGHT,
         BRIGHTEST > 3e38 ? SAY("the picture may be brighter than %.3g", limit)
                          : SAY("the brightest of the lit picture is %.3g, the limit %.3g%s", BRIGHTEST, limit,

@@ -331,7 +331,7 @@ static void shade_pixel(const struct paint_work *work, uint32_t x, uint32_t y, s
         return;
     const float kept = 1 - air_sunlight(work->air, hit.position),
                 light = kept * scene->gain * cosine * (1 - pixel->metalness) / PI_F;
-    const vec3 most = sub(sub(pixel->lit, pixel->indirect), pixel->emission),
+    const vec3 most = sub(sub(sub(pixel->lit, pixel->indirect), pixel->emission), pixel->lamps),
                sun = times(scale(scene->sun_irradiance, light), pixel->albedo);
     pixel->lit = sub(pixel->lit, v3(clampf(sun.x, 0, fmaxf(most.x, 0)), clampf(sun.y, 0, fmaxf(most.y, 0)),
                                     clampf(sun.z, 0, fmaxf(most.z, 0))));

@@ -74,7 +74,7 @@ The preset `gtav_display` has what of the article's frame a capture can carry, i
 - The pipeline has one half resolution: the environment map, which the article samples for each pixel, is looked up at half of it, too, without jitter, and each pixel takes the
   texel that matches it best.
 - The mask of shadows is made and blurred, and is in the run. It takes nothing away: the light of the sun in `lit` is already without what the engine's own mask shades.
-- Values that the article does not give are the defaults of the slots; the distortion is small enough to see only straight lines bend.
+- Values that the article does not give are the defaults of the slots; the distortion is so small that it shows only in straight lines.
 
 ## Water by maps
 

@@ -9,11 +9,10 @@ import pages
 PRESETS = ("mafia_de_display", "gtav_display")
 # Captures beside those that `glint sample SCENE` writes: what a scene can bring for effects that need more than the usual parts.
 MORE = {"alley": "shadow,lamps,froxels", "courtyard": "shadow,decals,stipple", "lake": "caustics", "meadow": "sky", "portrait": "curvature"}
-# What is seen of an effect: the slots of which one makes it. Others of the effect's slots prepare them.
-SEEN = {"Reflections": ("compose", "cubemap_trace"), "Water": ("water",), "Glass": ("transparency",), "Occlusion": ("ao_apply",), "Contact shadows": ("contact_apply",),
-        "Sun's shadow maps": ("shadow_mask",), "Indirect light": ("indirect_apply",), "Lamps": ("light",), "Decals": ("decal_composite",), "Skin": ("sss_blur",),
-        "Stipple": ("unstipple",), "Sky": ("sky_compose",), "Clouds": ("cloud_map",), "Fog": ("fog",), "Light in the air": ("froxel_blur",), "Shafts": ("shaft_march",),
-        "Bloom": ("bloom_threshold",), "Finished picture": ("grade",)}
+# The slot that makes what is seen of an effect; others prepare it.
+SEEN = {"Reflections": "cubemap_trace", "Water": "water", "Glass": "transparency", "Occlusion": "ao_apply", "Contact shadows": "contact_apply", "Sun's shadow": "shadow_mask",
+        "Indirect light": "indirect_apply", "Lamps": "light", "Decals": "decal_composite", "Skin": "sss_blur", "Stipple": "unstipple", "Sky": "sky_compose", "Clouds": "cloud_map",
+        "Fog": "fog", "Light in the air": "froxel_blur", "Shafts": "shaft_march", "Bloom": "bloom_threshold", "Finished picture": "grade"}
 
 
 def scenes(glint):
@@ -41,8 +40,8 @@ def tables(glint):
     for (scene, also), plan in zip(cases, plans):
         name = f"`{scene}`" + (f" with {also.replace(',', ', ')}" if also else "")
         row = [name]
-        for effect, slots in SEEN.items():
-            last = plan[slots[-1]]
+        for effect, slot in SEEN.items():
+            last = plan[slot]
             row.append("runs" if last["runs"] else "")
             if not last["runs"]:
                 why.setdefault((effect, last["reason"]), []).append(name)

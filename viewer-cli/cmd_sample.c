@@ -71,7 +71,7 @@ static const struct argp_option options[] = {
     {"truth-of",    KEY_TRUTH_OF,    "WHAT,...", 0, "Which truths --truth traces: reflection (default), occlusion, sun, indirect, antialiased, picture, lamps", 0},
     {"occlusion-radius", KEY_RADIUS, "M",     0, "How far away surfaces occlude, in metres, in the truth of occlusion (default 1)", 0},
     {"contact-length", KEY_LENGTH,   "M",     0, "How far away surfaces cast contact shadows, in metres, in the truth of the sun (default 0.5)", 0},
-    {"also",        KEY_ALSO,        "WHAT,...", 0, "Also write the engine's own: ao (ambient occlusion), sun (shadow mask), shadow (shadow map), volume (of light), lut (table of colours), dirt (on the lens), stipple (mask of stippled pixels), decals (on the ground, in buffers of their own), lamps (their light, and shadow maps of spot lights), caustics (on the bottom of water), froxels (light in the air, where the scene has fog), curvature (of the surfaces), sky (atmosphere, clouds and stars, of which the sky of the picture is then drawn)", 0},
+    {"also",        KEY_ALSO,        "WHAT,...", 0, "Also write the engine's own: ao (ambient occlusion), sun (shadow mask), shadow (shadow map), volume (of light), lut (table of colours), dirt (on the lens), stipple (mask of stippled pixels), decals (on the ground, in buffers of their own), lamps (their light, and shadow maps of spot lights), caustics (on the bottom of water), froxels (light in the air, where the scene has fog), curvature (of the surfaces), sky (atmosphere, clouds and stars, of which the sky of the picture is then drawn; cube maps keep the scene's own)", 0},
     {"cascades",    KEY_CASCADES,    "N",     0, "Shadow maps that --also shadow writes, from the finest on, each three times as wide as the one before (default 1, at most 4)", 0},
     {"truth-of-pixels", KEY_TRUTH_OF_PIXELS, NULL, 0, "Average the truth over the area of each pixel, as over the jitter of a static camera, instead of at the frame's single "
         "sample", 0},
@@ -236,6 +236,8 @@ static error_t parse_scene(int key, char *arg, struct argp_state *state, struct 
         if (!a->list && !a->out) argp_error(state, "no output file given: -o FILE");
         if (a->out && !strcmp(a->out, "-") && a->sample.frames > 1)
             argp_error(state, "several frames cannot be written to stdout");
+        if ((a->sample.also & GLINT_ALSO_SKY) && (a->sample.truth_samples || a->sample.finished_samples))
+            argp_error(state, "--also sky is for captures without --truth and --finished, which show the scene's own sky");
         return 0;
     }
     return ARGP_ERR_UNKNOWN;

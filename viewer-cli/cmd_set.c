@@ -90,8 +90,9 @@ static error_t cmd_set_parse(int key, char *arg, struct argp_state *state) {
         if (!a->path) argp_error(state, "no capture given; --list shows the keys");
         if (!a->settings.count && !a->lut.ocio.view)
             argp_error(state, "nothing to set; expected KEY=VALUE or --lut, and --list shows the keys");
-        if (!a->lut.ocio.view && (a->lut.ocio.display || a->lut.ocio.config))
-            argp_error(state, "--display and --ocio are for --lut");
+        if (!a->lut.ocio.view && (a->lut.ocio.display || a->lut.ocio.config || a->lut.size != LUT_SIZE ||
+                                  a->lut.stops[0] != LUT_STOPS_LOW || a->lut.stops[1] != LUT_STOPS_HIGH))
+            argp_error(state, "--display, --ocio, --lut-size and --lut-stops are for --lut");
         if (!a->out) argp_error(state, "no output given; -o names the copy");
         return 0;
     }

@@ -43,11 +43,11 @@ float step_place(vec2 range, float part) { return mix(range.x, range.y, part * p
 // Molecules and particles between two places, as metres of air at the ground that hold as many: exact for a density that falls exponentially
 // between the two, as it does along a straight line over flat ground.
 vec2 air_between(float first_m, float last_m, float altitude_first, float altitude_last) {
-    vec2 heights = vec2(frame.rayleigh.w, frame.mie.z), fall = (altitude_last - altitude_first) / heights;
+    vec2 heights = vec2(frame.rayleigh.w, frame.mie.z), fall = abs(altitude_last - altitude_first) / heights;
     vec2 mean = vec2(1.0);
     for (int i = 0; i < 2; ++i)
-        if (abs(fall[i]) > 1e-6) mean[i] = -expm1(-fall[i]) / fall[i];
-    return (last_m - first_m) * mean * exp(-altitude_first / heights);
+        if (fall[i] > 1e-6) mean[i] = -expm1(-fall[i]) / fall[i];
+    return (last_m - first_m) * mean * exp(-min(altitude_first, altitude_last) / heights); // from the lower end: exponents are not positive
 }
 vec2 air_along(float high, float slope, vec2 range, int steps) {
     vec2 sum = vec2(0.0);

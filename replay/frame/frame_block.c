@@ -111,29 +111,40 @@ static uvec4 class_ids(const struct glint_stencil_class *class) {
 }
 
 /* The map of the sun, or of any lamp, with the lowest number from `number` on. */
-static const struct glint_part_info *next_map(const struct glint_capture *capture, bool of_lamp, int32_t number) {
+static const struct glint_part_info *next_map(const struct glint_part_info *const parts[], size_t count, bool of_lamp,
+                                              int32_t number) {
     const struct glint_part_info *found = NULL;
-    for (size_t i = 0; i < glint_capture_part_count(capture); i++) {
-        const struct glint_part_info *part = glint_capture_part(capture, i);
-        if (part->has_shadow && part->shadow.has_light == of_lamp && part->index >= number &&
-            (!found || part->index < found->index))
-            found = part;
-    }
+    for (size_t i = 0; i < count; i++)
+        if (parts[i]->shadow.has_light == of_lamp && parts[i]->index >= number &&
+            (!found || parts[i]->index < found->index))
+            found = parts[i];
     return found;
 }
 
-size_t frame_shadow_maps(const struct glint_capture *capture, const struct glint_part_info *maps[SHADOW_MAPS]) {
-    size_t count = 0, rows = 0;
+size_t frame_choose_maps(const struct glint_part_info *const parts[], size_t count,
+                         const struct glint_part_info *maps[SHADOW_MAPS]) {
+    size_t chosen = 0, rows = 0;
     for (int of_lamp = 0; of_lamp < 2; of_lamp++) {
-        const struct glint_part_info *map = next_map(capture, of_lamp, 0);
         const size_t most = of_lamp ? SHADOW_MAPS : SUN_MAPS;
-        for (; map && count < most && rows + map->height <= SHADOW_ROWS; rows += map->height) {
-            maps[count++] = map;
-            map = next_map(capture, of_lamp, map->index + 1);
-            if (!map) break;
+        const struct glint_part_info *map = next_map(parts, count, of_lamp, 0);
+        for (; map && chosen < most && rows + map->height <= SHADOW_ROWS;
+             map = next_map(parts, count, of_lamp, map->index + 1)) {
+            rows += map->height;
+            maps[chosen++] = map;
         }
     }
-    return count;
+    return chosen;
+}
+
+size_t frame_shadow_maps(const struct glint_capture *capture, const struct glint_part_info *maps[SHADOW_MAPS]) {
+    enum { MOST = 1024 }; /* parts are numbered to 999 */
+    const struct glint_part_info *parts[MOST];
+    size_t count = 0;
+    for (size_t i = 0; i < glint_capture_part_count(capture) && count < MOST; i++) {
+        parts[count] = glint_capture_part(capture, i);
+        count += parts[count]->has_shadow;
+    }
+    return frame_choose_maps(parts, count, maps);
 }
 
 /* A point p in metres, relative to this camera, is at eye + p/u in the world. The map's x and y are in [-1, 1]. */

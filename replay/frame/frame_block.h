@@ -36,7 +36,10 @@ int up_axis(enum glint_axis up, double *sign);
 void frame_block_fill(struct frame_block *block, const struct glint_frame *frame, const struct frame_sizes *sizes);
 /* Sets the fields of the planar reflection map, which stay 0 without one. */
 void frame_block_mirror(struct frame_block *block, const struct glint_frame *frame, const struct glint_planar *planar);
-/* The shadow maps that passes use: those of the sun in the order of their numbers, then those of lamps. */
+/* The shadow maps that passes use: at most SUN_MAPS of the sun in the order of their numbers, then those of lamps, SHADOW_MAPS in all, up to the
+   first that has not its place in SHADOW_ROWS rows. */
+size_t frame_choose_maps(const struct glint_part_info *const parts[], size_t count,
+                         const struct glint_part_info *maps[SHADOW_MAPS]);
 size_t frame_shadow_maps(const struct glint_capture *capture, const struct glint_part_info *maps[SHADOW_MAPS]);
 /* Sets the fields of the lamps, the one that covers most of the screen first. `number` receives the place of each of the capture's lamps. */
 void frame_block_lamps(struct frame_block *block, const struct glint_frame *frame, uint32_t number[LAMPS]);

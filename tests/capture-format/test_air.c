@@ -58,6 +58,17 @@ static void flat_layer(struct rewrite *r) {
 static void no_tile(struct rewrite *r) {
     broken_numbers(r, "gbuffer", "glint.cloudTile", 0, 0);
 }
+static void tiny_tile(struct rewrite *r) {
+    broken_numbers(r, "gbuffer", "glint.cloudTile", 0, 1e-10);
+}
+static void far_offset(struct rewrite *r) {
+    broken_numbers(r, "gbuffer", "glint.cloudOffset", 0, 1e300);
+}
+/* Of no height in floats. */
+static void thin_layer(struct rewrite *r) {
+    broken_numbers(r, "gbuffer", "glint.cloudBottom", 0, 1e8);
+    broken_numbers(r, "gbuffer", "glint.cloudTop", 0, 1e8 + 1);
+}
 static void no_extinction(struct rewrite *r) {
     rewrite_remove_attribute(r, "gbuffer", "glint.cloudExtinction");
 }
@@ -109,6 +120,9 @@ static const struct broken_case cases[] = {
     {"attributes", {"raleighHeight", "did you mean glint.atmosphere.rayleighHeight?"}, misspelt_air, false},
     {"air", {"glint.cloudTop", "more than cloudBottom, 1500, found 1500"}, flat_layer, false},
     {"attributes", {"glint.cloudTile", "value in range, found 0"}, no_tile, false},
+    {"air", {"glint.cloudTile", "0.001 to 1e+09, found 1e-10"}, tiny_tile, false},
+    {"air", {"glint.cloudOffset", "-1e+12 to 1e+12, found 1e+300"}, far_offset, false},
+    {"air", {"glint.cloudTop", "more than cloudBottom, 1e+08, found 1e+08"}, thin_layer, false},
     {"attributes", {"glint.cloudExtinction", "missing"}, no_extinction, false},
     {"air", {"part cloud.density", "glint.cloudBottom on gbuffer, found none"}, nowhere, false},
     {"air", {"part cloud.density", "whole number of 8 slices, found 14"}, seven_slices, false},

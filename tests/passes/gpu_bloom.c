@@ -230,6 +230,23 @@ static void off_is_the_same_bits(void **state) {
     }
 }
 
+/* Fog has a colour of its own, which may be brighter than the picture. */
+static void fog_may_be_bright(void **state) {
+    static const struct glint_fog fog = {.color = {4, 4, 4}, .density = 0.5, .scale_height = 10};
+    static const struct light light = {.color = flat};
+    struct gpu *gpu = *state;
+    char path[256];
+    const struct plain plain = {
+        .width = 37, .height = 23, .fov_y_degrees = 60, .spoil = paint, .user = &light, .exposure = 1, .fog = &fog};
+    plain_capture(gpu_path(gpu, "bloom", path), &plain);
+    gpu_load(gpu, "bloom");
+    RESET(gpu, "use fog=height", "bloom_threshold.threshold=2.2");
+    gpu_run(gpu);
+    float *foggy = gpu_floats(gpu, "composed_fog", NULL, NULL);
+    assert_true(foggy[0] > 2.2F && gpu_result(gpu, "bloom_threshold")->ran);
+    free(foggy);
+}
+
 /* The plan leaves bloom out where the brightest pixel is not over the threshold and nothing adds light, and the picture has the same bits when they
    are forced to run. Catches: a plan that knows nothing of exposure or of reflections, a pass that runs without its input. */
 static void what_is_not_bright_needs_no_pass(void **state) {
@@ -260,9 +277,13 @@ static void what_is_not_bright_needs_no_pass(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_star_becomes_four_gaussians), cmocka_unit_test(the_blur_is_as_wide_at_full_resolution),
-        cmocka_unit_test(a_flat_picture_stays_flat),     cmocka_unit_test(every_level_holds_all_light),
-        cmocka_unit_test(off_is_the_same_bits),          cmocka_unit_test(what_is_not_bright_needs_no_pass),
+        cmocka_unit_test(a_star_becomes_four_gaussians),
+        cmocka_unit_test(the_blur_is_as_wide_at_full_resolution),
+        cmocka_unit_test(a_flat_picture_stays_flat),
+        cmocka_unit_test(every_level_holds_all_light),
+        cmocka_unit_test(off_is_the_same_bits),
+        cmocka_unit_test(fog_may_be_bright),
+        cmocka_unit_test(what_is_not_bright_needs_no_pass),
     };
     return cmocka_run_group_tests(tests, gpu_set_up, gpu_tear_down);
 }

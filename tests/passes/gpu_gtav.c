@@ -17,17 +17,19 @@ static void load(struct gpu *gpu, const char *scene) {
                                               .planar_width = 48,
                                               .planar_height = 27,
                                               .cascades = 4,
-                                              .also = GLINT_ALSO_SHADOW | GLINT_ALSO_STIPPLE | GLINT_ALSO_CAUSTICS});
+                                              .also = GLINT_ALSO_SHADOW | GLINT_ALSO_STIPPLE | GLINT_ALSO_CAUSTICS |
+                                                      (strcmp(scene, "meadow") ? 0 : GLINT_ALSO_SKY)});
     glint_pipeline_destroy(&gpu->pipeline);
     gpu->pipeline = glint_pipeline_create("gtav_display", &err);
     if (!gpu->pipeline) fail_msg("%s", err.message);
 }
 
 static void the_plan_changes_no_bit(void **state) {
-    static const char *const scenes[] = {"courtyard", "lake"}, *const images[] = {"occlusion", "shadow_soft",
-                                                                                  "composed", "exposed", "graded"};
+    static const char *const scenes[] = {"courtyard", "lake", "meadow"}, *const images[] = {"occlusion", "shadow_soft",
+                                                                                            "composed", "exposed",
+                                                                                            "graded"};
     struct gpu *gpu = *state;
-    for (int s = 0; s < 2; s++) {
+    for (int s = 0; s < 3; s++) {
         float *planned[5];
         load(gpu, scenes[s]);
         gpu->all = false;
@@ -36,6 +38,8 @@ static void the_plan_changes_no_bit(void **state) {
         assert_true(gpu_result(gpu, "water")->ran == (s == 1) && gpu_result(gpu, "refraction_map")->ran == (s == 1));
         assert_true(gpu_result(gpu, "ao_trace")->ran && gpu_result(gpu, "shadow_blur")->ran &&
                     gpu_result(gpu, "grade")->ran);
+        assert_true(gpu_result(gpu, "sky_compose")->ran ==
+                    (s == 2)); /* without a plan it asks water that is not there */
         assert_true(!gpu_result(gpu, "fog")->ran && !gpu_result(gpu, "sss_blur")->ran &&
                     !gpu_result(gpu, "unstipple")->ran);
         gpu->all = true;

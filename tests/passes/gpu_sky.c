@@ -321,6 +321,22 @@ static void without_air_all_passes_change_nothing(void **state) {
     }
 }
 
+/* Particles that end a few metres above the ground, seen from 10 km: exponents of their density do not overflow. */
+static void haze_may_be_thin(void **state) {
+    static const char *const none[] = {NULL};
+    struct gpu *gpu = *state;
+    for (int height = 1; height < 100; height *= 3) {
+        struct glint_atmosphere thin = earth;
+        thin.mie_height = height;
+        thin.ground = -1e4;
+        struct plain plain = sky_plain(&thin, &sky_slab, NULL);
+        float *found = sky_image(gpu, &plain, "composed_sky", none);
+        for (uint32_t i = 0; i < 4 * PIXELS; i++)
+            if (!isfinite(found[i])) fail_msg("%d m: value %u is %g", height, i, (double)found[i]);
+        free(found);
+    }
+}
+
 /* Fog leaves the sky as it is, or covers it where it is told to; what is planned is what all passes make. */
 static void fog_comes_after_the_sky(void **state) {
     static const struct glint_fog fog = {.color = {0.5F, 0.75F, 1}, .density = 0.15, .base = 0, .scale_height = 10};
@@ -451,12 +467,17 @@ static void the_engine_draws_the_same_sky(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_air_is_integrated),        cmocka_unit_test(an_even_atmosphere_scatters),
-        cmocka_unit_test(the_planet_shades_the_air),    cmocka_unit_test(dark_air_shows_stars_alone),
-        cmocka_unit_test(stars_lie_on_their_faces),     cmocka_unit_test(scattering_has_switches),
-        cmocka_unit_test(without_sky_there_is_no_pass), cmocka_unit_test(without_air_all_passes_change_nothing),
-        cmocka_unit_test(fog_comes_after_the_sky),      cmocka_unit_test(the_sky_is_behind_all),
-        cmocka_unit_test(the_engine_draws_the_same_sky)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(the_air_is_integrated),
+                                       cmocka_unit_test(an_even_atmosphere_scatters),
+                                       cmocka_unit_test(the_planet_shades_the_air),
+                                       cmocka_unit_test(dark_air_shows_stars_alone),
+                                       cmocka_unit_test(stars_lie_on_their_faces),
+                                       cmocka_unit_test(scattering_has_switches),
+                                       cmocka_unit_test(without_sky_there_is_no_pass),
+                                       cmocka_unit_test(without_air_all_passes_change_nothing),
+                                       cmocka_unit_test(haze_may_be_thin),
+                                       cmocka_unit_test(fog_comes_after_the_sky),
+                                       cmocka_unit_test(the_sky_is_behind_all),
+                                       cmocka_unit_test(the_engine_draws_the_same_sky)};
     return cmocka_run_group_tests_name("gpu_sky", tests, gpu_set_up, gpu_tear_down);
 }

@@ -314,6 +314,38 @@ static void the_layout_is_std140(UNUSED void **unused) {
     assert_int_equal(sizeof(struct frame_block) % 16, 0);
 }
 
+/* Catches: rows of another map counted, a map beyond the last row, lamps before the sun, maps in the order of the parts. */
+static void maps_are_chosen_by_their_rows(void **state) {
+    (void)state;
+    static const struct {
+        uint32_t heights[4]; /* of the maps 3, 2, 1, 0, of which the first two are a lamp's */
+        size_t chosen;
+    } cases[] = {{{10000, 1, 1, 4096}, 4}, {{2287, 1, 10000, 4096}, 4}, {{2288, 1, 10000, 4096}, 3}, /* 16385 rows */
+                 {{1, 16384, 1, 1}, 2},    {{1, 1, 16384, 1}, 3}, /* without the sun's second one, with the lamp's */
+                 {{1, 1, 1, 16385}, 2}};
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        struct glint_part_info infos[4];
+        const struct glint_part_info *parts[4], *maps[SHADOW_MAPS];
+        memset(infos, 0, sizeof infos);
+        for (int i = 0; i < 4; i++) {
+            infos[i].index = 3 - i;
+            infos[i].height = cases[c].heights[i];
+            infos[i].shadow.has_light = i < 2;
+            parts[i] = &infos[i];
+        }
+        const size_t chosen = frame_choose_maps(parts, 4, maps);
+        if (chosen != cases[c].chosen) fail_msg("case %zu: %zu maps", c, chosen);
+        uint64_t rows = 0;
+        for (size_t k = 0; k < chosen; k++) {
+            rows += maps[k]->height;
+            assert_true(
+                k == 0 || maps[k]->shadow.has_light > maps[k - 1]->shadow.has_light ||
+                (maps[k]->shadow.has_light == maps[k - 1]->shadow.has_light && maps[k]->index > maps[k - 1]->index));
+        }
+        assert_true(rows <= SHADOW_ROWS);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_mirror_projects_as_its_camera_says),
@@ -324,6 +356,7 @@ int main(void) {
         cmocka_unit_test(fog_and_up_are_in_metres),
         cmocka_unit_test(the_sun_is_as_the_capture_says),
         cmocka_unit_test(air_is_where_the_world_says),
+        cmocka_unit_test(maps_are_chosen_by_their_rows),
         cmocka_unit_test(the_layout_is_std140),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -201,6 +201,16 @@ class Tests:
         assert packed.read("motion").dtype == np.float32 and np.allclose(packed.read("motion.X"), (ids - 32768.0) / 32767)
         assert packed.read_raw("motion").dtype == np.uint32
 
+    def test_a_cell_of_light_in_the_air_is_of_few_pixels(self):
+        wide = {"depth.Z": np.full((1, 257), 0.5, "f4"), "normal": np.broadcast_to(np.float32([0, 1, 0]), (1, 257, 3)), "material.roughness": np.full((1, 257), 51, "u1")}
+        for cells in (1, 2):
+            cell = ("froxels", dict(channels={"R G B": np.ones((3, cells, 3), "f2")}, froxels=glint.Froxels(3, 0.5, 64.0, True)))
+            try:
+                self.write("cells.exr", wide, {"R G B": np.ones((1, 257, 3), "f2")}, more=[cell])
+                assert cells == 2
+            except glint.Error as error:
+                assert cells == 1 and "a cell for each 256 x 256 of the 257 x 1 pixels, found 1 x 1 cells" in str(error), error
+
     def test_attributes_come_back(self):
         numbers = np.random.default_rng(7)
         turn = np.linalg.qr(numbers.standard_normal((3, 3)))[0]

@@ -3,7 +3,7 @@ PASS("Lambert", "Mafia DE article, Direct Illumination")
 #include "slot.h"
 #line 202
 SPEC(bool,  mask,      true, 0, 1, "1", "Mafia DE article, Direct Illumination", "lights whose bit in light_mask is 0 are left out; off: the mask is not read")
-SPEC(bool,  quads,     true, 0, 1, "1", "Mafia DE article, Direct Illumination", "lights are left out beside the rectangle of the screen that holds all they can light; off: rectangles are not tested")
+SPEC(bool,  quads,     true, 0, 1, "1", "Mafia DE article, Direct Illumination", "lights are left out outside of the rectangle of the screen that holds all they can light; off: rectangles are not tested")
 SPEC(bool,  cones,     true, 0, 1, "1", "glint", "spot lights shine in their cones alone; off: all around, and their mask and rectangle are not used")
 SPEC(bool,  range,     true, 0, 1, "1", "glint", "light ends at the range of its lamp; off: it does not, and neither masks nor rectangles are used")
 CHOICE3(range_law, squared, squared, fourth, cut, "glint; Karis 2013, Real Shading in Unreal Engine 4", "how light fades out towards the range R, by a factor at the distance d. squared: (1 - (d/R)²)², of the sample engine; fourth: (1 - (d/R)^4)²; cut: 1, so that the light ends there abruptly")

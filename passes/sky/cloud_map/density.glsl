@@ -3,7 +3,8 @@
 
 const int SLICES = 8;
 
-ivec2 around(ivec2 texel, ivec2 size) { return texel - size * ivec2(floor(vec2(texel) / vec2(size))); }
+// Of a texel up to one beside the square, into it.
+ivec2 around(ivec2 texel, ivec2 size) { return ivec2(uvec2(texel + size) % uvec2(size)); }
 
 // Between four texels of a square that repeats; `first` is the row at which its slice begins.
 float in_slice(texture2D image, vec2 part, ivec2 size, int first) {

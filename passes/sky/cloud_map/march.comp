@@ -37,10 +37,10 @@ float cloud_phase(float cosine, float part) {
 // x: light scattered once, y: more than once.
 vec2 scattered(float depth, float cosine) {
     vec2 sum = vec2(cloud_phase(cosine, 1.0) * exp(-depth), 0.0);
-    float light = weaker, extinction = thinner, part = evener;
+    float light = octave_light, extinction = octave_extinction, part = octave_asymmetry;
     for (int i = 0; i < octaves; ++i) {
         sum.y += light * cloud_phase(cosine, part) * exp(-extinction * depth);
-        light *= weaker, extinction *= thinner, part *= evener;
+        light *= octave_light, extinction *= octave_extinction, part *= octave_asymmetry;
     }
     return albedo * sum;
 }

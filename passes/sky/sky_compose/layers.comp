@@ -66,7 +66,7 @@ void main() {
     if (any(greaterThanEqual(pixel, imageSize(composed_sky)))) return;
     vec3 color = has_composed_water ? texelFetch(composed_water, pixel, 0).rgb : texelFetch(composed, pixel, 0).rgb;
     float depth_m = texelFetch(depth_full, pixel, 0).x;
-    if (has_composed_water) depth_m = min(depth_m, texelFetch(water_depth, pixel, 0).x);
+    if (has_composed_water && textureSize(water_depth, 0) == ivec2(frame.size.xy)) depth_m = min(depth_m, texelFetch(water_depth, pixel, 0).x);
     if (depth_m > LARGEST) color = storable(sky_light(pixel, color), frame.up.w);
     imageStore(composed_sky, pixel, vec4(color, 1.0));
 }
