@@ -237,7 +237,8 @@ static error_t parse_scene(int key, char *arg, struct argp_state *state, struct 
         if (a->out && !strcmp(a->out, "-") && a->sample.frames > 1)
             argp_error(state, "several frames cannot be written to stdout");
         if ((a->sample.also & GLINT_ALSO_SKY) && (a->sample.truth_samples || a->sample.finished_samples))
-            argp_error(state, "--also sky is for captures without --truth and --finished, which show the scene's own sky");
+            argp_error(state,
+                       "--also sky is for captures without --truth and --finished, which show the scene's own sky");
         return 0;
     }
     return ARGP_ERR_UNKNOWN;
