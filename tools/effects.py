@@ -39,12 +39,13 @@ INDIRECT_SLOTS = {'downsample': 'mips', 'hiz': 'nearest', 'cubemap_active': 'nea
                   'indirect_trace': 'linear', 'indirect_blur': 'edges', 'indirect_apply': 'planes'}
 INDIRECT_SAMPLE = ['--cube-size', '128', '--truth', '128', '--truth-of', 'indirect']
 OCCLUSION = [
-    'horizon', 'horizon ao_blur=none', 'hemisphere', 'horizon slices=16 steps=32 downsample=none ao_blur=none ao_apply=bilinear',
+    'radius_m=0', 'horizon', 'horizon ao_blur=none', 'horizon ao_apply=bilinear', 'horizon averaged=ratio', 'horizon behind=solid', 'horizon behind=decay', 'horizon growth=1',
+    'horizon normals=vertex', 'horizon downsample=none', 'hemisphere', 'hemisphere ao_blur=none', 'hemisphere normals=vertex', 'horizon slices=16 steps=32 downsample=none ao_blur=none ao_apply=bilinear',
     'dda directions=32 downsample=none ao_blur=none ao_apply=bilinear',
     'dda directions=32 inside=false thickness_m=0.5 downsample=none ao_blur=none ao_apply=bilinear']
 EFFECTS = {
     'occlusion': {
-        'scenes': ['street', 'room'], 'sample': ['--truth', '256', '--truth-of', 'occlusion'],
+        'scenes': ['street', 'room', 'hotel', 'courtyard'], 'sample': ['--truth', '256', '--truth-of', 'occlusion'],
         'slots': {'downsample': 'pick', 'ao_trace': 'horizon', 'ao_blur': 'separable', 'ao_apply': 'planes'},
         'trace': 'ao_trace', 'fetches': 'occlusion_fetches', 'tables': {'ao_trace': (OCCLUSION, [])}},
     'indirect': {
