@@ -3,6 +3,7 @@ import fcntl
 import os
 import pty
 import re
+import select
 import struct
 import subprocess
 import sys
@@ -38,20 +39,19 @@ OTHERS = {
 
 def in_terminal(columns, words, **environment):
     """What a terminal of that width is sent, without escape sequences, and with them."""
-    child, terminal = pty.fork()
-    if child == 0:
-        while fcntl.ioctl(1, termios.TIOCGWINSZ, bytes(8))[2:4] != struct.pack("H", columns):
-            pass
-        os.execve(GLINT, [GLINT, *words.split()], {**os.environ, "TERM": "xterm", **environment})
-    fcntl.ioctl(terminal, termios.TIOCSWINSZ, struct.pack("HHHH", 50, columns, 0, 0))
-    said = b""
-    try:
-        while block := os.read(terminal, 65536):
-            said += block
-    except OSError:
-        pass  # Linux reports the end so
+    terminal, side = pty.openpty()
+    fcntl.ioctl(side, termios.TIOCSWINSZ, struct.pack("HHHH", 50, columns, 0, 0))
+    child = subprocess.Popen([GLINT, *words.split()], stdin=side, stdout=side, stderr=side, env={**os.environ, "TERM": "xterm", **environment})
+    said, ended = b"", False
+    # The program's side stays open here until all is read: what is unread when it closes may be lost.
+    while True:
+        if select.select([terminal], [], [], 0 if ended else 0.02)[0]:
+            said += os.read(terminal, 65536)
+        elif ended:
+            break
+        ended = child.poll() is not None
     os.close(terminal)
-    os.waitpid(child, 0)
+    os.close(side)
     text = said.decode().replace("\r\n", "\n")
     return "\n".join(ESCAPE.sub("", line.split("\r\x1b[K")[-1]) for line in text.split("\n")), text  # without the bar that is drawn over
 
