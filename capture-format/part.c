@@ -365,7 +365,7 @@ static bool check_air(struct glint_check *check, const struct glint_part_info *o
         const char *name;
         double value, least, most;
     } bounds[] = {
-        {"glint.cloudTile", clouds->tile, 1e-3, 1e9},          {"glint.cloudNoiseTile", clouds->noise_tile, 0, 1e9},
+        {"glint.cloudTile", clouds->tile, 1e-3, 1e9},          {"glint.cloudNoiseTile", clouds->noise_tile, 1e-3, 1e9},
         {"glint.cloudOffset", clouds->offset[0], -1e12, 1e12}, {"glint.cloudOffset", clouds->offset[1], -1e12, 1e12},
         {"glint.cloudBottom", clouds->bottom, -1e9, 1e9},      {"glint.cloudTop", clouds->top, -1e9, 1e9}};
     for (size_t i = 0; i < sizeof bounds / sizeof *bounds; i++)
@@ -380,15 +380,15 @@ static bool check_air(struct glint_check *check, const struct glint_part_info *o
 /* The textures of clouds: the attributes say where they lie. */
 static bool check_clouds(struct glint_check *check, const struct glint_part_info *parts, size_t count,
                          const struct glint_frame *frame) {
-    enum { SLICES = 8 };
     const struct glint_part_info *out = NULL, *height = NULL;
     for (size_t i = 0; i < count; i++)
         if (!strcmp(parts[i].name, "cloud.density")) out = &parts[i];
         else if (!strcmp(parts[i].name, "cloud.height")) height = &parts[i];
     if (!out) return true;
     if (!frame->has_clouds && !BROKEN(AIR, NULL, "expected glint.cloudBottom on gbuffer, found none")) return false;
-    if (out->height % SLICES &&
-        !BROKEN(AIR, NULL, "expected a height of a whole number of %d slices, found %u", SLICES, out->height))
+    if (out->height % GLINT_CLOUD_SLICES &&
+        !BROKEN(AIR, NULL, "expected a height of a whole number of %d slices, found %u", GLINT_CLOUD_SLICES,
+                out->height))
         return false;
     return !height || (height->width == out->width && height->height == out->height) ||
            glint_violation(check, GLINT_RULE_AIR, height->name, NULL, "expected %u x %u pixels as in %s, found %u x %u",

@@ -2,9 +2,10 @@
 #ifndef SAMPLES_AIR_MAPS_H
 #define SAMPLES_AIR_MAPS_H
 
+#include "glint/air.h"
 #include "vec.h"
 
-enum { CLOUD_SIDE = 64, CLOUD_SLICES = 8, CLOUD_NOISE = 32, STAR_SIDE = 256 };
+enum { CLOUD_SIDE = 64, CLOUD_SLICES = GLINT_CLOUD_SLICES, CLOUD_NOISE = 32, STAR_SIDE = 256 };
 
 struct air_maps {
     float density[CLOUD_SLICES][CLOUD_SIDE][CLOUD_SIDE], height[CLOUD_SLICES][CLOUD_SIDE][CLOUD_SIDE];

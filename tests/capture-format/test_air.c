@@ -61,6 +61,9 @@ static void no_tile(struct rewrite *r) {
 static void tiny_tile(struct rewrite *r) {
     broken_numbers(r, "gbuffer", "glint.cloudTile", 0, 1e-10);
 }
+static void tiny_noise(struct rewrite *r) {
+    broken_numbers(r, "gbuffer", "glint.cloudNoiseTile", 0, 1e-300);
+}
 static void far_offset(struct rewrite *r) {
     broken_numbers(r, "gbuffer", "glint.cloudOffset", 0, 1e300);
 }
@@ -121,6 +124,7 @@ static const struct broken_case cases[] = {
     {"air", {"glint.cloudTop", "more than cloudBottom, 1500, found 1500"}, flat_layer, false},
     {"attributes", {"glint.cloudTile", "value in range, found 0"}, no_tile, false},
     {"air", {"glint.cloudTile", "0.001 to 1e+09, found 1e-10"}, tiny_tile, false},
+    {"air", {"glint.cloudNoiseTile", "0.001 to 1e+09, found 1e-300"}, tiny_noise, false},
     {"air", {"glint.cloudOffset", "-1e+12 to 1e+12, found 1e+300"}, far_offset, false},
     {"air", {"glint.cloudTop", "more than cloudBottom, 1e+08, found 1e+08"}, thin_layer, false},
     {"attributes", {"glint.cloudExtinction", "missing"}, no_extinction, false},

@@ -8,6 +8,9 @@
 extern "C" {
 #endif
 
+/* Slices of the parts cloud.density and cloud.height. */
+#define GLINT_CLOUD_SLICES 8
+
 struct glint_fog {
     float color[3];      /* radiance far inside the fog */
     double density;      /* extinction per unit at `base` */
