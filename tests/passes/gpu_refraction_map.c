@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "gpu.h"
+#include "lake.h"
 #include "plain_capture.h"
 #include "unit.h"
 
@@ -382,23 +383,6 @@ static void load_lake(struct gpu *gpu, const char *size) {
     gpu_set(gpu, "refraction_map.caustics=0"); /* the finished picture has none */
 }
 
-/* The mean of |image - truth| / (image + truth + 0.05) over the pixels of the water. */
-static double error_of(struct gpu *gpu, const float *opacity, const float *scene) {
-    double sum = 0;
-    size_t count = 0;
-    float *finished = gpu_floats(gpu, "composed_water", NULL, NULL);
-    for (size_t i = 0; i < WIDTH * HEIGHT; ++i) {
-        if (!(opacity[i] > 0)) continue;
-        for (size_t c = 0; c < 3; ++c, ++count) {
-            double a = (double)finished[4 * i + c], b = (double)scene[3 * i + c];
-            sum += fabs(a - b) / (a + b + 0.05);
-        }
-    }
-    free(finished);
-    assert_true(count > WIDTH * HEIGHT / 2);
-    return sum / (double)count;
-}
-
 static void every_part_of_it_brings_the_picture_nearer(void **state) {
     static const char *const off[] = {NULL,
                                       "refraction_map.along=view",
@@ -415,7 +399,7 @@ static void every_part_of_it_brings_the_picture_nearer(void **state) {
         load_lake(gpu, "downsample=pick");
         if (off[i]) gpu_set(gpu, off[i]);
         gpu_run(gpu);
-        errors[i] = error_of(gpu, opacity, scene);
+        errors[i] = lake_error(gpu, opacity, scene);
         print_message("# %-28s %.4f\n", off[i] ? off[i] : "all", errors[i]);
         if (i) assert_true(errors[i] > errors[0]);
     }

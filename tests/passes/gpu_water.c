@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "gpu.h"
+#include "lake.h"
 #include "plain_capture.h"
 #include "unit.h"
 
@@ -21,23 +22,6 @@ static void load_lake(struct gpu *gpu) {
     gpu_reset(gpu);
     gpu_use(gpu, "planar=lookup");
     gpu_use(gpu, "water=combine");
-}
-
-/* The mean of |image - truth| / (image + truth + 0.05) over the pixels of the water. */
-static double error_of(struct gpu *gpu, const float *opacity, const float *scene) {
-    double sum = 0;
-    size_t count = 0;
-    float *finished = gpu_floats(gpu, "composed_water", NULL, NULL);
-    for (size_t i = 0; i < WIDTH * HEIGHT; ++i) {
-        if (!(opacity[i] > 0)) continue;
-        for (size_t c = 0; c < 3; ++c, ++count) {
-            double a = (double)finished[4 * i + c], b = (double)scene[3 * i + c];
-            sum += fabs(a - b) / (a + b + 0.05);
-        }
-    }
-    free(finished);
-    assert_true(count > WIDTH * HEIGHT / 2);
-    return sum / (double)count;
 }
 
 static void every_part_of_it_brings_the_picture_nearer(void **state) {
@@ -57,14 +41,14 @@ static void every_part_of_it_brings_the_picture_nearer(void **state) {
         load_lake(gpu);
         if (off[i]) gpu_set(gpu, off[i]);
         gpu_run(gpu);
-        errors[i] = error_of(gpu, opacity, scene);
+        errors[i] = lake_error(gpu, opacity, scene);
         print_message("# %-24s %.4f\n", off[i] ? off[i] : "all", errors[i]);
         if (i) assert_true(errors[i] > errors[0]);
     }
     gpu_use(gpu, "planar=none");
     gpu_set(gpu, "water.intensity=1");
     gpu_run(gpu);
-    double around = error_of(gpu, opacity, scene);
+    double around = lake_error(gpu, opacity, scene);
     print_message("# %-24s %.4f\n", "planar=none", around);
     assert_true(around > errors[0]);
     free(opacity), free(scene);
@@ -150,7 +134,7 @@ static void encodings_change_nothing(void **state) {
         gpu_run(gpu);
         float *opacity = gpu_part(gpu, "water", (const char *[]){"opacity"}, 1),
               *scene = gpu_part(gpu, "scene", (const char *[]){"R", "G", "B"}, 3);
-        errors[i] = error_of(gpu, opacity, scene);
+        errors[i] = lake_error(gpu, opacity, scene);
         free(opacity), free(scene);
     }
     print_message("# %.4f, encoded %.4f\n", errors[0], errors[1]);

@@ -9,6 +9,7 @@
 #include "shared/camera.glsl"
 #include "shared/fog.glsl"
 #include "shared/froxels.glsl"
+#include "fog/cells.glsl"
 
 vec3 ray_of(vec2 uv) { return view_position(uv, 1.0, frame.view_from_uv, frame.depth_range.z); }
 
@@ -25,10 +26,7 @@ float covered(ivec2 pixel, float depth_m) {
 }
 
 vec3 light_of(ivec3 cell) {
-    ivec2 texel = ivec2(cell.x, cell.y + cell.z * int(frame.froxels.y));
-    if (has_froxel_blurred) return texelFetch(froxel_blurred, texel, 0).rgb;
-    vec4 light = texelFetch(froxel_light, texel, 0);
-    return finite(vec4(light.rgb, 0.0)) ? max(light.rgb, 0.0) : vec3(0.0);
+    return has_froxel_blurred ? texelFetch(froxel_blurred, texel_of(cell), 0).rgb : captured_light(cell);
 }
 
 // The cells around a point of the picture within a slice: which four, how much each counts, and the depth from which on each is hidden.

@@ -8,6 +8,7 @@
 };
 #include "shared/constants.glsl"
 #include "shared/froxels.glsl"
+#include "fog/cells.glsl"
 
 // Pixels without a valid depth hide nothing.
 float farthest_in(ivec2 column) {
@@ -23,7 +24,6 @@ float farthest_in(ivec2 column) {
 }
 
 bool is_cell(ivec3 cell) { return all(greaterThanEqual(cell, ivec3(0))) && all(lessThan(cell, ivec3(frame.froxels.xyz))); }
-ivec2 texel_of(ivec3 cell) { return ivec2(cell.x, cell.y + cell.z * int(frame.froxels.y)); }
 float begin_of(int slice) { return froxel_depth(slice, frame.froxels.z, frame.froxel_range); }
 // begin_m: the depth at which the cell begins.
 bool is_hidden(ivec3 cell, float begin_m) { return stencil && begin_m > texelFetch(farthest, cell.xy, 0).x; }
@@ -31,8 +31,7 @@ bool is_hidden(ivec3 cell, float begin_m) { return stencil && begin_m > texelFet
 vec3 light_in(ivec3 cell) {
     if (dispatch_phase == 2u) return texelFetch(across, texel_of(cell), 0).rgb;
     if (dispatch_phase == 3u) return texelFetch(down, texel_of(cell), 0).rgb;
-    vec4 light = texelFetch(froxel_light, texel_of(cell), 0);
-    return finite(vec4(light.rgb, 0.0)) ? max(light.rgb, 0.0) : vec3(0.0);
+    return captured_light(cell);
 }
 
 // Slices are of different thickness: the thinner one of two says how much light they exchange.

@@ -9,24 +9,25 @@
 #include "shared/cubemap.glsl"
 #include "sky/air.glsl"
 
-// Between the four texels around a place of the picture.
+// Between the four texels around a place, in a rectangle of this size that begins at `first`. Its borders repeat.
+vec4 between(texture2D image, vec2 place, ivec2 first, ivec2 size) {
+    place = clamp(place - 0.5, vec2(0.0), vec2(size - 1));
+    vec2 weight = fract(place);
+    ivec2 a = ivec2(place), b = min(a + 1, size - 1);
+    return mix(mix(texelFetch(image, first + a, 0), texelFetch(image, first + ivec2(b.x, a.y), 0), weight.x),
+               mix(texelFetch(image, first + ivec2(a.x, b.y), 0), texelFetch(image, first + b, 0), weight.x), weight.y);
+}
 vec4 upsampled(texture2D image, vec2 uv) {
     ivec2 size = textureSize(image, 0);
-    vec2 place = clamp(uv * vec2(size) - 0.5, vec2(0.0), vec2(size - 1)), weight = fract(place);
-    ivec2 a = ivec2(place), b = min(a + 1, size - 1);
-    return mix(mix(texelFetch(image, a, 0), texelFetch(image, ivec2(b.x, a.y), 0), weight.x),
-               mix(texelFetch(image, ivec2(a.x, b.y), 0), texelFetch(image, b, 0), weight.x), weight.y);
+    return between(image, uv * vec2(size), ivec2(0), size);
 }
 
-// A cube map's faces lie one below the other. Between four texels, within a face.
+// A cube map's faces lie one below the other.
 vec3 star_light(vec3 direction) {
     int side = textureSize(stars, 0).x;
     if (!starry || textureSize(stars, 0).y != 6 * side) return vec3(0.0);
     vec3 face = face_from_direction(direction);
-    vec2 place = clamp(face.xy * float(side) - 0.5, vec2(0.0), vec2(side - 1)), weight = fract(place);
-    ivec2 a = ivec2(place), b = min(a + 1, ivec2(side - 1)), first = ivec2(0, int(face.z) * side);
-    return mix(mix(texelFetch(stars, first + a, 0).rgb, texelFetch(stars, first + ivec2(b.x, a.y), 0).rgb, weight.x),
-               mix(texelFetch(stars, first + ivec2(a.x, b.y), 0).rgb, texelFetch(stars, first + b, 0).rgb, weight.x), weight.y);
+    return between(stars, face.xy * float(side), ivec2(0, int(face.z) * side), ivec2(side)).rgb;
 }
 
 // The sun's light on a cloud. Clouds without an atmosphere have that on surfaces.
