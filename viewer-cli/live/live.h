@@ -95,12 +95,16 @@ struct live {
         uint64_t before;
     } judged;
     pthread_t worker, watcher;
+    bool working, watching; /* the threads run */
     struct watch_files files;
 };
 
-/* live.c */
+/* live.c. `live` has its command, args, captures and folders set; end it even after a failure. */
 bool live_begin(struct live *live, struct glint_error *err);
+/* Ends jobs and streams, before the server is stopped. */
+void live_stop(struct live *live);
 void live_end(struct live *live);
+/* answers.c */
 extern const struct http_route live_routes[];
 
 /* ---- States (state.c) ---- */

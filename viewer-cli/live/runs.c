@@ -29,9 +29,13 @@ static void note_locked(struct live *live, const char *id, json_t *state, bool d
     memcpy(entry->id, id, strlen(id) + 1);
 }
 
-void runs_note(struct live *live, const struct state *state, bool draft, char id[RUN_ID]) {
+static void make_id(const struct state *state, bool draft, char id[RUN_ID]) {
     const uint64_t key = (state->key ^ (state->capture + 1) * 0x9e3779b97f4a7c15u) ^ (draft ? 0xd6e8feb86659fd93u : 0);
     snprintf(id, RUN_ID, "%016llx", (unsigned long long)key);
+}
+
+void runs_note(struct live *live, const struct state *state, bool draft, char id[RUN_ID]) {
+    make_id(state, draft, id);
     pthread_mutex_lock(&live->lock);
     note_locked(live, id, state->json, draft);
     pthread_mutex_unlock(&live->lock);
@@ -205,6 +209,7 @@ struct reading {
 static bool work_read(struct live *live, void *user, struct glint_error *err) {
     struct reading *reading = user;
     struct state state = {0};
+    char now[RUN_ID];
     pthread_mutex_lock(&live->lock);
     struct run_entry *entry = find_entry(&live->runs, reading->id);
     const bool known = !strcmp(entry->id, reading->id);
@@ -214,7 +219,13 @@ static bool work_read(struct live *live, void *user, struct glint_error *err) {
     pthread_mutex_unlock(&live->lock);
     bool ok = json || glint_fail(err, GLINT_ERROR_USAGE, "there is no run %.20s, or it has no image %.100s",
                                  reading->id, reading->image);
-    ok = ok && state_read(&state, live, json, err) && live_replay(live, &state, draft, err) &&
+    ok = ok && state_read(&state, live, json, err);
+    if (ok) make_id(&state, draft, now);
+    if (ok && strcmp(now, reading->id) != 0)
+        ok = glint_fail(err, GLINT_ERROR_USAGE,
+                        "run %s: the files of its shaders or preset have changed, so that it cannot be replayed again",
+                        reading->id);
+    ok = ok && live_replay(live, &state, draft, err) &&
          read_image(live, &state, reading->id, reading->image, &reading->held, err);
     state_finish(&state);
     json_decref(json);
