@@ -95,7 +95,7 @@ static bool take_body(struct request *request, const char *part, size_t size) {
         return request->dropped <= 2 * (size_t)HTTP_BODY_BYTES;
     }
     if (request->size + size > request->room) {
-        const size_t room = 2 * (request->size + size);
+        const size_t twice = 2 * (request->size + size), room = twice < HTTP_BODY_BYTES ? twice : HTTP_BODY_BYTES;
         char *larger = realloc(request->body, room);
         if (!larger) return false;
         request->body = larger;
@@ -218,8 +218,7 @@ struct http *http_start(const struct http_options *options, struct glint_error *
     }
     http->options = *options;
     const int fd = http_listen(&http->guard, options, err);
-    if (fd >= 0 && start(http, fd, err)) return http;
-    if (fd >= 0) close(fd);
+    if (fd >= 0 && start(http, fd, err)) return http; /* without success libmicrohttpd may have closed the socket, or not */
     if (http->page) MHD_destroy_response(http->page);
     free(http);
     return NULL;
