@@ -10,15 +10,11 @@
 
 /* ---- The judge ---- */
 
-static void close_judge(struct live *live) {
-    glint_judge_destroy(&live->judge);
+void live_close_judge(struct live *live) {
+    if (live->judge) glint_judge_destroy(&live->judge);
     glint_capture_close(&live->judged.capture);
     free(live->judged.folder);
     live->judged = (struct judged){0};
-}
-
-void live_close_judge(struct live *live) {
-    close_judge(live);
 }
 
 /* A folder for the references of one effect, in which later requests find them. */
@@ -38,7 +34,7 @@ static bool open_judge(struct live *live, const struct judged *wanted, struct gl
     const bool same = live->judge && now->effect == wanted->effect && now->metrics == wanted->metrics &&
                       now->reference == wanted->reference && now->truth == wanted->truth;
     if (same) return true;
-    close_judge(live);
+    live_close_judge(live);
     *now = *wanted;
     now->capture = NULL;
     now->before = 0;
@@ -88,7 +84,7 @@ static bool load_frames(struct live *live, const struct state *state, struct gli
 static bool keep_judge(struct live *live, bool ok, const struct glint_error *err) {
     if (ok || err->code == GLINT_ERROR_USAGE) return ok;
     if (err->code == GLINT_ERROR_DEVICE || err->code == GLINT_ERROR_MEMORY) live_close(live);
-    else if (err->code != GLINT_ERROR_INTERRUPTED) close_judge(live);
+    else if (err->code != GLINT_ERROR_INTERRUPTED) live_close_judge(live);
     else live->judged.before = 0;
     return ok;
 }

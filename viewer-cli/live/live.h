@@ -19,7 +19,7 @@ struct live_frame {
     const char *path;
     uint32_t number, width, height;
     bool cut;
-    char draft[64]; /* the file of its draft below live->folder; "" until it is made */
+    bool has_draft; /* its draft is made */
 };
 
 /* ---- Events: lines of JSON that every listener gets ---- */
@@ -89,10 +89,12 @@ struct live {
     struct glint_judge *judge;
     struct judged {
         const struct glint_effect *effect;
-        size_t capture;
         uint32_t metrics;
         bool reference, truth;
-        uint64_t before;
+        struct glint_capture *capture; /* that the judge has loaded, or NULL */
+        size_t frame;
+        uint64_t before; /* the key of the state with which the frames before it ran; 0: none */
+        char *folder;    /* of references that are traced */
     } judged;
     pthread_t worker, watcher;
     bool working, watching; /* the threads run */
@@ -151,6 +153,9 @@ void live_listen(void *live, const struct http_request *request, struct http_ans
 
 /* ---- Replaying, on the worker thread (replaying.c) ---- */
 
+bool live_open_device(struct live *live, struct glint_error *err);
+/* Releases everything on the device, and the device; it is opened again when it is needed. */
+void live_close(struct live *live);
 /* The options for a state's replay. */
 struct glint_replay_options live_options(const struct live *live, const struct state *state);
 /* Opens the device if it is not, and replays the frames that the state needs up to and with its own. */
@@ -159,7 +164,6 @@ bool live_replay(struct live *live, const struct state *state, bool draft, struc
 bool live_load(struct live *live, const struct state *state, bool draft, struct glint_error *err);
 /* Notes how the run of the loaded frame ended. After a fault of the device everything on it is released. */
 bool live_ran(struct live *live, const struct state *state, bool ok, struct glint_error *err);
-void live_close(struct live *live);
 /* The path of a frame's capture at half the width and height, which is made when it is first asked for (draft.c). */
 bool live_draft(struct live *live, size_t frame, char *path, size_t size, struct glint_error *err);
 
@@ -175,6 +179,10 @@ void runs_release(struct live *live, struct held *held);
 /* Takes over the source as the only image of a run. */
 void runs_keep_answer(struct live *live, struct source *source, char id[RUN_ID]);
 void runs_finish(struct runs *runs);
+
+/* ---- Figures, on the worker thread (figures.c) ---- */
+
+void live_close_judge(struct live *live);
 
 /* ---- Answers, by path; `live` is a struct live ---- */
 

@@ -15,13 +15,12 @@ static void unload(struct live *live) {
 
 void live_close(struct live *live) {
     unload(live);
-    glint_judge_destroy(&live->judge);
-    live->judged = (struct judged){0};
+    live_close_judge(live);
     if (live->replay) glint_replay_destroy(&live->replay);
     if (live->device) glint_device_destroy(&live->device);
 }
 
-static bool open_device(struct live *live, struct glint_error *err) {
+bool live_open_device(struct live *live, struct glint_error *err) {
     if (!live->device && !(live->device = pipeline_args_device(live->args, err))) return false;
     return live->replay || (live->replay = glint_replay_create(live->device, err));
 }
@@ -90,7 +89,7 @@ static bool run_loaded(struct live *live, const struct state *state, struct glin
 
 bool live_load(struct live *live, const struct state *state, bool draft, struct glint_error *err) {
     const size_t first = state_first_frame(live, state), frame = state->capture;
-    if (!open_device(live, err)) return false;
+    if (!live_open_device(live, err)) return false;
     const bool same = live->capture && live->loaded_draft == draft;
     if (same && live->loaded == frame && (first == frame || live->before == state->key)) return true;
     if (first < frame && same && live->loaded == frame - 1 && live->ran == state->key &&
