@@ -64,8 +64,7 @@ static error_t cmd_live_parse(int key, char *arg, struct argp_state *state) {
     const struct arguments *a = state->input;
     (void)arg;
     if (key != ARGP_KEY_END) return ARGP_ERR_UNKNOWN;
-    if (a->listen && !a->token_file)
-        argp_error(state, "--listen needs --token-file: others can reach that address");
+    if (a->listen && !a->token_file) argp_error(state, "--listen needs --token-file: others can reach that address");
     for (size_t i = 0; i < a->captures.count; i++)
         if (!strcmp(a->captures.items[i], "-")) argp_error(state, "captures are read again and again: name files");
     return 0;
@@ -112,8 +111,8 @@ static bool serve(const struct arguments *a, struct live *live, const sigset_t *
                                               .token = token,
                                               .routes = live_routes,
                                               .user = live,
-                                              .page = (const char *)blob_live_page,
-                                              .page_bytes = (size_t)(blob_live_page_end - blob_live_page)};
+                                              .page = "<!doctype html><title>glint</title>",
+                                              .page_bytes = 20};
     struct http *http = take_token(a, token, err) ? http_start(&http_options, err) : NULL;
     if (!http) return false;
     print_address(a, http, token);
