@@ -1,10 +1,15 @@
-"""The start of every page: head.py STYLE NOTICE SCRIPT... OUT. The policy names the scripts by their digests, so that nothing
-else on the page runs, and lets nothing be fetched."""
+"""The start of every page: head.py STYLE.css... NOTICE SCRIPT.js... OUT. The policy names the scripts by their digests, so that nothing
+else on the page runs, and lets nothing be fetched. With --live before them: a whole page, with its scripts, which may ask its own server."""
 import base64
 import hashlib
 import sys
 
-style, notice, *scripts, out = sys.argv[1:]
+LIVE = " blob:; connect-src 'self'"
+
+live = sys.argv[1] == "--live"
+*paths, out = sys.argv[1 + live:]
+styles, scripts = ([p for p in paths if p.endswith(end)] for end in (".css", ".js"))
+(notice,) = (p for p in paths if p not in styles + scripts)
 
 
 def read(path):
@@ -19,7 +24,7 @@ for path in scripts:
     if b"</script" in text.lower() or b"<!--" in text or b"\r" in text:
         sys.exit(f"{path}: cannot stand in a page as it is")
     digests.append("'sha256-" + base64.b64encode(hashlib.sha256(text).digest()).decode() + "'")
-policy = (f"default-src 'none'; script-src {' '.join(digests)}; style-src 'unsafe-inline'; img-src data:; "
+policy = (f"default-src 'none'; script-src {' '.join(digests)}; style-src 'unsafe-inline'; img-src data:{LIVE if live else ''}; "
           "base-uri 'none'; form-action 'none'")
 with open(out, "w", encoding="utf-8") as file:
     file.write(f"""<!doctype html>
@@ -33,8 +38,13 @@ with open(out, "w", encoding="utf-8") as file:
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <title>glint</title>
 <style>
-{read(style).decode()}</style>
+{"".join(read(style).decode() for style in styles)}</style>
 </head>
 <body>
-<noscript><p>This page builds itself by a script that it carries; it fetches nothing.</p></noscript>
-<script type="application/json" id="document">""")
+<noscript><p>This page builds itself by a script that it carries; it {"asks the program that it came from" if live else "fetches nothing"}.</p></noscript>
+""")
+    if not live:
+        file.write('<script type="application/json" id="document">')
+    else:
+        file.writelines(f"<script>{read(path).decode()}</script>\n" for path in scripts)
+        file.write("</body>\n</html>\n")

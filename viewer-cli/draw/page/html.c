@@ -120,7 +120,9 @@ static char *html(const json_t *document) {
     fputs("</script>\n", out);
     put_script(out, blob_echarts, blob_echarts_end);
     put_script(out, blob_chart, blob_chart_end);
+    put_script(out, blob_parts, blob_parts_end);
     put_script(out, blob_stage, blob_stage_end);
+    put_script(out, blob_plots, blob_plots_end);
     put_script(out, blob_page, blob_page_end);
     fputs("</body>\n</html>\n", out);
     ok = ok && !ferror(out);

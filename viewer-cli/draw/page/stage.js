@@ -1,7 +1,8 @@
 /* A stage of page.h: pictures over each other, a slider between two of them, both beside each other or in turns, one alone;
-   the key to their colours, and the values of the pixel that is pointed at or reached by keys. `own`: page.js's element, list, sourceOf and numberText. */
+   the key to their colours, and the values of the pixel that is pointed at or reached by keys. */
 const glintStage = (function () {
     'use strict';
+    const {element, list} = glintParts;
     const TURN_MS = 500;
     const stages = [];
 
@@ -50,8 +51,8 @@ const glintStage = (function () {
 
     const COLOR = /^#[0-9a-f]{6}$/;
 
-    function scaleElement(element, scale) {
-        const colors = (Array.isArray(scale.colors) ? scale.colors : []).filter(c => COLOR.test(c));
+    function scaleElement(scale) {
+        const colors = list(scale.colors).filter(c => COLOR.test(c));
         const {low, high} = scale, at = t => scale.log ? low * (high / low) ** t : low + (high - low) * t;
         if (colors.length < 2 || !Number.isFinite(low) || !(high > low) || (scale.log && !(low > 0))) return null;
         const bar = element('div', {class: 'scale'});
@@ -61,15 +62,15 @@ const glintStage = (function () {
     }
 
     /* Of one or two pictures, whose shares stand behind each other. */
-    function keyElement(element, keys) {
+    function keyElement(keys) {
         const first = keys[0], items = new Map();
-        keys.forEach((key, k) => (Array.isArray(key.items) ? key.items : []).forEach(i => {
+        keys.forEach((key, k) => list(key.items).forEach(i => {
             if (!i || !COLOR.test(i.color)) return;
             if (!items.has(i.text)) items.set(i.text, {color: i.color, shares: keys.map(() => 0), known: false});
             if (Number.isFinite(i.share)) Object.assign(items.get(i.text), {known: true}).shares[k] = i.share;
         }));
         return element('div', {class: 'key'}, element('div', {class: 'faint'}, `${glintChart.text(first.title)}${first.scale?.log ? ', logarithmic' : ''}`),
-            first.scale ? scaleElement(element, first.scale) : null,
+            first.scale ? scaleElement(first.scale) : null,
             element('div', {class: 'items'}, ...[...items].map(([text, {color, shares, known}]) => {
                 const patch = element('i');
                 patch.style.background = color;
@@ -80,7 +81,7 @@ const glintStage = (function () {
     /* ---- One stage ---- */
 
     function stage(block, own) {
-        const {element, list, sourceOf} = own;
+        const {sourceOf} = own;
         const pictures = list(block.pictures).filter(p => p && sourceOf(p));
         if (!pictures.length) return null;
         const pairs = pictures.filter(p => !p.alone), alone = pictures.filter(p => p.alone);
@@ -140,7 +141,7 @@ const glintStage = (function () {
                 images[i].alt = tags[i].textContent = glintChart.text(p.caption);
             });
             const keys = two.filter(p => p && p.key).map(p => p.key);
-            key.replaceChildren(...(keys.length ? [keyElement(element, keys)] : []));
+            key.replaceChildren(...(keys.length ? [keyElement(keys)] : []));
             slider.hidden = line.hidden = state.mode !== 'slider';
             slide(state.share);
             clearInterval(timer);
