@@ -1,5 +1,6 @@
 /* glint probe: records what every pass does for one pixel. */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "command.h"
@@ -75,9 +76,12 @@ static bool run_reference(const struct arguments *a, struct probe *probe, struct
 }
 
 static enum status report(const struct arguments *a, const struct probe *probe, struct glint_error *err) {
-    if (a->out && !probe_draw(a->out, probe, err)) return command_fail(&cmd_probe, err);
+    char *drawing = a->out ? probe_draw(probe, err) : NULL;
+    const bool ok = !a->out || (drawing && output_text(a->out, drawing, err));
+    free(drawing);
+    if (!ok) return command_fail(&cmd_probe, err);
     if (a->json) return print_json(probe_json(probe));
-    probe_print(probe);
+    probe_print(stdout, probe);
     return STATUS_DONE;
 }
 

@@ -112,3 +112,9 @@ bool check_image(const char *name, struct glint_error *err) {
     return glint_fail(err, GLINT_ERROR_USAGE, "there is no image %s%s; glint passes lists them", name,
                       glint_nearest_text(&near));
 }
+
+const char *slot_title(const struct glint_pass *pass) {
+    for (size_t i = 0; i < pass->row_count; i++)
+        if (pass->rows[i].kind == GLINT_ROW_SLOT) return pass->rows[i].name;
+    return "";
+}

@@ -3,6 +3,7 @@
 #define GLINT_VIEWER_PROBE_H
 
 #include <jansson.h>
+#include <stdio.h>
 
 #include "glint/probe.h"
 
@@ -63,7 +64,7 @@ void probe_group_text(const struct probe_side *side, const struct glint_probe_re
                       const struct probe_group *group, char *text, size_t size);
 
 /* text.c, json.c */
-void probe_print(const struct probe *probe);
+void probe_print(FILE *out, const struct probe *probe);
 json_t *probe_json(const struct probe *probe);
 
 #endif
