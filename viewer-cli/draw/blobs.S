@@ -9,6 +9,7 @@
 BLOB(blob_font, GLINT_FONT)
 BLOB(blob_ocio, GLINT_OCIO)
 BLOB(blob_page_head, GLINT_PAGE_HEAD)
+BLOB(blob_live_page, GLINT_LIVE_PAGE)
 BLOB(blob_echarts, GLINT_ECHARTS)
 BLOB(blob_echarts_code, GLINT_ECHARTS_CODE)
 BLOB(blob_chart, GLINT_CHART)

@@ -7,6 +7,7 @@ extern "C" {
 #endif
 extern const unsigned char blob_font[], blob_font_end[]; /* DejaVuSans.ttf */
 extern const unsigned char blob_ocio[], blob_ocio_end[]; /* glint.ocio */
+extern const unsigned char blob_live_page[], blob_live_page_end[]; /* the whole page of glint live */
 /* The beginning of a page up to its document, and its scripts in order. */
 extern const unsigned char blob_page_head[], blob_page_head_end[];
 extern const unsigned char blob_echarts[], blob_echarts_end[];           /* Apache ECharts */

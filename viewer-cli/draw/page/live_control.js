@@ -81,7 +81,7 @@ glintLive.control = (function () {
 
     /* A slider over places, and a field beside it. */
     function numberControl(p, act, label) {
-        let places = placesOf(p, []), preset = p.default, drag = '';
+        let places = placesOf(p, []), preset = p.default, drag = '', typing = false;
         const slider = element('input', {type: 'range', min: 0, step: 1, 'aria-label': label});
         const field = element('input', {type: 'text', inputmode: 'decimal', class: 'exact', 'aria-label': `${label}, exact value`, autocomplete: 'off', spellcheck: 'false'});
         const marks = [element('i', {class: 'mark default', title: `default: ${text(p.default)}`}), element('i', {class: 'mark preset'})];
@@ -113,21 +113,25 @@ glintLive.control = (function () {
         });
         /* What is no number is sent as it is: the server says what it expected. */
         function enter() {
+            setTyping(false);
             const given = field.value.trim().replace('\u2212', '-'), v = given !== '' && Number.isFinite(+given) ? +given : given;
             act.set(v === '' ? preset : v);
         }
+        const setTyping = yes => { typing = yes; field.toggleAttribute('data-typing', yes); };
+        field.addEventListener('input', () => setTyping(true));
         field.addEventListener('change', enter);
         field.addEventListener('keydown', e => {
             const step = {ArrowUp: 1, ArrowDown: -1}[e.key];
             if (!step) return;
             e.preventDefault();
+            setTyping(false);
             const at = nearest(places, +field.value);
             act.set(places[Math.min(places.length - 1, Math.max(0, at + step))], 'steps');
         });
         return {parts: [track, field], focus: slider, show(v, of, refused) {
             if (of !== preset) setPlaces(of);
             if (!refused && typeof v === 'number') {
-                if (document.activeElement !== field || +field.value !== v) field.value = text(v);
+                if (!typing && field.value !== text(v)) field.value = text(v);
                 if (places[+slider.value] !== v) slider.value = nearest(places, v);
                 slider.setAttribute('aria-valuetext', `${text(v)} ${unitOf(p)}`.trim());
             }

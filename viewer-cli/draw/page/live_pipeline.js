@@ -4,6 +4,7 @@ glintLive.pipeline = (function () {
     'use strict';
     const {element, list} = glintParts;
     const NONE = 'none'; /* as in --use SLOT=none */
+    const KEPT = 'up to date';
 
     function milliseconds(ns) { return `${glintChart.number(+(ns / 1e6).toPrecision(3))} ms`; }
 
@@ -82,12 +83,12 @@ glintLive.pipeline = (function () {
     }
 
     /* Why a pass did not run, or what it ran with. */
-    function noteOf(state, slot, variant, pass, said) {
+    function noteOf(state, slot, variant, pass, said, counted) {
         if (variant === NONE) return 'not in the pipeline';
         if (state.skip.includes(slot)) return 'skipped: what reads its images gets fallback values';
         const words = [];
         if (pass && !pass.ran && !pass.cached) words.push(`left out: ${pass.reason || 'nothing needs it'}`);
-        if (pass?.cached) words.push('up to date, not run again');
+        if (pass?.cached && counted) words.push(KEPT);
         if (said?.shader) words.push(`shader ${said.shader}`);
         if (state.force.includes(slot)) words.push('forced');
         return words.join(' \u00b7 ');
@@ -131,14 +132,16 @@ glintLive.pipeline = (function () {
             row.classList.toggle('differs', differsIn(state, slot));
             row.classList.toggle('off', !head.on.checked || !!(pass && !pass.ran && !pass.cached));
             row.classList.toggle('cached', !!pass?.cached);
-            head.note.textContent = glintChart.text(noteOf(state, slot, variant, pass, said));
+            head.note.textContent = glintChart.text(noteOf(state, slot, variant, pass, said, Number.isFinite(counted)));
             const forced = state.force.includes(slot);
             head.force.hidden = !forced && (!pass || pass.ran || pass.cached || !head.on.checked);
             head.force.setAttribute('aria-pressed', String(forced));
             const ns = pass?.ns;
             bar(head.time, Number.isFinite(ns) ? milliseconds(ns) : '', Number.isFinite(ns) ? ns / scale.ns : 0,
                 pass?.cached_work ? 'runs when a cube map changes only, not in every frame' : 'time on the device when it last ran');
-            bar(head.fetches, Number.isFinite(counted) ? `${count(counted)} fetches` : '', Number.isFinite(counted) ? counted / scale.fetches : 0, 'texture fetches of all rays of a frame');
+            bar(head.fetches, Number.isFinite(counted) ? `${count(counted)} fetches` : pass?.cached ? KEPT : '', Number.isFinite(counted) ? counted / scale.fetches : 0,
+                Number.isFinite(counted) ? 'texture fetches of all rays of a frame' : 'nothing that it depends on has changed, so it was not run again');
+            head.fetches.classList.toggle('kept', !Number.isFinite(counted));
         }
 
         /* Whether it stands in the list: what is looked for, and whether only what differs shall. */
@@ -158,6 +161,14 @@ glintLive.pipeline = (function () {
             return !row.hidden;
         }
         return {row, update, filter, open(yes) { open = yes; fold(); }};
+    }
+
+    /* What there is to read about a slot. */
+    function passElement(store, slot) {
+        const variant = store.slots.find(s => s.slot === slot)?.variant, pass = variantOf(store, slot, variant) || store.registry.passes.find(p => p.slot === slot);
+        const names = images => list(images).map(i => i.name).join(', ') || 'nothing';
+        return element('div', {class: 'help'}, element('b', null, slot), element('span', null, `${pass.slot_title}. ${pass.variant}: ${pass.title}`),
+            element('span', {class: 'faint'}, `source: ${pass.source} \u00b7 reads ${names(pass.reads)} \u00b7 writes ${names(pass.writes)}`));
     }
 
     /* ---- Slots that the pipeline lacks ---- */
@@ -188,12 +199,13 @@ glintLive.pipeline = (function () {
     /* ---- The panel ---- */
 
     /* Slots in order; those that the state takes out of its preset keep their place. */
-    function orderOf(store, last) {
-        const order = store.slots.map(s => s.slot);
+    function orderOf(store, before) {
+        const order = store.slots.map(s => s.slot), own = store.orders.get(store.state.preset) || [];
         for (const slot of Object.keys(store.state.use)) {
             if (order.includes(slot)) continue;
-            const at = last.indexOf(slot), before = last.slice(0, Math.max(0, at)).reverse().find(s => order.includes(s));
-            order.splice(at < 0 ? order.length : order.indexOf(before) + 1, 0, slot);
+            const last = own.includes(slot) ? own : before, at = last.indexOf(slot);
+            const after = last.slice(0, Math.max(0, at)).reverse().find(s => order.includes(s));
+            order.splice(at < 0 ? order.length : order.indexOf(after) + 1, 0, slot);
         }
         return order;
     }
@@ -202,8 +214,8 @@ glintLive.pipeline = (function () {
         const search = element('input', {type: 'search', id: 'search', placeholder: 'Search passes, parameters, help', 'aria-label': 'Search passes, parameters and their help', input: filter});
         const only = element('input', {type: 'checkbox', change: filter});
         const all = element('button', {type: 'button', title: 'everything back to the preset', click: () => store.change(s => Object.assign(s, {use: {}, set: {}, skip: [], force: []}))}, 'Reset all');
-        const changes = element('span', {class: 'faint', 'aria-live': 'polite'});
-        return {bar: element('div', {class: 'tools'}, search, element('label', null, only, ' only what differs'), all), search, only, all, changes};
+        const head = element('div', {class: 'tools'}, element('h2', null, 'Pipeline'), element('label', null, only, ' only what differs'), all);
+        return {bars: [head, element('div', {class: 'tools'}, search)], search, only, all};
     }
 
     return function (store) {
@@ -244,6 +256,7 @@ glintLive.pipeline = (function () {
             const name = event.target.closest?.('.parameter')?.dataset.name, slot = event.target.closest?.('.slot')?.dataset.slot;
             const found = name && [...list(store.registry.pipeline), ...store.registry.passes.flatMap(p => p.slot === slot ? p.parameters : [])].find(p => p.name === name);
             if (found) help.replaceChildren(glintLive.control.helpElement(found));
+            else if (slot && event.type === 'focusin') help.replaceChildren(passElement(store, slot));
         }
 
         let due = false;
@@ -255,6 +268,6 @@ glintLive.pipeline = (function () {
         for (const name of ['state', 'slots', 'result', 'refused', 'figures']) store.on(name, later);
         update();
         return element('section', {class: 'panel pipeline', id: 'pipeline', 'aria-label': 'Pipeline', tabindex: -1, focusin: explain, pointerover: explain},
-            element('h2', null, 'Pipeline'), bars.bar, element('div', {class: 'list'}, whole, slots, none, add), help);
+            ...bars.bars, element('div', {class: 'list'}, whole, slots, none, add), help);
     };
 })();

@@ -145,6 +145,7 @@ glintLive.store = (function () {
             store.emit('effect');
         };
 
+        store.lookOf = lookOf;
         store.restore = () => {
             const given = linked();
             store.look = lookOf(given?.look);
