@@ -40,10 +40,10 @@ struct probe {
     bool has_reference;
 };
 
-/* read.c: runs the pipeline with the pixel probed. */
+/* read.c: runs the pipeline with the pixel probed. `progress` may be NULL. */
 bool probe_run(struct probe *probe, struct probe_side *side, struct glint_replay *replay,
                const struct glint_pipeline *pipeline, const struct glint_replay_options *options,
-               struct glint_error *err);
+               glint_progress progress, void *user, struct glint_error *err);
 /* The pipeline with the reference tracers, which skip nothing; all other passes stay. */
 struct glint_pipeline *probe_reference(const struct glint_pipeline *pipeline, struct glint_error *err);
 void probe_side_finish(struct probe_side *side);
