@@ -4,6 +4,7 @@ glintLive.figures = (function () {
     'use strict';
     const {element, list, numberText} = glintParts, {api, store: {keyOf, copy}} = glintLive;
     const QUIET_MS = 300; /* without a change, before measuring by itself */
+    const ROUNDS_MAX = 100;
     const QUICK_S = 1; /* replays up to this long are measured after each change, unless somebody says otherwise */
 
     function percent(a, b) {
@@ -62,7 +63,7 @@ glintLive.figures = (function () {
 
         self.measure = async (rounds, asked) => {
             const {result} = store;
-            if (!result || result.draft || !store.effect || (self.running && !asked)) return;
+            if (!result || result.draft || !store.effect || !self.measurable() || (self.running && !asked)) return;
             const state = copy(result.state), mine = self.running = {key: keyFor(state, against())};
             const wanted = () => self.running === mine && keyOf(store.state) === keyOf(state);
             self.error = null;
@@ -85,11 +86,13 @@ glintLive.figures = (function () {
         };
         /* Never against the reference, whose rays take minutes. */
         self.isAutomatic = () => self.against !== 'reference' && (self.automatic === null ? !!store.result && store.result.seconds < QUICK_S : self.automatic);
+        /* Figures are of pipelines as the plan runs them. */
+        self.measurable = () => !store.state.skip.length && !store.state.force.length;
         self.isCurrent = () => !!self.figures && !!store.result && self.figures.key === keyFor(store.result.state, against());
         /* After a whole frame: what is known already costs nothing, the rest is measured where that was asked for. */
         self.follow = () => {
             const {result} = store;
-            if (!result || result.draft || store.busy() || store.playing) return;
+            if (!result || result.draft || store.busy() || store.playing || !self.measurable()) return;
             const known = cache.get(keyFor(result.state, against()));
             if (known || self.isAutomatic()) self.measure(0, false);
         };
@@ -170,7 +173,7 @@ glintLive.figures = (function () {
         const effect = select('effect that is judged', () => { store.setEffect(effect.value); meter.reset(); });
         const against = select('what the error is measured against', () => { meter.against = against.value || null; meter.reset(); });
         const metric = select('metric', () => { meter.metric = metric.value; meter.reset(); });
-        const rounds = element('input', {type: 'number', min: 0, max: 999, value: meter.rounds, class: 'exact', 'aria-label': 'timed rounds', change: () => { meter.rounds = Math.max(0, Math.min(999, +rounds.value || 0)); rounds.value = meter.rounds; }});
+        const rounds = element('input', {type: 'number', min: 0, max: ROUNDS_MAX, value: meter.rounds, class: 'exact', 'aria-label': 'timed rounds', change: () => { meter.rounds = Math.max(0, Math.min(ROUNDS_MAX, +rounds.value || 0)); rounds.value = meter.rounds; }});
         const run = element('button', {type: 'button', id: 'measure', title: 'measures the error, and the times in so many rounds (m)', click: () => meter.measure(meter.rounds, true)}, 'Measure');
         const automatic = element('input', {type: 'checkbox', change: () => { meter.automatic = automatic.checked; meter.follow(); }});
         metric.append(...store.registry.metrics.map(m => element('option', {value: m.name, title: glintChart.text(m.help)}, m.title || m.name)));
@@ -187,7 +190,7 @@ glintLive.figures = (function () {
             }
             automatic.checked = meter.isAutomatic();
             automatic.disabled = meter.against === 'reference';
-            run.disabled = !store.effect;
+            run.disabled = !store.effect || !meter.measurable();
             metric.value = meter.metric;
         }
         return {update, row: element('div', {class: 'tools'}, effect, against, metric, run, element('label', {title: 'rounds of the replay that times are measured in'}, rounds, ' rounds'),
@@ -205,6 +208,7 @@ glintLive.figures = (function () {
             if (own.error) return own.error.message;
             if (own.running) return 'measuring \u2026';
             if (!store.effect) return store.result ? 'Nothing that this pipeline makes can be judged.' : '';
+            if (!own.measurable()) return 'Figures are not measured while passes are skipped or forced.';
             if (!own.isCurrent()) return own.isAutomatic() ? '' : 'Not measured yet for this state.';
             return [own.figures.why, own.figures.against || own.figures.why ? null : 'The capture has nothing to compare with.', store.pinned?.of ? 'B is what the result should be, and has no figures.' : null].filter(t => t).join(' ');
         }
@@ -227,8 +231,7 @@ glintLive.figures = (function () {
         store.on('idle', () => { clearTimeout(quiet); quiet = setTimeout(own.follow, QUIET_MS); });
         store.on('changed', () => clearTimeout(quiet));
         store.on('pinned', () => { own.other = null; update(); if (store.pinned && !store.pinned.of && own.figures) own.follow(); });
-        store.on('figures', update);
-        store.on('effect', update);
+        for (const name of ['figures', 'effect', 'state']) store.on(name, update);
         return element('section', {class: 'panel figures-panel', id: 'figures', 'aria-label': 'Figures', tabindex: -1}, element('h2', null, 'Figures'), bar.row, said, body, chart);
     };
 })();

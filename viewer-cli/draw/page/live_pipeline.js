@@ -198,16 +198,10 @@ glintLive.pipeline = (function () {
 
     /* ---- The panel ---- */
 
-    /* Slots in order; those that the state takes out of its preset keep their place. */
-    function orderOf(store, before) {
-        const order = store.slots.map(s => s.slot), own = store.orders.get(store.state.preset) || [];
-        for (const slot of Object.keys(store.state.use)) {
-            if (order.includes(slot)) continue;
-            const last = own.includes(slot) ? own : before, at = last.indexOf(slot);
-            const after = last.slice(0, Math.max(0, at)).reverse().find(s => order.includes(s));
-            order.splice(at < 0 ? order.length : order.indexOf(after) + 1, 0, slot);
-        }
-        return order;
+    /* Slots in order, also those that the state takes out; what is added now gets its place when the server has answered. */
+    function orderOf(store) {
+        const order = store.slots.map(s => s.slot);
+        return [...order, ...Object.keys(store.state.use).filter(s => !order.includes(s))];
     }
 
     function tools(store, filter) {
@@ -237,7 +231,7 @@ glintLive.pipeline = (function () {
         }
 
         function update() {
-            order = orderOf(store, order);
+            order = orderOf(store);
             for (const slot of order) if (!rows.has(slot)) rows.set(slot, slotRow(store, slot));
             const wanted = order.map(s => rows.get(s).row);
             if (wanted.length !== slots.children.length || wanted.some((r, i) => slots.children[i] !== r)) slots.replaceChildren(...wanted);

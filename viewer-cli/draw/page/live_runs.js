@@ -18,7 +18,6 @@ glintLive.runs = (function () {
         store.accepted = null; /* the last state that the server took */
         store.refusal = null;  /* {names, message} of the last one that it did not take */
 
-        store.orders = new Map(); /* preset: its slots in order, also those that a state takes out */
 
         const newest = () => wanted === null;
 
@@ -118,22 +117,10 @@ glintLive.runs = (function () {
             } catch { /* the replay says it, too */ }
         }
 
-        /* Where slots stand that the state takes out. */
-        async function learn(state) {
-            if (store.orders.has(state.preset)) return;
-            store.orders.set(state.preset, []);
-            try {
-                const answer = await api.post('/api/v1/pipeline', {state: {capture: state.capture, preset: state.preset}});
-                store.orders.set(state.preset, answer.slots.map(s => s.slot));
-                store.emit('slots');
-            } catch { store.orders.delete(state.preset); }
-        }
-
         store.request = () => {
             wanted = copy(store.state);
             if (refining) refining.abort();
             look(wanted);
-            learn(wanted);
             pump();
         };
         store.busy = () => busy;
