@@ -1,5 +1,6 @@
-"""The start of every page: head.py STYLE.css... NOTICE SCRIPT.js... OUT. The policy names the scripts by their digests, so that nothing
-else on the page runs, and lets nothing be fetched. With --live before them: a whole page, with its scripts, which may ask its own server."""
+"""What stands around the document of every page: head.py STYLE.css... NOTICE SCRIPT.js... HEAD.html SCRIPTS.html. The policy names the
+scripts by their digests, so that nothing else on the page runs, and lets nothing be fetched. With --live before them, and one output: a whole
+page, which may ask its own server."""
 import base64
 import hashlib
 import sys
@@ -7,9 +8,9 @@ import sys
 LIVE = " blob:; connect-src 'self'"
 
 live = sys.argv[1] == "--live"
-*paths, out = sys.argv[1 + live:]
-styles, scripts = ([p for p in paths if p.endswith(end)] for end in (".css", ".js"))
-(notice,) = (p for p in paths if p not in styles + scripts)
+paths = sys.argv[1 + live:]
+styles, scripts, outputs = ([p for p in paths if p.endswith(end)] for end in (".css", ".js", ".html"))
+(notice,) = (p for p in paths if p not in styles + scripts + outputs)
 
 
 def read(path):
@@ -26,7 +27,7 @@ for path in scripts:
     digests.append("'sha256-" + base64.b64encode(hashlib.sha256(text).digest()).decode() + "'")
 policy = (f"default-src 'none'; script-src {' '.join(digests)}; style-src 'unsafe-inline'; img-src data:{LIVE if live else ''}; "
           "base-uri 'none'; form-action 'none'")
-with open(out, "w", encoding="utf-8") as file:
+with open(outputs[0], "w", encoding="utf-8") as file:
     file.write(f"""<!doctype html>
 <!-- Charts by {" ".join(read(notice).decode().split())} Licensed under the Apache License, Version 2.0,
      https://www.apache.org/licenses/LICENSE-2.0 -->
@@ -45,6 +46,8 @@ with open(out, "w", encoding="utf-8") as file:
 """)
     if not live:
         file.write('<script type="application/json" id="document">')
-    else:
-        file.writelines(f"<script>{read(path).decode()}</script>\n" for path in scripts)
-        file.write("</body>\n</html>\n")
+with open(outputs[-1], "a" if live else "w", encoding="utf-8") as file:
+    if not live:
+        file.write("</script>\n")
+    file.writelines(f"<script>{read(path).decode()}</script>\n" for path in scripts)
+    file.write("</body>\n</html>\n")

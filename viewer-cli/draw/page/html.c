@@ -92,12 +92,6 @@ static void write_bytes(FILE *out, const unsigned char *begin, const unsigned ch
     fwrite(begin, 1, (size_t)(end - begin), out);
 }
 
-static void put_script(FILE *out, const unsigned char *begin, const unsigned char *end) {
-    fputs("<script>", out);
-    write_bytes(out, begin, end);
-    fputs("</script>\n", out);
-}
-
 /* JSON contains '<' only in strings. Without it, no string can close the script element. */
 static int put_json(const char *text, size_t size, void *user) {
     FILE *out = user;
@@ -117,14 +111,7 @@ static char *html(const json_t *document) {
     if (!out) return NULL;
     write_bytes(out, blob_page_head, blob_page_head_end);
     bool ok = json_dump_callback(document, put_json, out, JSON_COMPACT | JSON_ENSURE_ASCII) == 0;
-    fputs("</script>\n", out);
-    put_script(out, blob_echarts, blob_echarts_end);
-    put_script(out, blob_chart, blob_chart_end);
-    put_script(out, blob_parts, blob_parts_end);
-    put_script(out, blob_stage, blob_stage_end);
-    put_script(out, blob_plots, blob_plots_end);
-    put_script(out, blob_page, blob_page_end);
-    fputs("</body>\n</html>\n", out);
+    write_bytes(out, blob_page_scripts, blob_page_scripts_end);
     ok = ok && !ferror(out);
     if (fclose(out) == 0 && ok) return text;
     free(text);
