@@ -1,4 +1,4 @@
-/* A server of a few routes for http.py: http_host [ADDRESS [PORT]]. Prints its port and token as JSON, and ends when its input does. */
+/* A server of a few routes for live_server.py: http_host [ADDRESS [PORT]]. Prints its port and token as JSON, and ends when its input does. */
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-"""The server of glint live, attacked: http.py HTTP_HOST. After each attack it answers, holds no more memory, and has no connection left over.
+"""The server of glint live, attacked: live_server.py HTTP_HOST. After each attack it answers, holds no more memory, and has no connection left over.
 Speaks TAP."""
 import itertools
 import json
