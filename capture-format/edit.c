@@ -1,4 +1,4 @@
-/* Copies a capture with changes. Pixels are read as stored when they are written or changed, and a rectangle of them is a stride. */
+/* Copies a capture with changes. Pixels are read as stored when they are written or changed; a rectangle of them, or every n-th one, is a stride. */
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,7 +8,7 @@
 #include "hash.h"
 #include "sibling.h"
 
-static bool fail_memory(const struct glint_edit *edit, struct glint_error *err) {
+bool glint_edit_fail_memory(const struct glint_edit *edit, struct glint_error *err) {
     return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", edit->exr->path);
 }
 
@@ -38,10 +38,11 @@ static bool take_part(struct glint_edit *edit, struct glint_edit_part *part, str
     part->exr = exr;
     part->index = index;
     part->x = part->y = 0;
+    part->step = 1;
     part->full_width = from->width;
     part->channels = glint_arena_take(&edit->arena, (count + 1) * sizeof *part->channels);
     part->listed = glint_arena_take(&edit->arena, (count + 1) * sizeof *part->listed);
-    if (!part->channels || !part->listed) return fail_memory(edit, err);
+    if (!part->channels || !part->listed) return glint_edit_fail_memory(edit, err);
     for (size_t c = 0; c < count; c++) part->channels[c].info = part->listed[c] = from->channels[c];
     part->info.name = from->name;
     part->info.width = from->width;
@@ -55,7 +56,7 @@ static bool init_parts(struct glint_edit *edit, struct glint_error *err) {
     edit->count = edit->exr->part_count;
     edit->parts = calloc(edit->count + 1, sizeof *edit->parts);
     edit->siblings = calloc(edit->count + 1, sizeof *edit->siblings);
-    if (!edit->parts || !edit->siblings) return fail_memory(edit, err);
+    if (!edit->parts || !edit->siblings) return glint_edit_fail_memory(edit, err);
     for (size_t i = 0; i < edit->count; i++) {
         const struct glint_exr_part_info *from = &edit->exr->parts[i].info;
         if (!take_part(edit, &edit->parts[i], edit->exr, i, err)) return false;
@@ -146,11 +147,11 @@ bool glint_edit_set(struct glint_edit *edit, size_t i, const struct glint_exr_at
                     struct glint_error *err) {
     struct glint_edit_part *part = &edit->parts[i];
     struct glint_exr_attribute copy = *attribute, *to = NULL;
-    if (!copy_attribute(&edit->arena, &copy)) return fail_memory(edit, err);
+    if (!copy_attribute(&edit->arena, &copy)) return glint_edit_fail_memory(edit, err);
     for (size_t a = 0; a < part->attributes.count && !to; a++)
         if (!strcmp(part->attributes.all[a].name, copy.name)) to = &part->attributes.all[a];
     if (!to) to = glint_attribute_push(&edit->arena, &part->attributes);
-    if (!to) return fail_memory(edit, err);
+    if (!to) return glint_edit_fail_memory(edit, err);
     *to = copy;
     part->info.attributes = part->attributes.all;
     part->info.attribute_count = part->attributes.count;
@@ -184,7 +185,7 @@ static struct glint_exr *open_sibling(struct glint_edit *edit, const char *name,
     struct glint_edit_sibling *sibling = &edit->siblings[edit->sibling_count];
     sibling->name = glint_arena_string(&edit->arena, name);
     if (path && sibling->name) sibling->exr = glint_exr_open(path, &edit->exr->limits, err);
-    else fail_memory(edit, err);
+    else glint_edit_fail_memory(edit, err);
     edit->sibling_count += sibling->exr != NULL;
     bool ok = sibling->exr && glint_hash_file(sibling->exr->stream.file, path, hex, err);
     if (ok && strcmp(hex, expected) != 0)
@@ -194,7 +195,7 @@ static struct glint_exr *open_sibling(struct glint_edit *edit, const char *name,
     return ok ? sibling->exr : NULL;
 }
 
-static const char *string_of(const struct glint_edit_part *part, const char *name) {
+const char *glint_edit_string(const struct glint_edit_part *part, const char *name) {
     const struct glint_exr_attribute *a = glint_exr_attribute(&part->info, name);
     return a && a->type == GLINT_EXR_STRING ? a->string : NULL;
 }
@@ -217,7 +218,7 @@ static bool adopt(struct glint_edit *edit, struct glint_edit_part *part, const s
 }
 
 bool glint_edit_resolve(struct glint_edit *edit, struct glint_edit_part *part, struct glint_error *err) {
-    const char *name = string_of(part, GLINT_SIBLING_ATTRIBUTE), *hash = string_of(part, GLINT_SIBLING_HASH_ATTRIBUTE);
+    const char *name = glint_edit_string(part, GLINT_SIBLING_ATTRIBUTE), *hash = glint_edit_string(part, GLINT_SIBLING_HASH_ATTRIBUTE);
     if (!name) return true;
     if (!*name || strpbrk(name, "/\\") || !strcmp(name, ".") || !strcmp(name, ".."))
         return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part %s: %s: expected a plain file name, found \"%.80s\"",
@@ -267,7 +268,7 @@ static bool read_type(struct glint_edit *edit, struct glint_edit_part *part, enu
         if (!count) return true;
         const size_t bytes = (size_t)from->width * from->height * count * glint_stored_bytes(stored);
         struct glint_edit_block *block = glint_edit_block(edit, bytes, count);
-        if (!block) return fail_memory(edit, err);
+        if (!block) return glint_edit_fail_memory(edit, err);
         if (!glint_exr_read(part->exr, part->index, names, count, types[stored], block->data, 0, err)) return false;
         for (uint32_t i = 0; i < count; i++) {
             taken[i]->block = block;
@@ -277,7 +278,7 @@ static bool read_type(struct glint_edit *edit, struct glint_edit_part *part, enu
     return true;
 }
 
-static bool read_pixels(struct glint_edit *edit, struct glint_edit_part *part, struct glint_error *err) {
+bool glint_edit_read(struct glint_edit *edit, struct glint_edit_part *part, struct glint_error *err) {
     if (!part->exr) return true; /* the edit has made it */
     if (!part->exr->parts[part->index].readable)
         return glint_fail(err, GLINT_ERROR_UNSUPPORTED,
@@ -288,13 +289,13 @@ static bool read_pixels(struct glint_edit *edit, struct glint_edit_part *part, s
            read_type(edit, part, GLINT_STORED_UINT, err);
 }
 
-static struct glint_edit_pixels pixels_of(const struct glint_edit_part *part,
-                                          const struct glint_edit_channel *channel) {
-    const size_t bytes = glint_stored_bytes(channel->info.stored), step = bytes * channel->block->channels;
+struct glint_edit_pixels glint_edit_pixels_of(const struct glint_edit_part *part,
+                                              const struct glint_edit_channel *channel) {
+    const size_t bytes = glint_stored_bytes(channel->info.stored), texel = bytes * channel->block->channels;
     const size_t first = (size_t)part->y * part->full_width + part->x;
-    return (struct glint_edit_pixels){.data = channel->block->data + first * step + channel->place * bytes,
-                                      .x_stride_bytes = step,
-                                      .y_stride_bytes = step * part->full_width,
+    return (struct glint_edit_pixels){.data = channel->block->data + first * texel + channel->place * bytes,
+                                      .x_stride_bytes = texel * part->step,
+                                      .y_stride_bytes = texel * part->step * part->full_width,
                                       .stored = channel->info.stored,
                                       .width = part->info.width,
                                       .height = part->info.height};
@@ -313,8 +314,8 @@ bool glint_edit_pixels(struct glint_edit *edit, size_t i, const char *channel, s
     struct glint_edit_part *part = &edit->parts[i];
     if (!glint_edit_resolve(edit, part, err)) return false;
     const struct glint_edit_channel *found = find_channel(edit, part, channel, err);
-    if (!found || !read_pixels(edit, part, err)) return false;
-    *pixels = pixels_of(part, found);
+    if (!found || !glint_edit_read(edit, part, err)) return false;
+    *pixels = glint_edit_pixels_of(part, found);
     return true;
 }
 
@@ -322,17 +323,18 @@ bool glint_edit_replace(struct glint_edit *edit, size_t i, const char *channel, 
                         struct glint_error *err) {
     struct glint_edit_part *part = &edit->parts[i];
     struct glint_edit_channel *found = find_channel(edit, part, channel, err);
-    /* The rectangle lies in the block where it does in the file's part. */
-    const size_t texels = (size_t)part->full_width * (part->y + part->info.height);
+    /* The pixels lie in the block where they do in the file's part. */
+    const size_t texels = (size_t)part->full_width * (part->y + (size_t)(part->info.height - 1) * part->step + 1);
     struct glint_edit_block *block = found ? glint_edit_block(edit, texels * sizeof *values, 1) : NULL;
     if (!found) return false;
-    if (!block) return fail_memory(edit, err);
+    if (!block) return glint_edit_fail_memory(edit, err);
     found->block = block;
     found->place = 0;
     found->info.stored = part->listed[found - part->channels].stored = GLINT_STORED_FLOAT;
-    const struct glint_edit_pixels to = pixels_of(part, found);
+    const struct glint_edit_pixels to = glint_edit_pixels_of(part, found);
     for (uint32_t y = 0; y < to.height; y++)
-        memcpy(to.data + y * to.y_stride_bytes, values + (size_t)y * to.width, to.width * sizeof *values);
+        for (uint32_t x = 0; x < to.width; x++)
+            memcpy(to.data + y * to.y_stride_bytes + x * to.x_stride_bytes, values++, sizeof *values);
     return true;
 }
 
@@ -355,123 +357,9 @@ bool glint_edit_crop_part(struct glint_edit *edit, size_t i, const struct glint_
         return glint_fail(err, GLINT_ERROR_USAGE,
                           "%s: part %s: expected a rectangle within %u x %u pixels, found %u,%u,%u,%u", edit->exr->path,
                           part->info.name, part->info.width, part->info.height, r->x, r->y, r->width, r->height);
-    part->x += r->x;
-    part->y += r->y;
+    part->x += r->x * part->step;
+    part->y += r->y * part->step;
     part->info.width = r->width;
     part->info.height = r->height;
     return true;
-}
-
-/* ---- Writing ---- */
-
-/* The input's identity counts, since links and other spellings of its path lead to the same bytes. */
-static bool check_target(const struct glint_edit *edit, const char *path, struct glint_error *err) {
-    struct glint_file_info target, file;
-    if (!glint_path_describe(path, &target)) return true;
-    if (glint_file_describe(edit->exr->stream.file, &file) && glint_file_same(&target, &file))
-        return glint_fail(err, GLINT_ERROR_USAGE, "%s: is the input %s itself; expected another file for the copy",
-                          path, edit->exr->path);
-    for (size_t i = 0; i < edit->exr->part_count; i++) {
-        const struct glint_exr_attribute *a = glint_exr_attribute(&edit->exr->parts[i].info, GLINT_SIBLING_ATTRIBUTE);
-        char *sibling = a && a->type == GLINT_EXR_STRING ? glint_sibling_path(edit->exr->path, a->string) : NULL;
-        const bool same = sibling && glint_path_describe(sibling, &file) && glint_file_same(&target, &file);
-        free(sibling);
-        if (same)
-            return glint_fail(err, GLINT_ERROR_USAGE, "%s: holds cube maps of the input; expected another file", path);
-    }
-    return true;
-}
-
-static bool in_same_folder(const struct glint_edit *edit, const char *path) {
-    struct glint_file_info from, to;
-    char *folders[2] = {glint_sibling_path(edit->exr->path, "."), glint_sibling_path(path, ".")};
-    const bool same = folders[0] && folders[1] && glint_path_describe(folders[0], &from) &&
-                      glint_path_describe(folders[1], &to) && glint_file_same(&from, &to);
-    free(folders[0]);
-    free(folders[1]);
-    return same;
-}
-
-static bool resolve_all(struct glint_edit *edit, struct glint_error *err) {
-    size_t taken = 0;
-    for (size_t i = 0; i < edit->count; i++) {
-        const bool placeholder = string_of(&edit->parts[i], GLINT_SIBLING_ATTRIBUTE) != NULL;
-        if (placeholder && !glint_edit_resolve(edit, &edit->parts[i], err)) return false;
-        taken += placeholder;
-    }
-    if (taken)
-        glint_edit_say(edit, "%zu cube map%s of another file are in the copy itself", taken, taken > 1 ? "s" : "");
-    return true;
-}
-
-/* Applies the reader's rules to the headers as they will be written. */
-static bool check_headers(const struct glint_edit *edit, const char *path, struct glint_error *err) {
-    struct glint_arena arena = {0};
-    struct glint_check check = {.file = path, .err = err};
-    const struct glint_exr_part_info **files = glint_arena_take(&arena, (edit->count + 1) * sizeof *files);
-    struct glint_part_info *parts = glint_arena_take(&arena, (edit->count + 1) * sizeof *parts);
-    struct glint_frame *frame = glint_arena_take(&arena, sizeof *frame);
-    bool has_frame = false, ok = (files && parts && frame) || fail_memory(edit, err);
-    for (size_t i = 0; ok && i < edit->count; i++) {
-        const struct glint_edit_part *part = &edit->parts[i];
-        files[i] = &part->info;
-        ok = part->info.channel_count
-                 ? glint_part_parse(&check, &arena, files[i], !part->exr || part->exr->parts[part->index].readable,
-                                    &parts[i])
-                 : glint_fail(err, GLINT_ERROR_USAGE, "%s: part %s: no channel is left", path, part->info.name);
-        if (parts[i].sibling[0]) parts[i].width = parts[i].height = 0;
-    }
-    ok = ok && glint_parts_check(&check, files, parts, edit->count, frame, &has_frame);
-    glint_arena_finish(&arena);
-    return ok;
-}
-
-/* The camera for other programs follows from glint's attributes, which may have changed. */
-static bool renew_standard(struct glint_edit *edit, const char *path, struct glint_error *err) {
-    const size_t i = glint_edit_find(edit, "gbuffer");
-    if (i == edit->count) return true;
-    struct glint_edit_part *part = &edit->parts[i];
-    struct glint_frame frame = {0};
-    struct glint_check check = {.file = path, .err = err};
-    if (!glint_attributes_decode(&check, &part->info, GLINT_SCOPE_FRAME, &frame)) return false;
-    if (!glint_attributes_set_standard(&edit->arena, &part->attributes, &frame)) return fail_memory(edit, err);
-    part->info.attributes = part->attributes.all;
-    part->info.attribute_count = part->attributes.count;
-    return true;
-}
-
-static bool fill_part(struct glint_edit *edit, size_t i, struct glint_exr_part *to, struct glint_error *err) {
-    struct glint_edit_part *part = &edit->parts[i];
-    struct glint_exr_channel *channels =
-        glint_arena_take(&edit->arena, (part->info.channel_count + 1) * sizeof *channels);
-    if (!channels) return fail_memory(edit, err);
-    if (!read_pixels(edit, part, err)) return false;
-    for (size_t c = 0; c < part->info.channel_count; c++) {
-        const struct glint_edit_pixels pixels = pixels_of(part, &part->channels[c]);
-        channels[c] = (struct glint_exr_channel){.name = part->channels[c].info.name,
-                                                 .stored = pixels.stored,
-                                                 .data = pixels.data,
-                                                 .x_stride_bytes = pixels.x_stride_bytes,
-                                                 .y_stride_bytes = pixels.y_stride_bytes};
-    }
-    *to = (struct glint_exr_part){.name = part->info.name,
-                                  .width = part->info.width,
-                                  .height = part->info.height,
-                                  .channels = channels,
-                                  .channel_count = part->info.channel_count,
-                                  .attributes = part->info.attributes,
-                                  .attribute_count = part->info.attribute_count};
-    return true;
-}
-
-bool glint_edit_write(struct glint_edit *edit, const char *path, struct glint_error *err) {
-    if (!check_target(edit, path, err) || (!in_same_folder(edit, path) && !resolve_all(edit, err)) ||
-        !check_headers(edit, path, err) || !renew_standard(edit, path, err))
-        return false;
-    struct glint_exr_part *parts = calloc(edit->count + 1, sizeof *parts);
-    bool ok = parts || fail_memory(edit, err);
-    for (size_t i = 0; ok && i < edit->count; i++) ok = fill_part(edit, i, &parts[i], err);
-    ok = ok && glint_exr_write(path, parts, edit->count, 0, err);
-    free(parts);
-    return ok;
 }

@@ -27,7 +27,7 @@ bool glint_edit_add_part(struct glint_edit *edit, const char *name, uint32_t wid
     edit->parts = parts;
     struct glint_edit_part *part = &parts[i];
     struct glint_edit_block *block = glint_edit_block(edit, texels * count * sizeof *values, (uint32_t)count);
-    *part = (struct glint_edit_part){.full_width = width};
+    *part = (struct glint_edit_part){.full_width = width, .step = 1};
     part->channels = glint_arena_take(&edit->arena, (count + 1) * sizeof *part->channels);
     part->listed = glint_arena_take(&edit->arena, (count + 1) * sizeof *part->listed);
     part->info.name = glint_arena_string(&edit->arena, name);

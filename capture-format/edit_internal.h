@@ -26,7 +26,7 @@ struct glint_edit_part {
     struct glint_attribute_list attributes;
     struct glint_exr *exr; /* the file of its pixels, the capture's own or a sibling; NULL: made by the edit */
     size_t index;          /* in that file */
-    uint32_t x, y;         /* where its rectangle begins in the file's pixels */
+    uint32_t x, y, step;   /* its pixels begin there in the file's, and are every step-th one */
     uint32_t full_width;
 };
 
@@ -50,6 +50,14 @@ struct glint_edit {
 
 GLINT_PRINTF(2, 3)
 void glint_edit_say(const struct glint_edit *edit, const char *format, ...);
+bool glint_edit_fail_memory(const struct glint_edit *edit, struct glint_error *err);
+/* A string attribute, or NULL. */
+const char *glint_edit_string(const struct glint_edit_part *part, const char *name);
+/* Reads what is not read yet of a part's pixels, as stored. */
+bool glint_edit_read(struct glint_edit *edit, struct glint_edit_part *part, struct glint_error *err);
+/* Of a channel that is read. */
+struct glint_edit_pixels glint_edit_pixels_of(const struct glint_edit_part *part,
+                                              const struct glint_edit_channel *channel);
 /* Takes the pixels of a part from its sibling into the copy. Does nothing to other parts. */
 bool glint_edit_resolve(struct glint_edit *edit, struct glint_edit_part *part, struct glint_error *err);
 /* Memory for pixels that lives as long as the edit; NULL without memory. */

@@ -48,9 +48,20 @@ struct glint_exr {
     size_t part_count;
 };
 
-/* glint_exr_write; a durable file is on the disk before it gets its name, so that a machine that stops leaves no empty one. */
-bool glint_exr_write_file(const char *path, const struct glint_exr_part *parts, size_t count, uint32_t threads,
-                          bool durable, struct glint_error *err);
+/* A part of another file, whose compressed chunks are written as they are; exr NULL: none. */
+struct glint_exr_kept {
+    struct glint_exr *exr;
+    size_t part;
+};
+/* Whether glint_exr_write_file can keep a part's chunks: it is of flat scanlines compressed with ZIP. */
+bool glint_exr_can_keep(const struct glint_exr *exr, size_t part);
+struct glint_exr_write_options {
+    const struct glint_exr_kept *kept; /* one for each part, or NULL; the pixels of parts that are kept are not read, and the rest is as in that part */
+    uint32_t threads;                  /* 0: all cores */
+    bool durable; /* the file is on the disk before it gets its name, so that a machine that stops leaves no empty one */
+};
+bool glint_exr_write_file(const char *path, const struct glint_exr_part *parts, size_t count,
+                          const struct glint_exr_write_options *options, struct glint_error *err);
 
 /* Receives lines y .. y + lines - 1 of the requested channels, as stored: planes[i] is the first line of channel i (NULL
    for a NULL name), the next line is line_bytes further. Called from several threads, each line once. */

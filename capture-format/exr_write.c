@@ -1,4 +1,4 @@
-/* Writes a multi-part EXR file: chunks are packed and compressed on all cores and written in order. */
+/* Writes a multi-part EXR file: chunks are packed and compressed on all cores, or taken from another file as they are, and written in order. */
 #include <errno.h>
 #include <libdeflate.h>
 #include <stdio.h>
@@ -22,7 +22,8 @@ struct target {
     const struct glint_exr_channel **sorted; /* in the file's order */
     size_t line_bytes;
     uint32_t chunk_lines;
-    size_t first_chunk; /* in the whole file */
+    size_t first_chunk;         /* in the whole file */
+    struct glint_exr_kept kept; /* the part whose chunks it takes, or none */
 };
 
 struct job {
@@ -168,6 +169,26 @@ static bool write_in_turn(struct job *job, size_t index, int part, uint32_t y, c
     return true;
 }
 
+bool glint_exr_can_keep(const struct glint_exr *exr, size_t part) {
+    return exr->parts[part].readable && exr->parts[part].compression == EXR_COMPRESSION_ZIP;
+}
+
+static bool keep_chunk(struct job *job, struct worker *worker, size_t index, size_t part, uint32_t y, size_t bytes) {
+    const struct target *target = &job->targets[part];
+    struct glint_exr *from = target->kept.exr;
+    exr_chunk_info_t chunk;
+    size_t got = 0;
+    if (exr_read_scanline_chunk_info(from->context, (int)target->kept.part,
+                                     from->parts[target->kept.part].first_y + (int)y, &chunk) ||
+        chunk.unpacked_size != bytes || chunk.packed_size > bytes || !chunk.packed_size)
+        return job_fail(job, GLINT_ERROR_FORMAT, target->part->name, "a chunk of the input is missing or damaged");
+    if (!glint_file_read(from->stream.file, worker->packed, chunk.packed_size, chunk.data_offset, &got))
+        return job_fail(job, GLINT_ERROR_IO, target->part->name, strerror(errno));
+    if (got != chunk.packed_size)
+        return job_fail(job, GLINT_ERROR_FORMAT, target->part->name, "the input ends inside a chunk");
+    return write_in_turn(job, index, (int)part, y, worker->packed, got);
+}
+
 static bool write_chunk(void *user, uint32_t w, size_t index) {
     struct job *job = user;
     struct worker *worker = &job->workers[w];
@@ -177,6 +198,7 @@ static bool write_chunk(void *user, uint32_t w, size_t index) {
     const uint32_t y = (uint32_t)(index - target->first_chunk) * target->chunk_lines;
     const uint32_t left = target->part->height - y, lines = left < target->chunk_lines ? left : target->chunk_lines;
     const size_t bytes = lines * target->line_bytes;
+    if (target->kept.exr) return keep_chunk(job, worker, index, part, y, bytes);
     const exr_compression_t compression = compression_of(target->part->compression);
     const uint8_t *data = worker->pixels;
     size_t data_bytes = bytes;
@@ -246,8 +268,9 @@ static bool write_headers(struct job *job) {
     return job_fail(job, rv == EXR_ERR_WRITE_IO ? GLINT_ERROR_IO : GLINT_ERROR_USAGE, name, text);
 }
 
-static bool plan_chunks(struct job *job, const struct glint_exr_part *parts, size_t count, struct glint_arena *arena,
-                        size_t *chunk_bytes, struct glint_error *err) {
+static bool plan_chunks(struct job *job, const struct glint_exr_part *parts, size_t count,
+                        const struct glint_exr_kept *kept, struct glint_arena *arena, size_t *chunk_bytes,
+                        struct glint_error *err) {
     job->targets = glint_arena_take(arena, count * sizeof *job->targets);
     if (!job->targets) return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", job->path);
     for (size_t i = 0; i < count; i++) {
@@ -259,6 +282,7 @@ static bool plan_chunks(struct job *job, const struct glint_exr_part *parts, siz
                               "%s: part %s: expected a name, a size and channels, found %u x %u, %zu", job->path,
                               part->name ? part->name : "(none)", part->width, part->height, part->channel_count);
         target->part = part;
+        if (kept) target->kept = kept[i];
         target->sorted = glint_arena_take(arena, part->channel_count * sizeof *target->sorted);
         if (!target->sorted) return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", job->path);
         for (size_t c = 0; c < part->channel_count; c++) {
@@ -306,8 +330,8 @@ static bool write_file(struct job *job, size_t chunk_bytes, uint32_t threads) {
     return ok;
 }
 
-bool glint_exr_write_file(const char *path, const struct glint_exr_part *parts, size_t count, uint32_t threads,
-                          bool durable, struct glint_error *err) {
+bool glint_exr_write_file(const char *path, const struct glint_exr_part *parts, size_t count,
+                          const struct glint_exr_write_options *options, struct glint_error *err) {
     struct glint_arena arena = {0};
     struct job job = {.path = path, .stream = {.file = GLINT_NO_FILE, .path = path}};
     struct complete_file out;
@@ -315,12 +339,12 @@ bool glint_exr_write_file(const char *path, const struct glint_exr_part *parts, 
     if (!count) return glint_fail(err, GLINT_ERROR_USAGE, "%s: expected at least one part, found none", path);
     glint_mutex_init(&job.lock);
     glint_condition_init(&job.turn);
-    bool ok = plan_chunks(&job, parts, count, &arena, &chunk_bytes, err) && complete_open(&out, path, err);
+    bool ok = plan_chunks(&job, parts, count, options->kept, &arena, &chunk_bytes, err) && complete_open(&out, path, err);
     if (ok) {
         job.stream.file = out.file;
-        ok = write_file(&job, chunk_bytes, threads);
+        ok = write_file(&job, chunk_bytes, options->threads);
         if (!ok && err) *err = job.first;
-        ok = complete_close(&out, ok, durable, err);
+        ok = complete_close(&out, ok, options->durable, err);
     }
     glint_condition_finish(&job.turn);
     glint_mutex_finish(&job.lock);
@@ -330,5 +354,6 @@ bool glint_exr_write_file(const char *path, const struct glint_exr_part *parts, 
 
 bool glint_exr_write(const char *path, const struct glint_exr_part *parts, size_t count, uint32_t threads,
                      struct glint_error *err) {
-    return glint_exr_write_file(path, parts, count, threads, false, err);
+    const struct glint_exr_write_options options = {.threads = threads};
+    return glint_exr_write_file(path, parts, count, &options, err);
 }

@@ -166,7 +166,8 @@ static bool write_now(struct glint_writer *writer, struct glint_error *err) {
     if (!files) return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", writer->path);
     bool ok = hash_siblings(writer, err);
     for (size_t i = 0; i < writer->count; i++) files[i] = writer->parts[i]->file;
-    ok = ok && glint_exr_write_file(writer->path, files, writer->count, writer->options.threads, true, err);
+    const struct glint_exr_write_options options = {.threads = writer->options.threads, .durable = true};
+    ok = ok && glint_exr_write_file(writer->path, files, writer->count, &options, err);
     free(files);
     for (size_t i = 0; i < writer->count; i++) glint_writer_part_destroy(&writer->parts[i]);
     writer->count = 0;

@@ -1,5 +1,6 @@
 /* Copies of a capture with changes: attributes set or removed, parts and channels left out, the frame cropped, pixels changed. What is
-   not changed keeps every bit, including parts and attributes that this version does not know; the copy is compressed with ZIP. An edit
+   not changed keeps every bit, including parts and attributes that this version does not know; the copy is compressed with ZIP, and parts that are already, and of which no pixel changes, are
+   copied without being decompressed: pixels that are damaged there stay so. An edit
    holds the changes, and the file is never written to: glint_edit_write makes a new one. Objects may be used by one thread at a time. */
 #ifndef GLINT_EDIT_H
 #define GLINT_EDIT_H
@@ -64,6 +65,13 @@ bool glint_edit_crop_part(struct glint_edit *edit, size_t part, const struct gli
    becomes 0 where the hit is outside the rectangle, and `froxels` are left out. The file must be a valid capture. An image whose texels cover pixels inside and outside is an
    error that names a rectangle for which there is none. */
 bool glint_edit_crop(struct glint_edit *edit, const struct glint_edit_rectangle *rectangle, struct glint_error *err);
+
+/* Keeps every factor-th pixel of the frame in both directions, the one nearest to the middle of its block, or up and left of the middle. No pixels are mixed: depth,
+   normals and stencil values stay those of surfaces. The size is rounded so that no kept pixel is missing. All parts of the G-buffer's size are reduced, and so are engine and
+   unknown parts that are a whole number of times smaller, if the new frame still has room for their texels; else they are left out. Projections of this and the previous frame, jitter and motion are corrected, so that every pixel
+   keeps its ray. A `stipple` is left out by an even factor, and `froxels` where their cells no longer fit. The file must be a valid capture; factor: from 1, which changes nothing, to the frame's
+   smaller side. */
+bool glint_edit_reduce(struct glint_edit *edit, uint32_t factor, struct glint_error *err);
 
 /* Where a key of glint_edit_assign applies. */
 enum glint_edit_scope {
