@@ -64,8 +64,7 @@ static error_t cmd_live_parse(int key, char *arg, struct argp_state *state) {
     const struct arguments *a = state->input;
     (void)arg;
     if (key != ARGP_KEY_END) return ARGP_ERR_UNKNOWN;
-    if (a->listen && !a->token_file)
-        argp_error(state, "--listen needs --token-file: others can reach that address");
+    if (a->listen && !a->token_file) argp_error(state, "--listen needs --token-file: others can reach that address");
     for (size_t i = 0; i < a->captures.count; i++)
         if (!strcmp(a->captures.items[i], "-")) argp_error(state, "captures are read again and again: name files");
     return 0;

@@ -51,6 +51,7 @@
         const panel = (id, title, inner) => element('section', {class: `panel ${id}-panel`, id, 'aria-label': title, tabindex: -1}, inner);
         look.start();
         const picture = panel('picture', 'Picture', glintLive.picture(store)), pixel = panel('pixel', 'Pixel', glintLive.pixel(store));
+        pixel.append(element('p', {class: 'faint hint'}, 'Click a pixel of the picture, or press Enter at one, to see its rays here.'));
         document.body.classList.add('live');
         document.body.replaceChildren(glintLive.bar(store, [help, look.button]), glintLive.notes(store),
             element('main', {class: 'panels'}, glintLive.pipeline(store),
