@@ -148,8 +148,7 @@ const glintStage = (function () {
         self.pairs = self.pictures.filter(p => !p.alone);
         self.alone = self.pictures.filter(p => p.alone);
         self.readable = self.pictures.filter(p => p.values && p.values.data);
-        if (state.right < 0) state.right = Math.max(0, self.pairs.length - 1);
-        if (!self.pairs[state.left] || !self.pairs[state.right]) { state.left = 0; state.right = Math.max(0, self.pairs.length - 1); }
+        if (!self.pairs[state.left] || !self.pairs[rightOf(self)]) Object.assign(state, {left: 0, right: -1});
         const modes = modesOf(self.pairs, self.alone), names = JSON.stringify([modes, self.pairs.map(p => p.caption)]);
         self.modes = modes;
         if (names !== self.names) drawBar(self);
@@ -157,9 +156,12 @@ const glintStage = (function () {
         draw(self);
     }
 
+    /* The second picture is the last one until another is chosen. */
+    function rightOf({state, pairs}) { return state.right < 0 ? Math.max(0, pairs.length - 1) : state.right; }
+
     function chooser(self, which, label) {
         const select = element('select', {'aria-label': label}, ...self.pairs.map((p, i) => element('option', {value: i}, p.caption)));
-        select.value = self.state[which];
+        select.value = which === 'right' ? rightOf(self) : self.state.left;
         select.addEventListener('change', () => { self.state[which] = +select.value; draw(self); });
         return select;
     }
@@ -178,10 +180,11 @@ const glintStage = (function () {
         changed(self);
     }
 
-    function shown({pairs, alone, state}, mode) {
-        const match = /^alone(\d+)$/.exec(mode);
-        return match ? [alone[+match[1]], null] : mode === 'right' ? [pairs[state.right], null]
-            : mode === 'left' ? [pairs[state.left], null] : [pairs[state.left], pairs[state.right]];
+    function pairOf(self) { return [self.pairs[self.state.left], self.pairs[rightOf(self)]]; }
+
+    function shown(self, mode) {
+        const match = /^alone(\d+)$/.exec(mode), [left, right] = pairOf(self);
+        return match ? [self.alone[+match[1]], null] : mode === 'right' ? [right, null] : mode === 'left' ? [left, null] : [left, right];
     }
 
     function draw(self) {
@@ -264,7 +267,7 @@ const glintStage = (function () {
     }
 
     async function point(self) {
-        const {state, hooks, readable, pairs} = self, size = grid(self);
+        const {state, hooks, readable} = self, size = grid(self);
         if (size && state.x >= 0) {
             state.x = Math.min(size[0] - 1, state.x);
             state.y = Math.min(size[1] - 1, state.y);
@@ -277,7 +280,7 @@ const glintStage = (function () {
         }
         const {x, y} = state;
         const values = hooks.values ? await hooks.values(x, y)
-            : readable.length ? await glintValues.read(readable, [pairs[state.left], pairs[state.right]], x, y) : null;
+            : readable.length ? await glintValues.read(readable, pairOf(self), x, y) : null;
         if (asked === self.asked && values) self.readout.replaceChildren(glintValues.table(values));
     }
 
