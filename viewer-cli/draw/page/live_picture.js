@@ -190,8 +190,12 @@ glintLive.picture = (function () {
         const of = [['A', A], ['B', B], ['Truth', truth && {run: truth.result.run, image: {name: truth.result.picture}}]]
             .filter(([, p]) => p).map(([caption, p]) => ({caption, run: p.run, image: p.image.name, b: caption === 'B'}));
         if (!A) return null;
-        const answer = await api.post('/api/v1/values', {x, y, size: sizeOf(self), of: of.map(({run, image}) => ({run, image}))});
-        return valueTable(of, answer.values, x, y);
+        try {
+            const answer = await api.post('/api/v1/values', {x, y, size: sizeOf(self), of: of.map(({run, image}) => ({run, image}))});
+            return valueTable(of, answer.values, x, y);
+        } catch (error) {
+            return {title: `${x},${y}`, channels: [], unit: '', rows: [[error.message, []]]};
+        }
     }
 
     function pick(self, x, y) {
