@@ -7,7 +7,7 @@
 #include <sys/stat.h>
 
 #include "command.h"
-#include "draw/blobs.h"
+#include "draw/page/page.h"
 #include "live/live.h"
 
 struct arguments {
@@ -64,8 +64,7 @@ static error_t cmd_live_parse(int key, char *arg, struct argp_state *state) {
     const struct arguments *a = state->input;
     (void)arg;
     if (key != ARGP_KEY_END) return ARGP_ERR_UNKNOWN;
-    if (a->listen && !a->token_file)
-        argp_error(state, "--listen needs --token-file: others can reach that address");
+    if (a->listen && !a->token_file) argp_error(state, "--listen needs --token-file: others can reach that address");
     for (size_t i = 0; i < a->captures.count; i++)
         if (!strcmp(a->captures.items[i], "-")) argp_error(state, "captures are read again and again: name files");
     return 0;
@@ -105,22 +104,25 @@ static void print_address(const struct arguments *a, const struct http *http, co
 
 /* Serves until a signal asks to stop. */
 static bool serve(const struct arguments *a, struct live *live, const sigset_t *signals, struct glint_error *err) {
-    char token[256];
+    char token[256], *page = page_live(err);
     int number;
     const struct http_options http_options = {.address = a->listen,
                                               .port = (uint16_t)a->port,
                                               .token = token,
                                               .routes = live_routes,
                                               .user = live,
-                                              .page = (const char *)blob_live_page,
-                                              .page_bytes = (size_t)(blob_live_page_end - blob_live_page)};
-    struct http *http = take_token(a, token, err) ? http_start(&http_options, err) : NULL;
-    if (!http) return false;
-    print_address(a, http, token);
-    sigwait(signals, &number);
-    live_stop(live);
-    http_stop(&http);
-    return true;
+                                              .page = page,
+                                              .page_bytes = page ? strlen(page) : 0};
+    struct http *http = page && take_token(a, token, err) ? http_start(&http_options, err) : NULL;
+    const bool started = http != NULL;
+    if (started) {
+        print_address(a, http, token);
+        sigwait(signals, &number);
+        live_stop(live);
+        http_stop(&http);
+    }
+    free(page);
+    return started;
 }
 
 static enum status cmd_live_run(int argc, char **argv) {

@@ -16,7 +16,6 @@ bool live_draft(struct live *live, size_t number, char *path, size_t size, struc
     if (snprintf(path, size, "%s/draft-%zu.exr", live->folder, number) >= (int)size)
         return glint_fail(err, GLINT_ERROR_IO, "%s: path too long", live->folder);
     if (frame->has_draft) return true;
-    if (!live_progress(live, "draft capture", 0))
-        return glint_fail(err, GLINT_ERROR_INTERRUPTED, "interrupted");
+    if (!live_progress(live, "draft capture", 0)) return glint_fail(err, GLINT_ERROR_INTERRUPTED, "interrupted");
     return frame->has_draft = make_draft(frame, path, err);
 }

@@ -72,8 +72,8 @@ static bool load_frames(struct live *live, const struct state *state, struct gli
         const struct glint_replay_options options = {.results = live->judged.effect->results,
                                                      .all = live->args->replay.all};
         if (!load_frame(live, frame, err)) return false;
-        if (frame < last && !glint_replay_run(glint_judge_replay(live->judge), state->pipeline, &options,
-                                              live_progress, live, err))
+        if (frame < last &&
+            !glint_replay_run(glint_judge_replay(live->judge), state->pipeline, &options, live_progress, live, err))
             return false;
     }
     live->judged.before = state->key;
@@ -123,11 +123,10 @@ static json_t *errors_json(const struct glint_metric_table *table) {
         for (size_t k = 0; k < GLINT_METRIC_COUNT; k++) {
             const struct glint_metric_row *row = &table->rows[i];
             if (isnan(row->of[k].value)) continue;
-            json_array_append_new(
-                list, json_pack("{s:s, s:s, s:I, s:s, s:o, s:o, s:o}", "set", row->set, "class", row->name, "pixels",
-                                (json_int_t)row->pixels, "metric", glint_metric(k)->name, "value",
-                                json_number(row->of[k].value), "low", json_number(row->of[k].low), "high",
-                                json_number(row->of[k].high)));
+            json_array_append_new(list, json_pack("{s:s, s:s, s:I, s:s, s:o, s:o, s:o}", "set", row->set, "class",
+                                                  row->name, "pixels", (json_int_t)row->pixels, "metric",
+                                                  glint_metric(k)->name, "value", json_number(row->of[k].value), "low",
+                                                  json_number(row->of[k].low), "high", json_number(row->of[k].high)));
         }
     return list;
 }
@@ -198,8 +197,8 @@ static json_t *passes_json(const struct glint_verdict *verdict, const json_t *fe
         for (size_t p = 0; p < timing->first.pass_count; p++)
             if (timing->first.passes[p].pass == verdict->passes[i].pass)
                 ns = json_integer((json_int_t)glint_time_statistics(timing->ns + p * rounds, rounds).median_ns);
-        json_array_append_new(list, json_pack("{s:s, s:O, s:o}", "slot", slot, "fetches", count ? count : json_null(),
-                                              "ns", ns));
+        json_array_append_new(
+            list, json_pack("{s:s, s:O, s:o}", "slot", slot, "fetches", count ? count : json_null(), "ns", ns));
     }
     return list;
 }
@@ -224,11 +223,13 @@ static bool work_figures(struct live *live, void *user, struct glint_error *err)
             &verdict.errors[m->truth ? GLINT_TARGET_TRUTH : GLINT_TARGET_REFERENCE];
         m->result = json_pack(
             "{s:s, s:s?, s:s?, s:o, s:o, s:I, s:f, s:f, s:f, s:f, s:o, s:o, s:o}", "effect", m->effect->name, "against",
-            m->truth ? "truth" : m->reference ? "reference" : NULL, "why", m->why, "errors", errors_json(table), "ends",
-            ends_json(ends), "rays", (json_int_t)ends->rays, "steps", ends->steps, "fetches", ends->fetches, "steps_px",
-            verdict.steps_px, "fetches_px", verdict.fetches_px, "passes",
-            passes_json(&verdict, fetches, &timing, m->rounds), "frame_ns", median_json(timing.frame, m->rounds),
-            "cubemaps_ns", median_json(timing.cubemaps, m->rounds));
+            m->truth       ? "truth"
+            : m->reference ? "reference"
+                           : NULL,
+            "why", m->why, "errors", errors_json(table), "ends", ends_json(ends), "rays", (json_int_t)ends->rays,
+            "steps", ends->steps, "fetches", ends->fetches, "steps_px", verdict.steps_px, "fetches_px",
+            verdict.fetches_px, "passes", passes_json(&verdict, fetches, &timing, m->rounds), "frame_ns",
+            median_json(timing.frame, m->rounds), "cubemaps_ns", median_json(timing.cubemaps, m->rounds));
         ok = m->result || fail_memory(err);
     }
     json_decref(fetches);
@@ -314,13 +315,13 @@ static json_t *target_json(const struct live *live, const struct measuring *m, c
     json_t *channels = json_array();
     snprintf(name, sizeof name, "%s of %s", m->truth ? "truth" : "reference", m->effect->name);
     for (uint32_t k = 0; k < pixels->components; k++) json_array_append_new(channels, json_stringn(&"RGBA"[k], 1));
-    const bool fogged = m->truth && glint_capture_frame(glint_judge_capture(live->judge))->has_fog &&
-                        pipeline_fog(m->state.pipeline);
-    json_t *image = json_pack("{s:s, s:n, s:n, s:I, s:I, s:o, s:s, s:s, s:i, s:i, s:b}", "name", name, "slot",
-                              "variant", "width", (json_int_t)pixels->width, "height", (json_int_t)pixels->height,
-                              "channels", channels, "unit", made ? made->unit : "1", "meaning",
-                              m->truth ? "what a path tracer found" : "the converged result", "level", 0, "levels", 1,
-                              "cube", 0);
+    const bool fogged =
+        m->truth && glint_capture_frame(glint_judge_capture(live->judge))->has_fog && pipeline_fog(m->state.pipeline);
+    json_t *image =
+        json_pack("{s:s, s:n, s:n, s:I, s:I, s:o, s:s, s:s, s:i, s:i, s:b}", "name", name, "slot", "variant", "width",
+                  (json_int_t)pixels->width, "height", (json_int_t)pixels->height, "channels", channels, "unit",
+                  made ? made->unit : "1", "meaning", m->truth ? "what a path tracer found" : "the converged result",
+                  "level", 0, "levels", 1, "cube", 0);
     return json_pack("{s:s, s:b, s:O, s:[II], s:[], s:[o], s:s, s:s?, s:s?}", "run", id, "draft", 0, "state",
                      m->state.json, "size", (json_int_t)pixels->width, (json_int_t)pixels->height, "passes", "images",
                      image, "picture", name, "compares", made ? made->name : NULL, "note",
@@ -350,8 +351,7 @@ void live_answer_answer(void *user, const struct http_request *request, struct h
     if (!answer_state(live, request, "state", &m.state, answer)) return;
     m.truth = of && !strcmp(of, "truth");
     m.reference = of && !strcmp(of, "reference");
-    bool ok = m.truth || m.reference ||
-              glint_fail(&err, GLINT_ERROR_USAGE, "of: expected \"reference\" or \"truth\"");
+    bool ok = m.truth || m.reference || glint_fail(&err, GLINT_ERROR_USAGE, "of: expected \"reference\" or \"truth\"");
     ok = ok && (m.effect = read_effect(request, &err));
     ok = ok && (!m.effect->no_truth || glint_fail(&err, GLINT_ERROR_USAGE, "%s", m.effect->no_truth));
     ok = ok && live_do(live, 0, answer_text(request, "client"), work_answer, &m, &err);

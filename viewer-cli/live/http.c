@@ -41,11 +41,13 @@ static enum MHD_Result refuse(struct MHD_Connection *connection, const struct ht
     return http_send(connection, &answer, refusal->name, refusal->value);
 }
 
-static bool is_page(const struct request *request) { return !strcmp(request->path, "/"); }
+static bool is_page(const struct request *request) {
+    return !strcmp(request->path, "/");
+}
 
 /* The route, or NULL and why; `allow` takes the methods of the path. */
-static const struct http_route *find_route(const struct http *http, const struct request *request, const char *method, char *allow,
-                                           size_t size, struct http_refusal *refusal) {
+static const struct http_route *find_route(const struct http *http, const struct request *request, const char *method,
+                                           char *allow, size_t size, struct http_refusal *refusal) {
     size_t used = 0;
     allow[0] = 0;
     for (const struct http_route *route = http->options.routes; route->path; route++) {
@@ -60,8 +62,8 @@ static const struct http_route *find_route(const struct http *http, const struct
 }
 
 /* Decides by the headers alone, before any of the body is read. */
-static bool admit(struct http *http, struct MHD_Connection *connection, struct request *request, const char *method, char *allow,
-                  size_t size, struct http_refusal *refusal) {
+static bool admit(struct http *http, struct MHD_Connection *connection, struct request *request, const char *method,
+                  char *allow, size_t size, struct http_refusal *refusal) {
     const struct http_headers headers = http_read_headers(connection);
     if (!http_own_page(&http->guard, &headers, refusal)) return false;
     if (is_page(request)) {
@@ -112,13 +114,16 @@ static json_t *parse(const struct request *request, struct http_answer *answer) 
     json_t *body = json_loadb(request->body, request->size, JSON_REJECT_DUPLICATES, &error);
     if (json_is_object(body)) return body;
     if (body) snprintf(message, sizeof message, "the body has to be a JSON object; found an array");
-    else snprintf(message, sizeof message, "the body has to be a JSON object; line %d, column %d: %s", error.line, error.column, error.text);
+    else
+        snprintf(message, sizeof message, "the body has to be a JSON object; line %d, column %d: %s", error.line,
+                 error.column, error.text);
     json_decref(body);
     http_refuse(answer, 400, "format", message);
     return NULL;
 }
 
-static enum MHD_Result answer(struct http *http, struct MHD_Connection *connection, struct request *request, const char *method) {
+static enum MHD_Result answer(struct http *http, struct MHD_Connection *connection, struct request *request,
+                              const char *method) {
     struct http_refusal refusal;
     struct http_answer answer = {0};
     char allow[64];
@@ -130,7 +135,8 @@ static enum MHD_Result answer(struct http *http, struct MHD_Connection *connecti
     free(request->body);
     request->body = NULL;
     if (!answer.status) {
-        const struct http_request asked = {.method = method, .path = request->path, .body = body, .connection = connection};
+        const struct http_request asked = {
+            .method = method, .path = request->path, .body = body, .connection = connection};
         route->handler(http->options.user, &asked, &answer);
     }
     json_decref(body);
@@ -150,7 +156,8 @@ static void *begin_request(void *user, const char *uri, struct MHD_Connection *c
     return request;
 }
 
-static void end_request(void *user, struct MHD_Connection *connection, void **context, enum MHD_RequestTerminationCode how) {
+static void end_request(void *user, struct MHD_Connection *connection, void **context,
+                        enum MHD_RequestTerminationCode how) {
     struct http *http = user;
     struct request *request = *context;
     (void)connection, (void)how;
@@ -161,8 +168,8 @@ static void end_request(void *user, struct MHD_Connection *connection, void **co
     *context = NULL;
 }
 
-static enum MHD_Result take(void *user, struct MHD_Connection *connection, const char *url, const char *method, const char *version,
-                            const char *part, size_t *size, void **context) {
+static enum MHD_Result take(void *user, struct MHD_Connection *connection, const char *url, const char *method,
+                            const char *version, const char *part, size_t *size, void **context) {
     struct http *http = user;
     struct request *request = *context;
     struct http_refusal refusal;
@@ -179,10 +186,12 @@ static enum MHD_Result take(void *user, struct MHD_Connection *connection, const
     return ok ? MHD_YES : MHD_NO;
 }
 
-static void connection_changed(void *user, struct MHD_Connection *connection, void **context, enum MHD_ConnectionNotificationCode what) {
+static void connection_changed(void *user, struct MHD_Connection *connection, void **context,
+                               enum MHD_ConnectionNotificationCode what) {
     struct http *http = user;
     if (what == MHD_CONNECTION_NOTIFY_STARTED)
-        *context = http_peers_add(&http->peers, MHD_get_connection_info(connection, MHD_CONNECTION_INFO_CONNECTION_FD)->connect_fd);
+        *context = http_peers_add(&http->peers,
+                                  MHD_get_connection_info(connection, MHD_CONNECTION_INFO_CONNECTION_FD)->connect_fd);
     else if (*context) http_peers_remove(&http->peers, *context);
 }
 
@@ -199,10 +208,11 @@ static bool start(struct http *http, int fd, struct glint_error *err) {
     if (ok) {
         http->daemon = MHD_start_daemon(
             MHD_USE_THREAD_PER_CONNECTION | MHD_USE_INTERNAL_POLLING_THREAD | MHD_USE_ITC, 0, NULL, NULL, take, http,
-            MHD_OPTION_LISTEN_SOCKET, fd, MHD_OPTION_CONNECTION_LIMIT, (unsigned)HTTP_CONNECTIONS, MHD_OPTION_CONNECTION_TIMEOUT,
-            (unsigned)UNTRUSTED_S, MHD_OPTION_CONNECTION_MEMORY_LIMIT, (size_t)CONNECTION_BYTES, MHD_OPTION_THREAD_STACK_SIZE,
-            (size_t)STACK_BYTES, MHD_OPTION_STRICT_FOR_CLIENT, 1, MHD_OPTION_URI_LOG_CALLBACK, begin_request, http,
-            MHD_OPTION_NOTIFY_COMPLETED, end_request, http, MHD_OPTION_NOTIFY_CONNECTION, connection_changed, http, MHD_OPTION_END);
+            MHD_OPTION_LISTEN_SOCKET, fd, MHD_OPTION_CONNECTION_LIMIT, (unsigned)HTTP_CONNECTIONS,
+            MHD_OPTION_CONNECTION_TIMEOUT, (unsigned)UNTRUSTED_S, MHD_OPTION_CONNECTION_MEMORY_LIMIT,
+            (size_t)CONNECTION_BYTES, MHD_OPTION_THREAD_STACK_SIZE, (size_t)STACK_BYTES, MHD_OPTION_STRICT_FOR_CLIENT,
+            1, MHD_OPTION_URI_LOG_CALLBACK, begin_request, http, MHD_OPTION_NOTIFY_COMPLETED, end_request, http,
+            MHD_OPTION_NOTIFY_CONNECTION, connection_changed, http, MHD_OPTION_END);
         ok = http->daemon || glint_fail(err, GLINT_ERROR_IO, "cannot start the HTTP server");
         if (!ok) http_peers_finish(&http->peers);
     }
@@ -218,13 +228,16 @@ struct http *http_start(const struct http_options *options, struct glint_error *
     }
     http->options = *options;
     const int fd = http_listen(&http->guard, options, err);
-    if (fd >= 0 && start(http, fd, err)) return http; /* without success libmicrohttpd may have closed the socket, or not */
+    if (fd >= 0 && start(http, fd, err))
+        return http; /* without success libmicrohttpd may have closed the socket, or not */
     if (http->page) MHD_destroy_response(http->page);
     free(http);
     return NULL;
 }
 
-uint16_t http_port(const struct http *http) { return http->guard.port; }
+uint16_t http_port(const struct http *http) {
+    return http->guard.port;
+}
 
 void http_stop(struct http **http) {
     struct http *h = *http;

@@ -28,7 +28,8 @@ void http_refuse(struct http_answer *answer, int status, const char *code, const
     json_decref(answer->json);
     free(answer->data);
     if (answer->close) answer->close(answer->stream);
-    *answer = (struct http_answer){.status = status, .json = json_pack("{so, ss}", "error", text_of(message), "code", code)};
+    *answer =
+        (struct http_answer){.status = status, .json = json_pack("{so, ss}", "error", text_of(message), "code", code)};
 }
 
 void http_error(struct http_answer *answer, const struct glint_error *err) {
@@ -54,11 +55,15 @@ void http_error(struct http_answer *answer, const struct glint_error *err) {
 
 static void add_guards(struct MHD_Response *response) {
     static const char *const headers[][2] = {
-        {"X-Content-Type-Options", "nosniff"},  {"Referrer-Policy", "no-referrer"},
-        {"Cache-Control", "no-store"},          {"X-Frame-Options", "DENY"},
-        {"Cross-Origin-Opener-Policy", "same-origin"}, {"Cross-Origin-Resource-Policy", "same-origin"},
+        {"X-Content-Type-Options", "nosniff"},
+        {"Referrer-Policy", "no-referrer"},
+        {"Cache-Control", "no-store"},
+        {"X-Frame-Options", "DENY"},
+        {"Cross-Origin-Opener-Policy", "same-origin"},
+        {"Cross-Origin-Resource-Policy", "same-origin"},
     };
-    for (size_t i = 0; i < sizeof headers / sizeof *headers; i++) MHD_add_response_header(response, headers[i][0], headers[i][1]);
+    for (size_t i = 0; i < sizeof headers / sizeof *headers; i++)
+        MHD_add_response_header(response, headers[i][0], headers[i][1]);
 }
 
 static bool is_plain(char c) {
@@ -107,7 +112,8 @@ static struct MHD_Response *make_stream(struct http_answer *answer) {
     struct stream *stream = malloc(sizeof *stream);
     if (!stream) return NULL;
     *stream = (struct stream){answer->next, answer->stream, answer->close};
-    struct MHD_Response *response = MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, STREAM_BYTES, read_stream, stream, close_stream);
+    struct MHD_Response *response =
+        MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, STREAM_BYTES, read_stream, stream, close_stream);
     if (response) answer->close = NULL; /* the response closes it */
     else free(stream);
     return response;
@@ -127,12 +133,14 @@ static struct MHD_Response *make(struct http_answer *answer) {
     return response;
 }
 
-enum MHD_Result http_send(struct MHD_Connection *connection, struct http_answer *answer, const char *name, const char *value) {
+enum MHD_Result http_send(struct MHD_Connection *connection, struct http_answer *answer, const char *name,
+                          const char *value) {
     struct MHD_Response *response = make(answer);
     unsigned status = answer->status ? (unsigned)answer->status : 200;
     const char *type = answer->type ? answer->type : "application/json";
     if (!response) {
-        response = MHD_create_response_from_buffer(sizeof no_memory - 1, (void *)(uintptr_t)no_memory, MHD_RESPMEM_PERSISTENT);
+        response =
+            MHD_create_response_from_buffer(sizeof no_memory - 1, (void *)(uintptr_t)no_memory, MHD_RESPMEM_PERSISTENT);
         status = 500;
         type = "application/json";
     }
@@ -153,7 +161,8 @@ enum MHD_Result http_send(struct MHD_Connection *connection, struct http_answer 
 }
 
 struct MHD_Response *http_page_response(const char *page, size_t size) {
-    struct MHD_Response *response = MHD_create_response_from_buffer(size, (void *)(uintptr_t)page, MHD_RESPMEM_PERSISTENT);
+    struct MHD_Response *response =
+        MHD_create_response_from_buffer(size, (void *)(uintptr_t)page, MHD_RESPMEM_PERSISTENT);
     if (!response) return NULL;
     MHD_add_response_header(response, "Content-Type", "text/html; charset=utf-8");
     add_guards(response);

@@ -28,7 +28,8 @@ static bool take_token(struct http_guard *guard, const char *token, struct glint
                           HTTP_TOKEN_MOST, size);
     for (size_t i = 0; i < size; i++)
         if (token[i] <= ' ' || token[i] > '~')
-            return glint_fail(err, GLINT_ERROR_USAGE, "character %zu of the token is neither a letter, a digit nor a sign of ASCII", i + 1);
+            return glint_fail(err, GLINT_ERROR_USAGE,
+                              "character %zu of the token is neither a letter, a digit nor a sign of ASCII", i + 1);
     memcpy(guard->token, token, size + 1);
     return true;
 }
@@ -42,7 +43,8 @@ static bool take_address(struct http_guard *guard, int fd, struct glint_error *e
     } at = {0};
     socklen_t size = sizeof at;
     char text[INET6_ADDRSTRLEN];
-    if (getsockname(fd, &at.any, &size) != 0) return glint_fail(err, GLINT_ERROR_IO, "the socket has no address: %s", strerror(errno));
+    if (getsockname(fd, &at.any, &size) != 0)
+        return glint_fail(err, GLINT_ERROR_IO, "the socket has no address: %s", strerror(errno));
     const bool v6 = at.any.sa_family == AF_INET6;
     inet_ntop(at.any.sa_family, v6 ? (const void *)&at.v6.sin6_addr : (const void *)&at.v4.sin_addr, text, sizeof text);
     snprintf(guard->host, sizeof guard->host, v6 ? "[%s]" : "%s", text);
@@ -54,15 +56,18 @@ static bool take_address(struct http_guard *guard, int fd, struct glint_error *e
 
 static bool cannot_listen(const char *address, uint16_t port, struct glint_error *err) {
     if (errno == EADDRINUSE)
-        return glint_fail(err, GLINT_ERROR_IO, "port %u of %s is in use by another program; choose another port, or 0 for any free one",
+        return glint_fail(err, GLINT_ERROR_IO,
+                          "port %u of %s is in use by another program; choose another port, or 0 for any free one",
                           (unsigned)port, address);
     if (errno == EADDRNOTAVAIL) return glint_fail(err, GLINT_ERROR_USAGE, "%s is no address of this machine", address);
-    return glint_fail(err, GLINT_ERROR_IO, "cannot listen at port %u of %s: %s", (unsigned)port, address, strerror(errno));
+    return glint_fail(err, GLINT_ERROR_IO, "cannot listen at port %u of %s: %s", (unsigned)port, address,
+                      strerror(errno));
 }
 
 int http_listen(struct http_guard *guard, const struct http_options *options, struct glint_error *err) {
     const char *address = options->address ? options->address : "127.0.0.1";
-    const struct addrinfo hints = {.ai_flags = AI_NUMERICHOST | AI_NUMERICSERV | AI_PASSIVE, .ai_socktype = SOCK_STREAM};
+    const struct addrinfo hints = {.ai_flags = AI_NUMERICHOST | AI_NUMERICSERV | AI_PASSIVE,
+                                   .ai_socktype = SOCK_STREAM};
     struct addrinfo *found = NULL;
     char port[8];
     const int yes = 1, no = 0;
@@ -140,7 +145,9 @@ static bool is_own_host(const struct http_guard *guard, const char *host) {
     memcpy(name, host, size);
     name[size] = 0;
     if (guard->any && is_address(name)) return true;
-    if ((guard->any || guard->loopback) && (!strcmp(name, "127.0.0.1") || !strcmp(name, "localhost") || !strcmp(name, "[::1]"))) return true;
+    if ((guard->any || guard->loopback) &&
+        (!strcmp(name, "127.0.0.1") || !strcmp(name, "localhost") || !strcmp(name, "[::1]")))
+        return true;
     return !strcmp(name, guard->host);
 }
 
@@ -161,16 +168,19 @@ bool http_own_page(const struct http_guard *guard, const struct http_headers *he
 static bool same_token(const char *token, const char *given) {
     const size_t size = strlen(token), given_size = strlen(given);
     volatile unsigned char differ = size != given_size;
-    for (size_t i = 0; i < size; i++) differ = (unsigned char)(differ | (token[i] ^ given[i < given_size ? i : given_size]));
+    for (size_t i = 0; i < size; i++)
+        differ = (unsigned char)(differ | (token[i] ^ given[i < given_size ? i : given_size]));
     return !differ;
 }
 
 bool http_has_token(const struct http_guard *guard, const struct http_headers *headers, struct http_refusal *refusal) {
     static const char scheme[] = "Bearer ";
     const char *given = headers->authorization;
-    if (given && !strncasecmp(given, scheme, sizeof scheme - 1) && same_token(guard->token, given + sizeof scheme - 1)) return true;
-    refuse(refusal, 401, "token", given ? "the token in the header Authorization is not that of this server"
-                                        : "the request has no header \"Authorization: Bearer TOKEN\"");
+    if (given && !strncasecmp(given, scheme, sizeof scheme - 1) && same_token(guard->token, given + sizeof scheme - 1))
+        return true;
+    refuse(refusal, 401, "token",
+           given ? "the token in the header Authorization is not that of this server"
+                 : "the request has no header \"Authorization: Bearer TOKEN\"");
     refusal->name = "WWW-Authenticate";
     refusal->value = "Bearer";
     return false;
@@ -179,14 +189,16 @@ bool http_has_token(const struct http_guard *guard, const struct http_headers *h
 bool http_body_allowed(const struct http_headers *headers, bool may_have_one, struct http_refusal *refusal) {
     if (headers->encoding && (headers->length || strcasecmp(headers->encoding, "chunked")))
         return refuse(refusal, 400, "format", "a body has either a Content-Length or the Transfer-Encoding chunked");
-    const unsigned long long size = headers->length ? strtoull(headers->length, NULL, 10) : 0; /* the library has refused what is no number */
-    if (!may_have_one && (size > 0 || headers->encoding)) return refuse(refusal, 400, "format", "this request has no body");
+    const unsigned long long size =
+        headers->length ? strtoull(headers->length, NULL, 10) : 0; /* the library has refused what is no number */
+    if (!may_have_one && (size > 0 || headers->encoding))
+        return refuse(refusal, 400, "format", "this request has no body");
     if (size > HTTP_BODY_BYTES) return refuse(refusal, 413, "size", "the body is larger than 1 MiB");
     return true;
 }
 
-static enum MHD_Result check_value(void *user, enum MHD_ValueKind kind, const char *name, size_t name_size, const char *value,
-                                   size_t value_size) {
+static enum MHD_Result check_value(void *user, enum MHD_ValueKind kind, const char *name, size_t name_size,
+                                   const char *value, size_t value_size) {
     json_t *texts[] = {json_stringn(name, name_size), json_stringn(value ? value : "", value ? value_size : 0)};
     bool *ok = user;
     (void)kind;

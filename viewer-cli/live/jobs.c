@@ -73,7 +73,8 @@ void live_listen(void *user, const struct http_request *request, struct http_ans
     pthread_mutex_lock(&live->lock);
     *listener = (struct listener){live, live->events.count};
     pthread_mutex_unlock(&live->lock);
-    *answer = (struct http_answer){.type = "application/x-ndjson", .next = next_line, .stream = listener, .close = free};
+    *answer =
+        (struct http_answer){.type = "application/x-ndjson", .next = next_line, .stream = listener, .close = free};
 }
 
 /* ---- The queue ---- */

@@ -84,8 +84,9 @@ struct live {
     struct glint_capture *capture; /* that is loaded, or NULL */
     size_t loaded;
     bool loaded_draft;
-    uint64_t ran, before; /* keys of the states whose run of the loaded frame came last, and with which the frames before it ran; 0: none */
-    json_t *times;        /* ns of passes by their keys */
+    uint64_t ran,
+        before; /* keys of the states whose run of the loaded frame came last, and with which the frames before it ran; 0: none */
+    json_t *times; /* ns of passes by their keys */
     struct glint_judge *judge;
     struct judged {
         const struct glint_effect *effect;

@@ -83,8 +83,9 @@ void live_answer_write(void *user, const struct http_request *request, struct ht
     const char *name = answer_text(request, "name");
     char *folder = NULL, *command = NULL;
     if (!answer_state(live, request, "state", &w.state, answer)) return;
-    bool ok = live->out || glint_fail(&err, GLINT_ERROR_USAGE, "runs are written below the folder of -o alone, which "
-                                                               "was not given");
+    bool ok = live->out || glint_fail(&err, GLINT_ERROR_USAGE,
+                                      "runs are written below the folder of -o alone, which "
+                                      "was not given");
     ok = ok && check_name(name, &err);
     if (ok && asprintf(&folder, "%s/%s", live->out, name) < 0) ok = fail_memory(&err), folder = NULL;
     w.folder = folder;

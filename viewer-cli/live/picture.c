@@ -32,8 +32,7 @@ static bool query_choice(const struct http_request *request, const char *name, c
     for (int i = 0; known[i]; i++)
         if (!strcmp(known[i], text)) return *choice = i, true;
     char *list = join_names("", known);
-    glint_fail(err, GLINT_ERROR_USAGE, "%s: expected one of %s, found \"%.40s\"", name, list ? list : "a few",
-               text);
+    glint_fail(err, GLINT_ERROR_USAGE, "%s: expected one of %s, found \"%.40s\"", name, list ? list : "a few", text);
     free(list);
     return false;
 }
@@ -53,8 +52,7 @@ static bool read_options(const struct http_request *request, struct render_optio
     if (!query_number(request, "exposure", &options->exposure_ev, &exposure, err) ||
         !query_number(request, "low", &colors->low, &low, err) ||
         !query_number(request, "high", &colors->high, &high, err) ||
-        !query_choice(request, "kind", kind_names, &kind, err) ||
-        !query_choice(request, "scale", scales, &scale, err))
+        !query_choice(request, "kind", kind_names, &kind, err) || !query_choice(request, "scale", scales, &scale, err))
         return false;
     options->kind = (enum kind)kind;
     colors->scale = (enum scale)scale;
@@ -81,8 +79,7 @@ struct band {
 static void *draw_band(void *user) {
     struct band *band = user;
     struct legend legend;
-    band->ok =
-        render_plain(&band->picture, &legend, &band->source, band->options, &band->invalid, &band->err);
+    band->ok = render_plain(&band->picture, &legend, &band->source, band->options, &band->invalid, &band->err);
     return NULL;
 }
 
@@ -107,7 +104,10 @@ static bool draw_bands(struct picture *picture, const struct source *source, con
     const long processors = sysconf(_SC_NPROCESSORS_ONLN);
     struct band bands[BANDS_MAX] = {{.ok = false}};
     const uint32_t most = source->height / LEAST_ROWS;
-    const uint32_t count = most < 1 ? 1 : most > BANDS_MAX ? BANDS_MAX : most, parts = processors < (long)count ? (uint32_t)processors : count;
+    const uint32_t count = most < 1           ? 1
+                           : most > BANDS_MAX ? BANDS_MAX
+                                              : most,
+                   parts = processors < (long)count ? (uint32_t)processors : count;
     if (!picture_init(picture, source->width, source->height, COLOR_BACKGROUND, err)) return false;
     for (uint32_t i = 0, y = 0; i < parts; i++) {
         struct band *band = &bands[i];
@@ -173,8 +173,7 @@ static void answer_raw(struct http_answer *answer, const struct picture *picture
         memcpy(data + 4, text, length);
         memset(data + 4 + length, ' ', padded - length);
         memcpy(data + 4 + padded, picture->rgba, pixels);
-        *answer = (struct http_answer){
-            .type = "application/octet-stream", .data = data, .size = 4 + padded + pixels};
+        *answer = (struct http_answer){.type = "application/octet-stream", .data = data, .size = 4 + padded + pixels};
     } else http_refuse(answer, 500, "memory", "out of memory");
     free(text);
 }

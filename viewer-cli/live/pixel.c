@@ -57,9 +57,9 @@ static bool work_probe(struct live *live, void *user, struct glint_error *err) {
                           .pixel = {(uint32_t)p->x, (uint32_t)p->y},
                           .full = {gbuffer->width, gbuffer->height}};
     const struct glint_replay_options options = live_options(live, &p->state);
-    bool ok = live_ran(live, &p->state,
-                       probe_run(&probe, &probe.own, live->replay, p->state.pipeline, &options, live_progress, live, err),
-                       err);
+    bool ok = live_ran(
+        live, &p->state,
+        probe_run(&probe, &probe.own, live->replay, p->state.pipeline, &options, live_progress, live, err), err);
     if (ok) {
         /* The reference tracers leave other images behind. */
         ok = trace_reference(live, p, &probe, &options, err);

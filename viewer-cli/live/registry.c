@@ -22,12 +22,11 @@ static json_t *captures_json(const struct live *live) {
             if (has) json_array_append_new(truths, json_string(effects[e].name));
         }
         glint_capture_close(&capture);
-        json_array_append_new(list, json_pack("{s:s, s:s, s:I, s:b, s:[II], s:[II], s:o}", "name",
-                                              base_name(frame->path), "path", frame->path, "frame",
-                                              (json_int_t)frame->number, "cut", frame->cut, "size",
-                                              (json_int_t)frame->width, (json_int_t)frame->height, "draft",
-                                              ((json_int_t)frame->width + 1) / 2, ((json_int_t)frame->height + 1) / 2,
-                                              "truth", truths));
+        json_array_append_new(
+            list, json_pack("{s:s, s:s, s:I, s:b, s:[II], s:[II], s:o}", "name", base_name(frame->path), "path",
+                            frame->path, "frame", (json_int_t)frame->number, "cut", frame->cut, "size",
+                            (json_int_t)frame->width, (json_int_t)frame->height, "draft",
+                            ((json_int_t)frame->width + 1) / 2, ((json_int_t)frame->height + 1) / 2, "truth", truths));
     }
     return list;
 }

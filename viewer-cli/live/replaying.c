@@ -83,8 +83,8 @@ bool live_ran(struct live *live, const struct state *state, bool ok, struct glin
 
 static bool run_loaded(struct live *live, const struct state *state, struct glint_error *err) {
     const struct glint_replay_options options = live_options(live, state);
-    return live_ran(live, state,
-                    glint_replay_run(live->replay, state->pipeline, &options, live_progress, live, err), err);
+    return live_ran(live, state, glint_replay_run(live->replay, state->pipeline, &options, live_progress, live, err),
+                    err);
 }
 
 bool live_load(struct live *live, const struct state *state, bool draft, struct glint_error *err) {

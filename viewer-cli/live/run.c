@@ -10,8 +10,8 @@
 static json_t *describe(const struct live *live, const struct state *state, struct glint_error *err) {
     json_t *slots = state_slots(live, state, err);
     char *command = slots ? state_command(live, state, "run") : NULL;
-    json_t *json = command ? json_pack("{s:O, s:s, s:O}", "state", state->json, "command", command, "slots", slots)
-                           : NULL;
+    json_t *json =
+        command ? json_pack("{s:O, s:s, s:O}", "state", state->json, "command", command, "slots", slots) : NULL;
     if (slots && !json) fail_memory(err);
     json_decref(slots);
     free(command);
@@ -71,8 +71,8 @@ static json_t *image_json(const struct glint_image *image) {
     return json_pack("{s:s, s:s?, s:s?, s:I, s:I, s:o, s:s, s:s, s:I, s:I, s:b}", "name", image->name, "slot",
                      pass ? pass->slot : NULL, "variant", pass ? pass->variant : NULL, "width",
                      (json_int_t)image->width, "height", (json_int_t)image->height, "channels", channels_json(image),
-                     "unit", image->row->unit, "meaning", image->row->help, "level", (json_int_t)image->level,
-                     "levels", (json_int_t)image->levels, "cube", glint_row_is_cube(image->row));
+                     "unit", image->row->unit, "meaning", image->row->help, "level", (json_int_t)image->level, "levels",
+                     (json_int_t)image->levels, "cube", glint_row_is_cube(image->row));
 }
 
 /* In the order of the passes, those of the capture first. */

@@ -79,8 +79,7 @@ static bool assign_set(struct state *state, const json_t *set, struct glint_erro
         if (json_is_string(value)) text = json_string_value(value);
         else if (json_is_boolean(value)) text = json_is_true(value) ? "true" : "false";
         else if (json_is_number(value)) snprintf(number, sizeof number, "%.17g", json_number_value(value));
-        else
-            return glint_fail(err, GLINT_ERROR_USAGE, "set: %.60s: expected a number, true, false or a name", name);
+        else return glint_fail(err, GLINT_ERROR_USAGE, "set: %.60s: expected a number, true, false or a name", name);
         snprintf(assignment, sizeof assignment, "%.140s=%.140s", name, text);
         if (!glint_pipeline_set(state->pipeline, assignment, err)) return false;
     }
@@ -108,8 +107,7 @@ static json_t *canonical_use(const struct glint_pipeline *preset, const struct g
     }
     for (size_t i = 0; i < glint_pipeline_pass_count(base); i++) {
         const struct glint_pass *pass = glint_pipeline_pass(base, i);
-        if (!glint_pipeline_find(preset, pass->slot))
-            json_object_set_new(use, pass->slot, json_string(pass->variant));
+        if (!glint_pipeline_find(preset, pass->slot)) json_object_set_new(use, pass->slot, json_string(pass->variant));
     }
     return use;
 }
@@ -141,8 +139,7 @@ static bool read_slots(const char *what, const json_t *list, json_t **copy, cons
     *copy = json_array();
     *names = calloc(count + 1, sizeof **names);
     if (!*names || !*copy) return fail_memory(err);
-    if (list && !json_is_array(list))
-        return glint_fail(err, GLINT_ERROR_USAGE, "%s: expected an array of slots", what);
+    if (list && !json_is_array(list)) return glint_fail(err, GLINT_ERROR_USAGE, "%s: expected an array of slots", what);
     for (size_t i = 0; i < count; i++) {
         const char *slot = json_string_value(json_array_get(list, i));
         if (!slot) return glint_fail(err, GLINT_ERROR_USAGE, "%s: expected names of slots", what);
@@ -175,8 +172,7 @@ bool state_read(struct state *state, struct live *live, const json_t *json, stru
     const char *name = find_preset(live, json, err);
     struct glint_pipeline *preset = name ? glint_pipeline_create(name, err) : NULL;
     bool ok = preset && (state->base = glint_pipeline_copy(preset, err)) &&
-              assign_use(state, json_object_get(json, "use"), err) &&
-              assign_shaders(state, &live->args->shader, err) &&
+              assign_use(state, json_object_get(json, "use"), err) && assign_shaders(state, &live->args->shader, err) &&
               (state->pipeline = glint_pipeline_copy(state->base, err)) &&
               assign_set(state, json_object_get(json, "set"), err) &&
               read_slots("skip", json_object_get(json, "skip"), &skip, &state->skip, err) &&
@@ -231,9 +227,9 @@ json_t *state_of_arguments(const struct pipeline_args *args, struct glint_error 
     }
     for (size_t i = 0; i < args->skip.count; i++) json_array_append_new(skip, json_string(args->skip.items[i]));
     for (size_t i = 0; i < args->force.count; i++) json_array_append_new(force, json_string(args->force.items[i]));
-    json_t *state = json_pack("{s:i, s:s, s:o, s:o, s:o, s:o}", "capture", 0, "preset",
-                              args->preset ? args->preset : "mafia3", "use", use, "set", set, "skip", skip, "force",
-                              force);
+    json_t *state =
+        json_pack("{s:i, s:s, s:o, s:o, s:o, s:o}", "capture", 0, "preset", args->preset ? args->preset : "mafia3",
+                  "use", use, "set", set, "skip", skip, "force", force);
     if (ok && state) return state;
     if (ok) fail_memory(err);
     json_decref(state);
@@ -309,9 +305,9 @@ json_t *state_slots(const struct live *live, const struct state *state, struct g
     (void)live;
     struct glint_pipeline *preset =
         glint_pipeline_create(json_string_value(json_object_get(state->json, "preset")), err);
-    struct slot *slots = preset ? calloc(glint_pipeline_pass_count(preset) + glint_pipeline_pass_count(state->pipeline),
-                                         sizeof *slots)
-                                : NULL;
+    struct slot *slots =
+        preset ? calloc(glint_pipeline_pass_count(preset) + glint_pipeline_pass_count(state->pipeline), sizeof *slots)
+               : NULL;
     json_t *list = slots ? json_array() : NULL;
     const size_t count = slots ? list_slots(state, preset, slots) : 0;
     for (size_t n = 0; n < count; n++) {
@@ -319,12 +315,11 @@ json_t *state_slots(const struct live *live, const struct state *state, struct g
         slot->placed = true;
         const struct glint_pass *pass = slot->pass, *of_preset = glint_pipeline_find(preset, pass->slot);
         const bool is_left_out = glint_pipeline_find(state->pipeline, pass->slot) == NULL;
-        json_array_append_new(
-            list, json_pack("{s:s, s:s, s:s, s:s, s:s?, s:o}", "slot", pass->slot, "effect", pass->effect, "variant",
-                            is_left_out ? GLINT_NO_VARIANT : pass->variant, "preset",
-                            of_preset ? of_preset->variant : GLINT_NO_VARIANT, "shader",
-                            is_left_out ? NULL : glint_pipeline_shader_file(state->pipeline, pass), "parameters",
-                            is_left_out ? json_array() : parameters_json(state, pass)));
+        json_array_append_new(list, json_pack("{s:s, s:s, s:s, s:s, s:s?, s:o}", "slot", pass->slot, "effect",
+                                              pass->effect, "variant", is_left_out ? GLINT_NO_VARIANT : pass->variant,
+                                              "preset", of_preset ? of_preset->variant : GLINT_NO_VARIANT, "shader",
+                                              is_left_out ? NULL : glint_pipeline_shader_file(state->pipeline, pass),
+                                              "parameters", is_left_out ? json_array() : parameters_json(state, pass)));
     }
     free(slots);
     if (preset) glint_pipeline_destroy(&preset);

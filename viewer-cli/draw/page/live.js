@@ -48,9 +48,10 @@
         const own = glintLive.page = glintParts.page(), look = glintParts.look(own);
         const keys = glintLive.keys(store, look);
         const help = element('button', {type: 'button', id: 'keys', title: 'keys (?)', 'aria-label': 'keys', click: () => keys.showModal()}, '?');
-        const panel = (id, title, inner) => inner ? element('section', {class: `panel ${id}-panel`, id, 'aria-label': title, tabindex: -1}, element('h2', null, title), inner) : null;
+        const panel = (id, title, inner) => element('section', {class: `panel ${id}-panel`, id, 'aria-label': title, tabindex: -1}, inner);
         look.start();
         const picture = panel('picture', 'Picture', glintLive.picture(store)), pixel = panel('pixel', 'Pixel', glintLive.pixel(store));
+        pixel.append(element('p', {class: 'faint hint'}, 'Click a pixel of the picture, or press Enter at one, to see its rays here.'));
         document.body.classList.add('live');
         document.body.replaceChildren(glintLive.bar(store, [help, look.button]), glintLive.notes(store),
             element('main', {class: 'panels'}, glintLive.pipeline(store),

@@ -109,12 +109,11 @@ glintLive.notes = (function () {
         const gone = element('div', {class: 'message error', role: 'alert', hidden: ''}, 'The server does not answer. The page goes on when it is back.');
         const error = element('div', {class: 'message error', role: 'alert', hidden: ''}), news = element('div', {class: 'news', role: 'status'});
         const close = (label, f) => element('button', {type: 'button', class: 'close', 'aria-label': label, title: label, click: f}, '\u00d7');
-        /* What was refused is said at its control, where that is on the page. */
-        const standsAtControl = () => store.error?.status === 400 && store.refusal?.names.some(name =>
-            [...document.querySelectorAll('.parameter')].some(row => row.dataset.name === name && row.offsetParent));
-        store.on('error', () => {
-            error.hidden = !store.error || standsAtControl();
-            error.replaceChildren(...(store.error ? [element('p', null, store.error.message), close('dismiss the message', () => { store.clearRefusal(); store.setError(null); })] : []));
+        /* What was refused is said at its control, where that is on the page; what failed is said over the picture. */
+        const standsAtControl = () => store.refusal.names.some(name => [...document.querySelectorAll('.parameter')].some(row => row.dataset.name === name && row.offsetParent));
+        store.on('refused', () => {
+            error.hidden = !store.refusal || standsAtControl();
+            error.replaceChildren(...(error.hidden ? [] : [element('p', null, store.refusal.message), close('dismiss the message', store.clearRefusal)]));
         });
         store.notice = text => {
             const line = element('div', {class: 'message'}, element('p', null, text), close('dismiss the notice', () => line.remove()));

@@ -9,8 +9,15 @@ glintLive.figures = (function () {
 
     function percent(a, b) {
         if (!Number.isFinite(a) || !Number.isFinite(b) || b === 0) return '';
+        if (a * b < 0) return glintChart.number(+(a - b).toPrecision(3)).replace(/^(?=\d)/, '+'); /* no part of each other */
         const part = 100 * (a - b) / Math.abs(b);
         return Math.abs(part) < 0.05 ? '0 %' : `${part > 0 ? '+' : '\u2212'}${numberText(Math.abs(part), Math.abs(part) < 100 ? 1 : 0)} %`;
+    }
+
+    /* Of shares: the difference in hundredths. */
+    function points(a, b) {
+        const d = Number.isFinite(a) ? 100 * (a - (Number.isFinite(b) ? b : 0)) : NaN;
+        return Number.isFinite(d) ? `${d < 0 ? '\u2212' : '+'}${numberText(Math.abs(d), 1)}` : '';
     }
 
     /* Names, values, and where there is a B its values and the difference. rows: [[name, a, b, unit, title], …] */
@@ -129,11 +136,11 @@ glintLive.figures = (function () {
         const other = e => list(meter.other?.ends).find(o => o.tracer === e.tracer && o.reason === e.reason);
         const share = v => Number.isFinite(v) ? `${(100 * v).toFixed(1)} %` : '\u2013', several = new Set(ends.map(e => e.tracer)).size > 1, errors = ends.some(e => Number.isFinite(e.error));
         const head = (text, number = true) => element('th', {scope: 'col', class: number ? 'number' : null}, text);
-        return element('div', {class: 'scroll'}, element('table', {class: 'figures'}, element('caption', null, 'Why rays ended'), element('thead', null, element('tr', null, head('', false), head('rays'), head('A'),
+        return element('div', {class: 'scroll'}, element('table', {class: 'figures'}, element('caption', null, 'Why rays ended'), element('thead', null, element('tr', null, head('', false), ...(pinned ? [] : [head('rays')]), head('A'),
             ...(pinned ? [head('B'), head('vs. B')] : []), ...(errors ? [head('error')] : []))),
-        element('tbody', null, ...ends.map(e => element('tr', {title: glintChart.text(e.tracer)}, element('th', {scope: 'row'}, e.text, several ? element('span', {class: 'unit'}, ` ${e.tracer}`) : null),
-            element('td', {class: 'number'}, numberText(e.rays, 0)), element('td', {class: 'number'}, share(e.share)),
-            ...(pinned ? [element('td', {class: 'number'}, share(other(e)?.share)), element('td', {class: 'number change'}, percent(e.rays, other(e)?.rays))] : []),
+        element('tbody', null, ...ends.map(e => element('tr', {title: `${numberText(e.rays, 0)} rays`}, element('th', {scope: 'row'}, e.text, several ? element('span', {class: 'unit'}, ` ${e.tracer}`) : null),
+            ...(pinned ? [] : [element('td', {class: 'number'}, numberText(e.rays, 0))]), element('td', {class: 'number'}, share(e.share)),
+            ...(pinned ? [element('td', {class: 'number'}, share(other(e)?.share)), element('td', {class: 'number change'}, points(e.share, other(e)?.share))] : []),
             ...(errors ? [element('td', {class: 'number'}, Number.isFinite(e.error) ? glintChart.number(+e.error.toPrecision(3)) : '\u2013')] : []))))));
     }
 
@@ -147,7 +154,7 @@ glintLive.figures = (function () {
         return {fits, chart: {title: 'Tried so far', height: 260, x: {name: 'every frame', unit: 'ms'}, y: {name: metric?.title || 'error'}, series: [{name: 'states', kind: 'scatter', points: fits.map(point)}], marks}};
     }
 
-    function points(store, meter) {
+    function scatter(store, meter) {
         const own = glintLive.page, box = element('div', {class: 'tried'});
         let drawn = null, shown = '', fits = [];
         const choose = p => { const t = fits.find(f => f.name === p.name); if (t) store.setState({...t.state, capture: store.state.capture}); };
@@ -198,8 +205,8 @@ glintLive.figures = (function () {
     }
 
     return function (store) {
-        const own = meter(store), bar = choices(store, own), chart = points(store, own);
-        own.metric = store.registry.metrics[0]?.name || null;
+        const own = meter(store), bar = choices(store, own), chart = scatter(store, own);
+        own.metric = store.registry.metric || store.registry.metrics[0]?.name || null;
         const body = element('div'), said = element('p', {class: 'faint', role: 'status'});
         store.fetchesOf = slot => own.isCurrent() ? list(own.figures.passes).find(p => p.slot === slot)?.fetches : undefined;
         store.measure = () => own.measure(own.rounds, true);

@@ -47,6 +47,7 @@ glintLive.runs = (function () {
                 store.refusal = {names: before ? differing(before, state) : [], message: error.message};
                 if (before) store.dropStep(before);
                 store.emit('refused');
+                return;
             }
             store.setError(error);
         }
@@ -129,7 +130,6 @@ glintLive.runs = (function () {
             if (!store.refusal) return;
             store.refusal = null;
             store.emit('refused');
-            if (store.error?.status === 400) store.setError(null);
         };
         store.on('changed', store.request);
 
@@ -161,7 +161,7 @@ glintLive.runs = (function () {
             if (store.result && !store.result.draft && keyOf(store.result.state) === keyOf(state)) return store.pinResult(title, store.result);
             try {
                 store.pinResult(title, await api.insist('/api/v1/run', {state, client: api.client}));
-            } catch (error) { store.setError(error); }
+            } catch (error) { store.notice(error.message); }
         };
 
         const answer = (of, effect) => api.insist('/api/v1/answer', {state: store.state, effect, of, client: api.client});
@@ -170,7 +170,7 @@ glintLive.runs = (function () {
             try {
                 const result = await answer(of, effect);
                 setPinned({title, result, of, effect});
-            } catch (error) { store.setError(error); }
+            } catch (error) { store.notice(error.message); }
         };
 
         store.swap = () => {
@@ -197,7 +197,7 @@ glintLive.runs = (function () {
             try {
                 const found = known ? await answer('truth', effect) : null;
                 if (truthOf !== key) return;
-                store.truth = found;
+                store.truth = found && {title: 'truth', result: found};
             } catch { truthOf = null; }
             store.emit('truth');
         }
