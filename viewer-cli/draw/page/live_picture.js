@@ -191,9 +191,15 @@ glintLive.picture = (function () {
 
     /* ---- Pixels ---- */
 
+    /* The truth of an image of the effect: values of other units beside it would say nothing. */
+    function truthOf(truth, A) {
+        const image = truth?.result.images.find(i => i.name === truth.result.picture);
+        return image && A?.image.channels.some(c => image.channels.includes(c)) ? {run: truth.result.run, image} : null;
+    }
+
     async function values(self, x, y) {
         const {A, B} = self.shown, {truth} = self.store;
-        const of = [['A', A], ['B', B], ['Truth', truth && {run: truth.result.run, image: {name: truth.result.picture}}]]
+        const of = [['A', A], ['B', B], [truth?.result.picture, truthOf(truth, A)]]
             .filter(([, p]) => p).map(([caption, p]) => ({caption, run: p.run, image: p.image.name, b: caption === 'B'}));
         if (!A) return null;
         try {
