@@ -85,13 +85,15 @@ json_t *live_registry(const struct live *live, struct glint_error *err) {
     for (size_t i = 0; i < effect_count; i++) json_array_append_new(effect_list, effect_json(&effects[i]));
     for (size_t i = 0; kind_names[i]; i++) json_array_append_new(kinds, json_string(kind_names[i]));
     json_t *start = ocio_list(NULL, add_view, &views, err) ? state_of_arguments(live->args, err) : NULL;
-    json_t *registry = json_pack(
-        "{s:i, s:s, s:{s:s, s:s, s:s, s:b}, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:s?, s:s?, s:o, s:s?, s:o*, s:b, s:i}",
-        "version", 1, "tool", GLINT_VERSION, "device", "name", device->name, "type", device->type, "driver",
-        device->driver_version, "cpu", device->is_cpu, "captures", captures_json(live), "presets", presets_json(live),
-        "effects", effect_list, "passes", pass_list, "pipeline", pipeline_parameters(), "metrics", metrics_json_list(),
-        "kinds", kinds, "display", views.display, "view", views.view, "displays", views.displays, "reference",
-        live->reference, "start", start, "out", live->out != NULL, "rounds", 5);
+    json_t *registry =
+        json_pack("{s:i, s:s, s:{s:s, s:s, s:s, s:b}, s:o, s:o, s:o, s:o, s:o, s:o, s:s, s:o, s:s?, s:s?, s:o, s:s?, "
+                  "s:o*, s:b, s:i}",
+                  "version", 1, "tool", GLINT_VERSION, "device", "name", device->name, "type", device->type, "driver",
+                  device->driver_version, "cpu", device->is_cpu, "captures", captures_json(live), "presets",
+                  presets_json(live), "effects", effect_list, "passes", pass_list, "pipeline", pipeline_parameters(),
+                  "metrics", metrics_json_list(), "metric", glint_metric(GLINT_METRIC_RMSE)->name, "kinds", kinds,
+                  "display", views.display, "view", views.view, "displays", views.displays, "reference",
+                  live->reference, "start", start, "out", live->out != NULL, "rounds", 5);
     if (registry && start) return registry;
     json_decref(registry);
     if (start || !err->message[0]) fail_memory(err);
