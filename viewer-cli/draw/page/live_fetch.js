@@ -57,7 +57,7 @@ glintLive.fetch = (function () {
             while (waiting) {
                 const {words, done} = waiting;
                 waiting = null;
-                done(await post(...words).catch(() => null));
+                done(await post(...words));
             }
             busy = false;
         }

@@ -71,8 +71,8 @@ glintLive.picture = (function () {
     }
 
     function warningOf(shown) {
-        return ['A', 'B'].filter(k => shown[k]?.head.invalid > 0)
-            .map(k => `${glintParts.numberText(shown[k].head.invalid, 0)} ${shown[k].head.invalid === 1 ? 'pixel' : 'pixels'} of ${k} ${shown[k].head.invalid === 1 ? 'is' : 'are'} not finite (NaN or infinite).`).join(' ');
+        return ['A', 'B'].map(k => [k, shown[k]?.head.invalid]).filter(([, count]) => count > 0).map(([k, count]) =>
+            `${glintParts.numberText(count, 0)} ${count === 1 ? 'pixel' : 'pixels'} of ${k} ${count === 1 ? 'is' : 'are'} not finite (NaN or infinite).`).join(' ');
     }
 
     /* ---- The element ---- */
@@ -149,6 +149,8 @@ glintLive.picture = (function () {
         self.wrong = null;
         if (which === 'A') {
             if (!wish.draft) self.sizes.set(wish.what, [head.width, head.height]);
+            if (self.shown.A?.image.name !== self.last) self.notOfFrame = '';
+            self.last = wish.image.name;
             if (self.shown.D && self.shown.D.what.split(' ')[1] !== wish.what) self.shown.D = null;
             self.view.draw(head);
         }
@@ -177,26 +179,42 @@ glintLive.picture = (function () {
 
     function draw(self) {
         self.stage.update(pictures(self));
-        self.warning.textContent = warningOf(self.shown);
-        self.warning.hidden = !self.warning.textContent;
+        drawWarning(self);
         self.over.draw(self.store, self.wrong);
         mark(self);
     }
 
+    function drawWarning(self) {
+        self.warning.textContent = [warningOf(self.shown), self.notOfFrame].filter(t => t).join('\n');
+        self.warning.hidden = !self.warning.textContent;
+    }
+
     /* ---- Pixels ---- */
+
+    /* The truth of an image of the effect: values of other units beside it would say nothing. */
+    function truthOf(truth, A) {
+        const image = truth?.result.images.find(i => i.name === truth.result.picture);
+        return image && A?.image.channels.some(c => image.channels.includes(c)) ? {run: truth.result.run, image} : null;
+    }
 
     async function values(self, x, y) {
         const {A, B} = self.shown, {truth} = self.store;
-        const of = [['A', A], ['B', B], ['Truth', truth && {run: truth.result.run, image: {name: truth.result.picture}}]]
+        const of = [['A', A], ['B', B], [truth?.result.picture, truthOf(truth, A)]]
             .filter(([, p]) => p).map(([caption, p]) => ({caption, run: p.run, image: p.image.name, b: caption === 'B'}));
         if (!A) return null;
-        const answer = await api.post('/api/v1/values', {x, y, size: sizeOf(self), of: of.map(({run, image}) => ({run, image}))});
-        return valueTable(of, answer.values, x, y);
+        try {
+            const answer = await api.post('/api/v1/values', {x, y, size: sizeOf(self), of: of.map(({run, image}) => ({run, image}))});
+            return valueTable(of, answer.values, x, y);
+        } catch (error) {
+            return {title: `${x},${y}`, channels: [], unit: '', rows: [[error.message, []]]};
+        }
     }
 
     function pick(self, x, y) {
         const frame = frameOf(self.store), size = sizeOf(self);
-        if (!isOfFrame(frame, size)) return;
+        self.notOfFrame = isOfFrame(frame, size) ? '' : 'Pixels of this image are no pixels of the frame: there is nothing to probe.';
+        drawWarning(self);
+        if (self.notOfFrame) return;
         self.store.setLook({x: between(x, size[0], frame[0]), y: between(y, size[1], frame[1])});
     }
 

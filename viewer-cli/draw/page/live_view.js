@@ -41,7 +41,7 @@ glintLive.view = (function () {
 
     function range(store) {
         const kinds = choice('kind of picture', store.registry.kinds || [], kind => store.setLook({kind, low: null, high: null, scale: null}));
-        const fields = ['low', 'high'].map(end => element('input', {type: 'text', inputmode: 'decimal', size: 8, 'aria-label': `${end} end of the range`, placeholder: 'auto',
+        const fields = ['low', 'high'].map(end => element('input', {type: 'text', inputmode: 'decimal', size: 11, 'aria-label': `${end} end of the range`, placeholder: 'auto',
             change: event => {
                 const value = numberOf(event.target.value), look = {...store.look, [end]: value};
                 const wrong = value === undefined || (look.low !== null && look.high !== null && look.low >= look.high);
