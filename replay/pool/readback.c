@@ -1,6 +1,7 @@
 /* Reads images back to host memory. */
 #include "pool.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include <Imath/half.h>
@@ -35,7 +36,9 @@ bool pool_readback(struct pool *pool, const struct image_part *parts, size_t cou
     for (size_t i = 0; i < count; i++)
         image_record_readback(&parts[i].image->image, pool->gpu, buffer, offsets[i], parts[i].info->level);
     record_host_barrier(pool->gpu);
-    bool ok = device_submit(pool->gpu, "reading images back", err);
+    char what[192];
+    snprintf(what, sizeof what, "reading back %s%s", count ? parts[0].info->name : "nothing", count > 1 ? " and others" : "");
+    bool ok = device_submit(pool->gpu, what, err);
     for (size_t i = 0; ok && i < count; i++)
         if (parts[i].image->image.desc.buffer)
             clear_unused_words(parts[i].image, (uint32_t *)((char *)buffer->map + offsets[i]));
