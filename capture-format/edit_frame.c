@@ -284,6 +284,11 @@ bool glint_edit_map_part(const struct glint_edit_map *map, size_t p) {
 uint32_t glint_edit_map_ratio(const struct glint_edit_map *map, const struct glint_exr_part_info *part, bool *up) {
     *up = false;
     if (part->width > 1 && part->height == 6 * part->width) return 0; /* a cube map */
+    const uint32_t exact = map->size[0] / part->width;
+    if (exact && map->size[0] == exact * part->width && map->size[1] == exact * part->height) {
+        *up = true;
+        return exact;
+    }
     for (uint32_t r = 1; r <= map->size[0] && r <= map->size[1]; r++) {
         *up = (map->size[0] + r - 1) / r == part->width && (map->size[1] + r - 1) / r == part->height;
         if (*up || (map->size[0] / r == part->width && map->size[1] / r == part->height)) return r;

@@ -7,7 +7,7 @@
 #include <sys/stat.h>
 
 #include "command.h"
-#include "draw/blobs.h"
+#include "draw/page/page.h"
 #include "live/live.h"
 
 struct arguments {
@@ -104,22 +104,25 @@ static void print_address(const struct arguments *a, const struct http *http, co
 
 /* Serves until a signal asks to stop. */
 static bool serve(const struct arguments *a, struct live *live, const sigset_t *signals, struct glint_error *err) {
-    char token[256];
+    char token[256], *page = page_live(err);
     int number;
     const struct http_options http_options = {.address = a->listen,
                                               .port = (uint16_t)a->port,
                                               .token = token,
                                               .routes = live_routes,
                                               .user = live,
-                                              .page = (const char *)blob_live_page,
-                                              .page_bytes = (size_t)(blob_live_page_end - blob_live_page)};
-    struct http *http = take_token(a, token, err) ? http_start(&http_options, err) : NULL;
-    if (!http) return false;
-    print_address(a, http, token);
-    sigwait(signals, &number);
-    live_stop(live);
-    http_stop(&http);
-    return true;
+                                              .page = page,
+                                              .page_bytes = page ? strlen(page) : 0};
+    struct http *http = page && take_token(a, token, err) ? http_start(&http_options, err) : NULL;
+    const bool started = http != NULL;
+    if (started) {
+        print_address(a, http, token);
+        sigwait(signals, &number);
+        live_stop(live);
+        http_stop(&http);
+    }
+    free(page);
+    return started;
 }
 
 static enum status cmd_live_run(int argc, char **argv) {

@@ -33,14 +33,16 @@ static void record_step(struct run *run, struct step *step) {
 }
 
 static bool read_times(struct run *run, struct glint_error *err) {
-    const struct gpu *gpu = run->gpu;
+    struct gpu *gpu = run->gpu;
     for (size_t p = 0; run->queries && p < run->graph->pass_count; p++) {
         struct step *step = &run->steps[p];
         uint64_t ticks[2];
         if (!step->stamp) continue;
         VkResult result = vkGetQueryPoolResults(gpu->device, run->queries, step->stamp - 1, 2, sizeof ticks, ticks,
                                                 sizeof ticks[0], VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
-        if (result != VK_SUCCESS) return vk_fail(err, "reading timestamps", result);
+        char what[160];
+        snprintf(what, sizeof what, "reading the time of %s/%s", step->pass->pass->slot, step->pass->pass->variant);
+        if (!gpu_ok(gpu, result, what, err)) return false;
         const uint64_t passed = (ticks[1] - ticks[0]) & gpu->timestamp_mask;
         step->round_ns += (uint64_t)((double)passed * gpu->timestamp_ns);
         step->stamp = 0;
@@ -52,32 +54,48 @@ static bool submit_commands(struct run *run, const char *what, struct glint_erro
     return device_submit(run->gpu, what, err) && read_times(run, err);
 }
 
+/* What is running, for messages: the passes in the current command buffer, by the first and the last of them. */
+static bool submit_passes(struct run *run, const struct glint_pass *first, const struct glint_pass *last,
+                          struct glint_error *err) {
+    char what[256];
+    if (first == last) snprintf(what, sizeof what, "running %s/%s", first->slot, first->variant);
+    else snprintf(what, sizeof what, "running the passes from %s to %s", first->slot, last->slot);
+    return submit_commands(run, what, err);
+}
+
 /* Executes passes first … end - 1 for one ray. With `apart` each is submitted on its own, so that the progress callback can stop the run
    between two passes. Otherwise they are submitted together, which timing requires since a device that has been idle runs the first pass
    slowly. `done` and `share` are the fractions of the run's progress before these passes and for them. */
 static bool execute_passes(struct run *run, size_t first, size_t end, uint32_t ray, bool apart, double done,
                            double share, struct glint_error *err) {
     struct frame_block block = run->plan->block;
-    bool recording = false;
+    const struct glint_pass *from = NULL, *to = NULL; /* in the command buffer, unless `from` is NULL */
     block.flags.w += ray;
     memcpy(run->engine->frame.map, &block, sizeof block);
     for (size_t p = first; p < end; p++) {
         struct step *step = &run->steps[p];
         if (!step->execute) continue;
-        const char *slot = step->pass->pass->slot;
         const double here = done + share * (double)(p - first) / (double)(end - first);
-        if (!glint_report_progress(run->progress, run->user, slot, 0.2 + 0.8 * here, err)) return false;
-        if (!recording && !begin_commands(run, err)) return false;
+        const struct glint_pass *pass = step->pass->pass;
+        if (!glint_report_progress(run->progress, run->user, pass->slot, 0.2 + 0.8 * here, err)) {
+            struct glint_error ignored = {0}; /* images are as the recorded commands leave them */
+            if (from) submit_passes(run, from, to, &ignored);
+            return false;
+        }
+        if (!from && !begin_commands(run, err)) return false;
         record_step(run, step);
-        recording = !apart;
-        if (!recording && !submit_commands(run, slot, err)) return false;
+        to = pass;
+        if (!from) from = pass;
+        if (!apart) continue;
+        if (!submit_passes(run, from, to, err)) return false;
+        from = NULL;
     }
     if (run->rays && first == run->graph->loop_first && end == run->graph->loop_end) {
-        if (!recording && !begin_commands(run, err)) return false;
+        if (!from && !begin_commands(run, err)) return false;
         rays_record(run, ray);
-        recording = true;
+        if (!from) return submit_commands(run, "adding up the rays", err);
     }
-    return !recording || submit_commands(run, "running the passes", err);
+    return !from || submit_passes(run, from, to, err);
 }
 
 /* Executes all passes, those of the loop once for each ray, with a submission for each ray. */

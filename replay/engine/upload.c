@@ -6,8 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool submit_upload(struct run *run, struct glint_error *err) {
-    return device_submit(run->gpu, "uploading images", err);
+static bool submit_upload(struct run *run, const char *name, struct glint_error *err) {
+    char what[288];
+    snprintf(what, sizeof what, "uploading %s", name);
+    return device_submit(run->gpu, what, err);
 }
 
 /* Whether the image comes from parts of this role. Ids are read as integers and therefore separately. */
@@ -84,7 +86,7 @@ static bool upload_part(struct run *run, const struct glint_part_info *part, con
         record_layers(run, i, offset, first, layers);
         offset += ((VkDeviceSize)width * rows * format_bytes(packing.format) + 15) & ~(VkDeviceSize)15;
     }
-    bool ok = submit_upload(run, err);
+    bool ok = submit_upload(run, part->name, err);
     run->source->seconds[PHASE_UPLOAD] += glint_now_seconds() - start;
     return ok;
 }
@@ -118,7 +120,7 @@ static bool upload_values(struct run *run, size_t i, const void *values, struct 
                                   .to = pool->staging.map};
         pack_texels(&packing, image->levels[l].info.width, image->levels[l].info.height);
         image_record_upload(&image->image, run->gpu, &pool->staging, 0, l, 0, image_layers(desc), l == 0);
-        ok = submit_upload(run, err);
+        ok = submit_upload(run, image->levels[l].info.name, err);
     }
     return ok;
 }
@@ -179,7 +181,7 @@ static bool upload_input(struct run *run, size_t i, struct glint_error *err) {
         return upload_values(run, i, table->texels.u, err);
     if (!device_begin(run->gpu, err)) return false;
     image_record_clear(&run->images[i]->image, run->gpu, image->row->fallback);
-    return submit_upload(run, err);
+    return submit_upload(run, run->images[i]->image.name, err);
 }
 
 static bool upload_ids(struct run *run, size_t i, struct glint_error *err) {
@@ -242,7 +244,7 @@ static bool clear_left_out(struct run *run, size_t i, struct glint_error *err) {
     if (!plan_limits(run->plan, &run->graph->passes[image->maker])) return true;
     if (!device_begin(run->gpu, err)) return false;
     image_record_clear(&run->images[i]->image, run->gpu, image->row->fallback);
-    return submit_upload(run, err);
+    return submit_upload(run, run->images[i]->image.name, err);
 }
 
 bool run_upload(struct run *run, struct glint_error *err) {

@@ -1,6 +1,8 @@
 /* Descriptor pools and sets. */
 #include "gpu.h"
 
+#include <stdio.h>
+
 bool descriptors_create(struct gpu *gpu, uint32_t sets, uint32_t images, VkDescriptorPool *pool,
                         struct glint_error *err) {
     const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, images},
@@ -14,7 +16,7 @@ bool descriptors_create(struct gpu *gpu, uint32_t sets, uint32_t images, VkDescr
                                              .maxSets = sets,
                                              .poolSizeCount = sizeof sizes / sizeof sizes[0],
                                              .pPoolSizes = sizes};
-    return vk_ok(vkCreateDescriptorPool(gpu->device, &info, NULL, pool), "creating the descriptor pool", err);
+    return gpu_ok(gpu, vkCreateDescriptorPool(gpu->device, &info, NULL, pool), "creating the descriptor pool", err);
 }
 
 bool descriptors_allocate(struct gpu *gpu, VkDescriptorPool pool, const VkDescriptorSetLayout *layout, const char *name,
@@ -23,7 +25,9 @@ bool descriptors_allocate(struct gpu *gpu, VkDescriptorPool pool, const VkDescri
                                               .descriptorPool = pool,
                                               .descriptorSetCount = 1,
                                               .pSetLayouts = layout};
-    if (!vk_ok(vkAllocateDescriptorSets(gpu->device, &info, set), "allocating descriptors", err)) return false;
+    char what[192];
+    snprintf(what, sizeof what, "allocating descriptors of %s", name);
+    if (!gpu_ok(gpu, vkAllocateDescriptorSets(gpu->device, &info, set), what, err)) return false;
     device_set_name(gpu, VK_OBJECT_TYPE_DESCRIPTOR_SET, (uint64_t)(uintptr_t)*set, name);
     return true;
 }

@@ -61,18 +61,18 @@ static bool create_commands(struct gpu *gpu, struct glint_error *err) {
     const VkCommandPoolCreateInfo pool = {.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                           .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
                                           .queueFamilyIndex = gpu->family};
-    if (!vk_ok(vkCreateCommandPool(gpu->device, &pool, NULL, &gpu->pool), "creating the command pool", err))
+    if (!gpu_ok(gpu, vkCreateCommandPool(gpu->device, &pool, NULL, &gpu->pool), "creating the command pool", err))
         return false;
     const VkCommandBufferAllocateInfo commands = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
                                                   .commandPool = gpu->pool,
                                                   .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
                                                   .commandBufferCount = 1};
-    if (!vk_ok(vkAllocateCommandBuffers(gpu->device, &commands, &gpu->commands), "allocating the command buffer", err))
+    if (!gpu_ok(gpu, vkAllocateCommandBuffers(gpu->device, &commands, &gpu->commands), "allocating the command buffer", err))
         return false;
     const VkFenceCreateInfo fence = {.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
-    if (!vk_ok(vkCreateFence(gpu->device, &fence, NULL, &gpu->fence), "creating the fence", err)) return false;
+    if (!gpu_ok(gpu, vkCreateFence(gpu->device, &fence, NULL, &gpu->fence), "creating the fence", err)) return false;
     const VkPipelineCacheCreateInfo cache = {.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
-    if (!vk_ok(vkCreatePipelineCache(gpu->device, &cache, NULL, &gpu->cache), "creating the pipeline cache", err))
+    if (!gpu_ok(gpu, vkCreatePipelineCache(gpu->device, &cache, NULL, &gpu->cache), "creating the pipeline cache", err))
         return false;
     return true;
 }
@@ -114,7 +114,7 @@ bool gpu_init(struct gpu *gpu, const char *select, bool validate, struct glint_e
 }
 
 void gpu_wait(struct gpu *gpu) {
-    if (gpu->device) vkDeviceWaitIdle(gpu->device);
+    if (gpu->device && vkDeviceWaitIdle(gpu->device) == VK_ERROR_DEVICE_LOST) gpu->lost = true;
 }
 
 void gpu_finish(struct gpu *gpu) {
@@ -145,7 +145,7 @@ bool device_allocate(struct gpu *gpu, const VkMemoryRequirements *need, VkMemory
             if (result != VK_SUCCESS) {
                 char what[256];
                 snprintf(what, sizeof what, "allocating %llu bytes for %s", (unsigned long long)need->size, name);
-                return vk_fail(err, what, result);
+                return gpu_fail(gpu, err, what, result);
             }
             device_set_name(gpu, VK_OBJECT_TYPE_DEVICE_MEMORY, (uint64_t)(uintptr_t)*memory, name);
             return true;
@@ -154,22 +154,24 @@ bool device_allocate(struct gpu *gpu, const VkMemoryRequirements *need, VkMemory
 }
 
 bool device_begin(struct gpu *gpu, struct glint_error *err) {
-    if (!vk_ok(vkResetCommandPool(gpu->device, gpu->pool, 0), "resetting the command pool", err)) return false;
+    if (!gpu_ok(gpu, vkResetCommandPool(gpu->device, gpu->pool, 0), "resetting the command pool", err)) return false;
     const VkCommandBufferBeginInfo info = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                            .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
-    return vk_ok(vkBeginCommandBuffer(gpu->commands, &info), "beginning commands", err);
+    return gpu_ok(gpu, vkBeginCommandBuffer(gpu->commands, &info), "beginning commands", err);
 }
 
 bool device_submit(struct gpu *gpu, const char *what, struct glint_error *err) {
-    if (!vk_ok(vkEndCommandBuffer(gpu->commands), what, err)) return false;
+    if (!gpu_ok(gpu, vkEndCommandBuffer(gpu->commands), what, err)) return false;
     const VkCommandBufferSubmitInfo commands = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
                                                 .commandBuffer = gpu->commands};
     const VkSubmitInfo2 info = {
         .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2, .commandBufferInfoCount = 1, .pCommandBufferInfos = &commands};
-    if (!vk_ok(vkQueueSubmit2(gpu->queue, 1, &info, gpu->fence), what, err)) return false;
-    if (!vk_ok(vkWaitForFences(gpu->device, 1, &gpu->fence, VK_TRUE, UINT64_MAX), what, err)) return false;
-    vkResetFences(gpu->device, 1, &gpu->fence);
-    return true;
+    if (!gpu_ok(gpu, vkResetFences(gpu->device, 1, &gpu->fence), what, err) ||
+        !gpu_ok(gpu, vkQueueSubmit2(gpu->queue, 1, &info, gpu->fence), what, err))
+        return false;
+    const VkResult result = vkWaitForFences(gpu->device, 1, &gpu->fence, VK_TRUE, UINT64_MAX);
+    if (result != VK_SUCCESS) gpu_wait(gpu); /* the commands may still execute */
+    return gpu_ok(gpu, result, what, err);
 }
 
 void device_set_name(struct gpu *gpu, VkObjectType type, uint64_t handle, const char *name) {
@@ -199,7 +201,10 @@ bool host_buffer_init(struct host_buffer *buffer, struct gpu *gpu, enum host_buf
     };
     *buffer = (struct host_buffer){.size = size};
     const VkBufferCreateInfo info = {.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = size, .usage = usage[use]};
-    if (!vk_ok(vkCreateBuffer(gpu->device, &info, NULL, &buffer->buffer), "creating a buffer", err)) return false;
+    if (!gpu_ok(gpu, vkCreateBuffer(gpu->device, &info, NULL, &buffer->buffer), "creating a buffer", err)) {
+        *buffer = (struct host_buffer){0};
+        return false;
+    }
     device_set_name(gpu, VK_OBJECT_TYPE_BUFFER, (uint64_t)(uintptr_t)buffer->buffer, name);
     VkMemoryRequirements need;
     vkGetBufferMemoryRequirements(gpu->device, buffer->buffer, &need);
@@ -210,8 +215,8 @@ bool host_buffer_init(struct host_buffer *buffer, struct gpu *gpu, enum host_buf
                                             : use == HOST_BUFFER_UPLOAD ? 0
                                                                         : VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
     if (device_allocate(gpu, &need, coherent, preferred, name, &buffer->memory, err) &&
-        vk_ok(vkBindBufferMemory(gpu->device, buffer->buffer, buffer->memory, 0), "binding a buffer", err) &&
-        vk_ok(vkMapMemory(gpu->device, buffer->memory, 0, VK_WHOLE_SIZE, 0, &buffer->map), "mapping a buffer", err))
+        gpu_ok(gpu, vkBindBufferMemory(gpu->device, buffer->buffer, buffer->memory, 0), "binding a buffer", err) &&
+        gpu_ok(gpu, vkMapMemory(gpu->device, buffer->memory, 0, VK_WHOLE_SIZE, 0, &buffer->map), "mapping a buffer", err))
         return true;
     host_buffer_finish(buffer, gpu);
     return false;

@@ -41,6 +41,7 @@ struct gpu {
     VkCommandBuffer commands;
     VkFence fence;
     VkPipelineCache cache;
+    bool lost; /* a call has returned VK_ERROR_DEVICE_LOST */
     struct glint_device_info info;
 };
 
@@ -58,19 +59,23 @@ bool vk_fail_no_driver(struct glint_error *err);
 bool vk_fail(struct glint_error *err, const char *what, VkResult result);
 bool vk_ok(VkResult result, const char *what,
            struct glint_error *err); /* fails alike unless the result is VK_SUCCESS */
+/* The same for calls of a device, which they may find lost. */
+bool gpu_fail(struct gpu *gpu, struct glint_error *err, const char *what, VkResult result);
+bool gpu_ok(struct gpu *gpu, VkResult result, const char *what, struct glint_error *err);
 VkFormat format_vulkan(enum glint_format format);
 
 /* `select` is that of struct glint_device_options; `validate` enables the validation layer. The struct must not be moved afterwards. */
 bool gpu_init(struct gpu *gpu, const char *select, bool validate, struct glint_error *err);
 void gpu_finish(struct gpu *gpu);
-/* Waits until the device is idle. */
+/* Waits until the device is idle, or lost. */
 void gpu_wait(struct gpu *gpu);
 
 bool device_allocate(struct gpu *gpu, const VkMemoryRequirements *need, VkMemoryPropertyFlags required,
                      VkMemoryPropertyFlags preferred, const char *name, VkDeviceMemory *memory,
                      struct glint_error *err);
 
-/* Begins the command buffer; submits it and waits for it. `what` is used in error messages. */
+/* Begins the command buffer; submits it and waits for it. `what` is used in error messages. Whatever they return, the device then executes
+   nothing, so that what the commands used may be released. */
 bool device_begin(struct gpu *gpu, struct glint_error *err);
 bool device_submit(struct gpu *gpu, const char *what, struct glint_error *err);
 

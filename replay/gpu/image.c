@@ -21,7 +21,7 @@ static bool create_buffer(struct image *image, struct gpu *gpu, struct glint_err
                                               VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT |
                                               VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
                                               VK_BUFFER_USAGE_TRANSFER_DST_BIT};
-    if (!vk_ok(vkCreateBuffer(gpu->device, &info, NULL, &image->buffer), image->name, err)) return false;
+    if (!gpu_ok(gpu, vkCreateBuffer(gpu->device, &info, NULL, &image->buffer), image->name, err)) return false;
     device_set_name(gpu, VK_OBJECT_TYPE_BUFFER, (uint64_t)(uintptr_t)image->buffer, image->name);
     return true;
 }
@@ -55,7 +55,7 @@ bool image_init(struct image *image, struct gpu *gpu, const char *name, const st
     else if (result == VK_SUCCESS && (result = vkCreateImage(gpu->device, &info, NULL, &image->image)) == VK_SUCCESS) {
         device_set_name(gpu, VK_OBJECT_TYPE_IMAGE, (uint64_t)(uintptr_t)image->image, name);
         return true;
-    } else vk_fail(err, name, result);
+    } else gpu_fail(gpu, err, name, result);
     return false;
 }
 
@@ -97,7 +97,7 @@ static bool create_view(const struct image *image, struct gpu *gpu, VkImageViewT
         .format = format_vulkan(image->desc.format),
         .subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, first, levels, 0,
                              type == VK_IMAGE_VIEW_TYPE_CUBE ? 6 : image_layers(&image->desc)}};
-    if (!vk_ok(vkCreateImageView(gpu->device, &info, NULL, view), image->name, err)) return false;
+    if (!gpu_ok(gpu, vkCreateImageView(gpu->device, &info, NULL, view), image->name, err)) return false;
     device_set_name(gpu, VK_OBJECT_TYPE_IMAGE_VIEW, (uint64_t)(uintptr_t)*view, image->name);
     return true;
 }
@@ -107,26 +107,31 @@ static bool bind_buffer(struct image *image, struct gpu *gpu, struct glint_error
                                          .buffer = image->buffer,
                                          .format = format_vulkan(image->desc.format),
                                          .range = VK_WHOLE_SIZE};
-    if (!vk_ok(vkBindBufferMemory(gpu->device, image->buffer, image->block->memory, 0), image->name, err) ||
-        !vk_ok(vkCreateBufferView(gpu->device, &info, NULL, &image->buffer_view), image->name, err))
+    if (!gpu_ok(gpu, vkBindBufferMemory(gpu->device, image->buffer, image->block->memory, 0), image->name, err) ||
+        !gpu_ok(gpu, vkCreateBufferView(gpu->device, &info, NULL, &image->buffer_view), image->name, err))
         return false;
     device_set_name(gpu, VK_OBJECT_TYPE_BUFFER_VIEW, (uint64_t)(uintptr_t)image->buffer_view, image->name);
     return true;
 }
 
-bool image_bind(struct image *image, struct gpu *gpu, struct block *block, struct glint_error *err) {
+static bool bind_image(struct image *image, struct gpu *gpu, struct glint_error *err) {
     const bool layered = image->desc.layers != 0, cube = image->desc.cube;
     const VkImageViewType kind = layered ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
-    image->block = block;
-    block->images++;
-    if (!image->image) return bind_buffer(image, gpu, err);
-    if (!vk_ok(vkBindImageMemory(gpu->device, image->image, block->memory, 0), image->name, err)) return false;
+    if (!gpu_ok(gpu, vkBindImageMemory(gpu->device, image->image, image->block->memory, 0), image->name, err))
+        return false;
     for (uint32_t i = 0; i < image->desc.levels; i++)
         if (!create_view(image, gpu, kind, i, 1, &image->levels[i], err)) return false;
     return create_view(image, gpu, cube ? VK_IMAGE_VIEW_TYPE_CUBE : kind, 0, image->desc.levels, &image->view, err) &&
            (!cube ||
             create_view(image, gpu, VK_IMAGE_VIEW_TYPE_CUBE_ARRAY, 0, image->desc.levels, &image->array_view, err)) &&
            (!layered || create_view(image, gpu, kind, 0, image->desc.levels, &image->faces_view, err));
+}
+
+bool image_bind(struct image *image, struct gpu *gpu, struct block *block, struct glint_error *err) {
+    image->block = block;
+    block->images++;
+    image->bound = image->image ? bind_image(image, gpu, err) : bind_buffer(image, gpu, err);
+    return image->bound;
 }
 
 bool image_own_memory(struct image *image, struct gpu *gpu, struct glint_error *err) {

@@ -29,6 +29,7 @@ struct image {
     VkImageView faces_view;         /* of an image with layers as a 2D array, else NULL */
     VkImageView levels[LEVELS_MAX]; /* each MIP level for writing: 2D, or a 2D array of all layers */
     struct block *block;
+    bool bound; /* it has all of its views */
 };
 VkImageSubresourceRange image_range(const struct image_desc *desc);
 

@@ -45,6 +45,15 @@ bool vk_ok(VkResult result, const char *what, struct glint_error *err) {
     return result == VK_SUCCESS || vk_fail(err, what, result);
 }
 
+bool gpu_fail(struct gpu *gpu, struct glint_error *err, const char *what, VkResult result) {
+    gpu->lost |= result == VK_ERROR_DEVICE_LOST;
+    return vk_fail(err, what, result);
+}
+
+bool gpu_ok(struct gpu *gpu, VkResult result, const char *what, struct glint_error *err) {
+    return result == VK_SUCCESS || gpu_fail(gpu, err, what, result);
+}
+
 VkFormat format_vulkan(enum glint_format format) {
     static const VkFormat formats[] = {
         [GLINT_FORMAT_R8UI] = VK_FORMAT_R8_UINT,

@@ -65,6 +65,7 @@ static bool share_memory(const struct binding *b, struct glint_error *err) {
 bool pool_allocate(struct pool *pool, const struct frame_plan *plan, struct pooled **images, struct glint_error *err) {
     struct pooled *taken = NULL, **end = &taken;
     bool ok = true;
+    pool->begun |= !plan->interim;
     for (struct pooled *image = pool->images; image; image = image->next) {
         image->used = false;
         pooled_hide(image);
@@ -91,5 +92,8 @@ bool pool_allocate(struct pool *pool, const struct frame_plan *plan, struct pool
     pool->images = taken;
     for (size_t i = 0; ok && i < plan->graph.image_count; i++)
         if (!images[i]->image.block && !images[i]->transient) ok = pooled_own_memory(images[i], pool->gpu, err);
-    return ok && share_memory(&(struct binding){pool->gpu, &plan->graph, images}, err);
+    ok = ok && share_memory(&(struct binding){pool->gpu, &plan->graph, images}, err);
+    for (struct pooled *image = pool->images; image && !ok; image = image->next)
+        image->transient |= !image->image.bound; /* no later run can use it */
+    return ok;
 }

@@ -35,9 +35,11 @@ struct pool {
     struct frame_source *source;
     struct pooled *images;
     struct host_buffer staging;
+    struct host_buffer readback; /* of single images */
     uint64_t runs;    /* number of runs so far */
     uint32_t number;  /* frame number of the last loaded frame */
-    bool loaded, ran; /* a frame was loaded; it was run */
+    bool loaded, ran; /* a frame was loaded; a run of it succeeded */
+    bool begun;       /* a run has taken images */
 };
 void pool_finish(struct pool *pool);
 /* Makes pool->staging, a mapped buffer for uploads, at least this large. */
@@ -78,6 +80,10 @@ bool pool_has_history(const struct pool *pool);
 bool pool_holds_history(const struct pool *pool, const char *name, uint32_t lineage, const struct image_desc *desc);
 /* Call it when another frame is loaded: the kept images of the last frame become history if the frame follows it directly. */
 void pool_age(struct pool *pool, const struct glint_frame *next);
+
+/* Call it after each run: images that share memory are released. If the run failed after it had taken images, the frame has no history of its
+   lineage to give to the next one; that of other lineages stays. */
+void pool_end_run(struct pool *pool, uint32_t lineage, bool ok);
 
 /* readback.c. A MIP level of an image. */
 struct image_part {

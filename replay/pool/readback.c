@@ -1,6 +1,7 @@
 /* Reads images back to host memory. */
 #include "pool.h"
 
+#include <stdio.h>
 #include <string.h>
 
 #include <Imath/half.h>
@@ -35,7 +36,9 @@ bool pool_readback(struct pool *pool, const struct image_part *parts, size_t cou
     for (size_t i = 0; i < count; i++)
         image_record_readback(&parts[i].image->image, pool->gpu, buffer, offsets[i], parts[i].info->level);
     record_host_barrier(pool->gpu);
-    bool ok = device_submit(pool->gpu, "reading images back", err);
+    char what[192];
+    snprintf(what, sizeof what, "reading back %s%s", count ? parts[0].info->name : "nothing", count > 1 ? " and others" : "");
+    bool ok = device_submit(pool->gpu, what, err);
     for (size_t i = 0; ok && i < count; i++)
         if (parts[i].image->image.desc.buffer)
             clear_unused_words(parts[i].image, (uint32_t *)((char *)buffer->map + offsets[i]));
@@ -68,15 +71,16 @@ bool pool_read_image(struct pool *pool, const struct glint_image *info, enum gli
     if (!same && type != (uint ? GLINT_U32 : GLINT_F32))
         return glint_fail(err, GLINT_ERROR_USAGE, "image %s is %s: it can be read as its own type or as %s", info->name,
                           format_name(image->image.desc.format), uint ? "uint" : "float");
-    struct host_buffer buffer = {0};
+    struct host_buffer *buffer = &pool->readback; /* kept, as new memory is slow to get */
     VkDeviceSize offset;
-    bool ok = pool_readback(pool, &(struct image_part){image, info}, 1, &buffer, &offset, err);
+    bool ok = pool_readback(pool, &(struct image_part){image, info}, 1, buffer, &offset, err);
     const size_t count = (size_t)info->width * info->height * info->components;
-    if (ok && same) memcpy(out, buffer.map, count * value_bytes);
+    if (ok && same) memcpy(out, buffer->map, count * value_bytes);
     else if (ok && uint)
-        for (size_t i = 0; i < count; i++) ((uint32_t *)out)[i] = ((const uint8_t *)buffer.map)[i];
+        for (size_t i = 0; i < count; i++) ((uint32_t *)out)[i] = ((const uint8_t *)buffer->map)[i];
     else if (ok)
-        for (size_t i = 0; i < count; i++) ((float *)out)[i] = imath_half_to_float(((const uint16_t *)buffer.map)[i]);
-    host_buffer_finish(&buffer, pool->gpu);
+        for (size_t i = 0; i < count; i++) ((float *)out)[i] = imath_half_to_float(((const uint16_t *)buffer->map)[i]);
+    enum { KEPT_BYTES = 64 << 20 };
+    if (buffer->size > KEPT_BYTES) host_buffer_finish(buffer, pool->gpu);
     return ok;
 }

@@ -57,6 +57,7 @@ bool bad_values_of_capture(struct glint_replay *replay, const struct run *run, s
 bool glint_replay_bad_values(struct glint_replay *replay, const struct glint_bad_values **list, size_t *count,
                              struct glint_error *err) {
     struct host_buffer buffer = {0};
+    struct glint_error own = {0};
     bool ok = true;
     replay->results.bad_count = replay->results.bad_captured;
     for (size_t p = 0; ok && p < replay->results.count; p++) {
@@ -67,16 +68,16 @@ bool glint_replay_bad_values(struct glint_replay *replay, const struct glint_bad
             const struct pooled *image = parts[i].image;
             const bool counted = image->key && image->levels[parts[i].info->level].bad_key == image->key;
             if (!counted && !is_captured(&parts[i])) {
-                ok = pool_readback(&replay->pool, &parts[i], 1, &buffer, &offset, err);
+                ok = pool_readback(&replay->pool, &parts[i], 1, &buffer, &offset, &own);
                 if (ok) bad_values_of_texels(&parts[i], (const char *)buffer.map + offset);
             }
-            ok = ok && append_bad(replay, &parts[i], err);
+            ok = ok && append_bad(replay, &parts[i], &own);
         }
     }
     if (replay->device) host_buffer_finish(&buffer, replay->pool.gpu);
     *list = replay->results.bad;
     *count = ok ? replay->results.bad_count : 0;
-    return ok;
+    return ok || session_fail(replay, &own, err);
 }
 
 /* JSON has no numbers for NaN and infinity, which become strings. */

@@ -229,14 +229,18 @@ char *glint_replay_json(struct glint_replay *replay, struct glint_error *err) {
     return text;
 }
 
-bool glint_replay_write(struct glint_replay *replay, const char *folder, glint_progress progress, void *user,
-                        struct glint_error *err) {
-    if (!replay->results.record) return glint_fail(err, GLINT_ERROR_USAGE, "%s: there is no run to write", folder);
-    if (!glint_make_folder(folder, err) || !check_not_inputs(replay, folder, err) || !glint_run_remove(folder, err))
-        return false;
-    json_t *root = json_deep_copy(replay->results.record);
+/* A run folder without run.json is none: what a failed call has written is removed, and the folder if that made it. */
+static void remove_files(const struct glint_replay *replay, const char *folder, bool made) {
+    char path[PATH_SIZE];
+    for (size_t p = 0; p < replay->results.count; p++)
+        if (file_of_pass(replay, p, folder, path)) unlink(path);
+    if (made) rmdir(folder);
+}
+
+static bool write_passes(struct glint_replay *replay, const char *folder, json_t *root, glint_progress progress,
+                         void *user, struct glint_error *err) {
     struct job *jobs = calloc(2, sizeof *jobs);
-    bool ok = (root && jobs) || glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", folder);
+    bool ok = jobs || glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", folder);
     size_t turn = 0;
     struct image_part first;
     for (size_t p = 0; ok && p < replay->results.count; p++) {
@@ -251,10 +255,26 @@ bool glint_replay_write(struct glint_replay *replay, const char *folder, glint_p
         ok = job_finish(&jobs[j], replay, ok ? err : NULL) && ok;
         host_buffer_finish(&jobs[j].buffer, replay->pool.gpu);
     }
-    for (size_t p = 0; ok && p < replay->results.count; p++) cache_pass(replay, p, folder);
-    ok = ok && record_bad_values(replay, root, err) && replay_count_work(replay, root, err) &&
-         run_finish_record(replay, root, err) && run_write_json(folder, root, err);
     free(jobs);
-    json_decref(root);
     return ok;
+}
+
+bool glint_replay_write(struct glint_replay *replay, const char *folder, glint_progress progress, void *user,
+                        struct glint_error *err) {
+    struct stat there;
+    struct glint_error own = {0};
+    if (!replay->results.record) return glint_fail(err, GLINT_ERROR_USAGE, "%s: there is no run to write", folder);
+    const bool made = stat(folder, &there) != 0;
+    if (!glint_make_folder(folder, err) || !check_not_inputs(replay, folder, err) || !glint_run_remove(folder, err))
+        return false;
+    json_t *root = json_deep_copy(replay->results.record);
+    bool ok = root || glint_fail(&own, GLINT_ERROR_MEMORY, "%s: out of memory", folder);
+    ok = ok && write_passes(replay, folder, root, progress, user, &own);
+    for (size_t p = 0; ok && p < replay->results.count; p++) cache_pass(replay, p, folder);
+    ok = ok && record_bad_values(replay, root, &own) && replay_count_work(replay, root, &own) &&
+         run_finish_record(replay, root, &own) && run_write_json(folder, root, &own);
+    json_decref(root);
+    if (ok) return true;
+    remove_files(replay, folder, made);
+    return session_fail(replay, &own, err);
 }

@@ -4,6 +4,13 @@
 #include <stdlib.h>
 #include <string.h>
 
+bool session_fail(const struct glint_replay *replay, const struct glint_error *own, struct glint_error *err) {
+    const bool device = own->code == GLINT_ERROR_DEVICE || own->code == GLINT_ERROR_MEMORY;
+    const char *path = replay->source.capture && device ? glint_capture_path(replay->source.capture) : NULL;
+    if (path && !strstr(own->message, path)) return glint_fail(err, own->code, "%s: %s", path, own->message);
+    return glint_fail(err, own->code, "%s", own->message);
+}
+
 struct glint_replay *glint_replay_create(struct glint_device *device, struct glint_error *err) {
     struct glint_replay *replay = calloc(1, sizeof *replay);
     if (!replay) {
@@ -50,12 +57,13 @@ bool glint_replay_survey(struct glint_replay *replay, const struct glint_survey 
                          struct glint_error *err) {
     static const struct glint_pipeline nothing;
     static const struct glint_replay_options defaults;
+    struct glint_error own = {0};
     if (!replay->source.capture) return glint_fail(err, GLINT_ERROR_USAGE, "no capture is loaded");
-    const bool ok = planner_survey(&replay->planner, &nothing, &defaults, true, err);
+    const bool ok = planner_survey(&replay->planner, &nothing, &defaults, true, &own);
     channels_finish(&replay->source.gbuffer);
     *found = &replay->planner.survey.figures;
     if (time) *time = replay->planner.survey.time;
-    return ok;
+    return ok || session_fail(replay, &own, err);
 }
 
 char *glint_replay_survey_json(struct glint_replay *replay, struct glint_error *err) {
@@ -80,11 +88,12 @@ bool glint_replay_plan(struct glint_replay *replay, const struct glint_pipeline 
                        size_t *count, struct glint_error *err) {
     static const struct glint_replay_options defaults;
     struct frame_plan plan;
-    bool ok = plan_frame(&plan, &replay->planner, pipeline, options ? options : &defaults, false, err);
+    struct glint_error own = {0};
+    bool ok = plan_frame(&plan, &replay->planner, pipeline, options ? options : &defaults, false, &own);
     if (ok) {
         free(replay->plan);
         replay->plan = calloc(plan.graph.pass_count + 1, sizeof *replay->plan);
-        ok = replay->plan || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+        ok = replay->plan || glint_fail(&own, GLINT_ERROR_MEMORY, "out of memory");
         replay->results.faces = plan.faces;
         replay->missing_count = plan_missing(&plan, replay->missing);
     }
@@ -98,7 +107,7 @@ bool glint_replay_plan(struct glint_replay *replay, const struct glint_pipeline 
     if (ok) *entries = replay->plan, *count = plan.graph.pass_count;
     channels_finish(&replay->source.gbuffer);
     frame_plan_finish(&plan);
-    return ok;
+    return ok || session_fail(replay, &own, err);
 }
 
 const struct glint_absence *glint_replay_missing(const struct glint_replay *replay, size_t i) {
@@ -115,19 +124,20 @@ bool glint_replay_run(struct glint_replay *replay, const struct glint_pipeline *
     static const struct glint_replay_options defaults;
     struct frame_plan plan;
     struct run run = {0};
+    struct glint_error own = {0};
     results_forget(replay);
     replay->pool.runs++;
     if (!replay->device) return glint_fail(err, GLINT_ERROR_USAGE, "a replay without a device can only plan");
-    bool ok = plan_frame(&plan, &replay->planner, pipeline, options ? options : &defaults, true, err);
+    if (!options) options = &defaults;
+    bool ok = plan_frame(&plan, &replay->planner, pipeline, options, true, &own);
     replay->missing_count = ok ? plan_missing(&plan, replay->missing) : 0;
-    ok = ok && engine_run(&run, &replay->engine, &plan, progress, user, err) && results_store(replay, &run, err);
+    ok = ok && engine_run(&run, &replay->engine, &plan, progress, user, &own) && results_store(replay, &run, &own);
     frame_source_release(&replay->source);
     if (!ok) results_forget(replay);
     engine_release(&run);
     frame_plan_finish(&plan);
-    replay->pool.ran = ok;
-    if (ok) pool_drop(&replay->pool, false);
-    return ok;
+    pool_end_run(&replay->pool, options->lineage, ok);
+    return ok || session_fail(replay, &own, err);
 }
 
 const struct glint_pass_result *glint_replay_results(const struct glint_replay *replay, size_t *count) {
@@ -156,7 +166,8 @@ const struct glint_image *glint_replay_find_image(const struct glint_replay *rep
 
 bool glint_replay_read_image(struct glint_replay *replay, const struct glint_image *image, enum glint_type type,
                              void *out, struct glint_error *err) {
-    return pool_read_image(&replay->pool, image, type, out, err);
+    struct glint_error own = {0};
+    return pool_read_image(&replay->pool, image, type, out, &own) || session_fail(replay, &own, err);
 }
 
 bool glint_replay_probe(const struct glint_replay *replay, size_t i, struct glint_probe_trace *trace,

@@ -28,6 +28,9 @@ struct glint_replay {
     size_t missing_count;
 };
 
+/* Passes an error on; one of the device or of memory names the capture, too. */
+bool session_fail(const struct glint_replay *replay, const struct glint_error *own, struct glint_error *err);
+
 /* results.c */
 bool results_store(struct glint_replay *replay, const struct run *run, struct glint_error *err);
 void results_forget(struct glint_replay *replay);

@@ -58,6 +58,10 @@ const struct glint_device_info *glint_device_get_info(const struct glint_device 
     return &device->gpu.info;
 }
 
+bool glint_device_lost(const struct glint_device *device) {
+    return device->gpu.lost;
+}
+
 uint32_t glint_device_messages(const struct glint_device *device, const char **last) {
     if (last) *last = device->gpu.messages.last;
     return device->gpu.messages.count;

@@ -76,7 +76,7 @@ static bool create_sampler(struct gpu *gpu, VkFilter filter, const char *name, V
                                       .addressModeV = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                                       .addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE,
                                       .maxLod = VK_LOD_CLAMP_NONE};
-    if (!vk_ok(vkCreateSampler(gpu->device, &info, NULL, sampler), "creating a sampler", err)) return false;
+    if (!gpu_ok(gpu, vkCreateSampler(gpu->device, &info, NULL, sampler), "creating a sampler", err)) return false;
     device_set_name(gpu, VK_OBJECT_TYPE_SAMPLER, (uint64_t)(uintptr_t)*sampler, name);
     return true;
 }
@@ -113,7 +113,7 @@ bool programs_init(struct programs *programs, struct gpu *gpu, struct glint_erro
     };
     const VkDescriptorSetLayoutCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, .bindingCount = 4, .pBindings = bindings};
-    if (!vk_ok(vkCreateDescriptorSetLayout(gpu->device, &info, NULL, &programs->frame),
+    if (!gpu_ok(gpu, vkCreateDescriptorSetLayout(gpu->device, &info, NULL, &programs->frame),
                "creating the layout of the frame", err))
         return false;
     device_set_name(gpu, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, (uint64_t)(uintptr_t)programs->frame, "frame");
@@ -139,7 +139,7 @@ static bool create_layouts(struct program *program, struct gpu *gpu, VkDescripto
     }
     const VkDescriptorSetLayoutCreateInfo set = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, .bindingCount = count, .pBindings = bindings};
-    if (!vk_ok(vkCreateDescriptorSetLayout(gpu->device, &set, NULL, &program->images), name, err)) return false;
+    if (!gpu_ok(gpu, vkCreateDescriptorSetLayout(gpu->device, &set, NULL, &program->images), name, err)) return false;
     device_set_name(gpu, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, (uint64_t)(uintptr_t)program->images, name);
     const VkDescriptorSetLayout sets[] = {program->images, frame};
     const VkPushConstantRange push = {VK_SHADER_STAGE_COMPUTE_BIT, 0, constants->push_count * 4};
@@ -148,7 +148,7 @@ static bool create_layouts(struct program *program, struct gpu *gpu, VkDescripto
                                                .pSetLayouts = sets,
                                                .pushConstantRangeCount = 1,
                                                .pPushConstantRanges = &push};
-    if (!vk_ok(vkCreatePipelineLayout(gpu->device, &layout, NULL, &program->layout), name, err)) return false;
+    if (!gpu_ok(gpu, vkCreatePipelineLayout(gpu->device, &layout, NULL, &program->layout), name, err)) return false;
     device_set_name(gpu, VK_OBJECT_TYPE_PIPELINE_LAYOUT, (uint64_t)(uintptr_t)program->layout, name);
     return true;
 }
@@ -164,7 +164,7 @@ static bool create_pipeline(struct program *program, struct gpu *gpu, const stru
     if (!words) return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", name);
     module_info.pCode = words;
     VkShaderModule module;
-    const bool made = vk_ok(vkCreateShaderModule(gpu->device, &module_info, NULL, &module), name, err);
+    const bool made = gpu_ok(gpu, vkCreateShaderModule(gpu->device, &module_info, NULL, &module), name, err);
     free(words);
     if (!made) return false;
     device_set_name(gpu, VK_OBJECT_TYPE_SHADER_MODULE, (uint64_t)(uintptr_t)module, name);
@@ -179,7 +179,7 @@ static bool create_pipeline(struct program *program, struct gpu *gpu, const stru
                                                         .pSpecializationInfo = &values},
                                               .layout = program->layout};
     const bool ok =
-        vk_ok(vkCreateComputePipelines(gpu->device, gpu->cache, 1, &info, NULL, &program->pipeline), name, err);
+        gpu_ok(gpu, vkCreateComputePipelines(gpu->device, gpu->cache, 1, &info, NULL, &program->pipeline), name, err);
     vkDestroyShaderModule(gpu->device, module, NULL);
     if (ok) device_set_name(gpu, VK_OBJECT_TYPE_PIPELINE, (uint64_t)(uintptr_t)program->pipeline, name);
     return ok;

@@ -87,8 +87,8 @@ bool near(double found, double expected, const char *what) {
     return ok;
 }
 
-// Points at (x, y) tangents of the angle of view and at a depth; the window begins at (left, above) pixels and has a size in pixels.
-bool check(const char *path, double left, double above, double width, double height) {
+// Points at (x, y) tangents of the angle of view and at a depth; the window begins at (left, above) pixels and has a size in pixels; one of its pixels is `pixel` wide.
+bool check(const char *path, double left, double above, double width, double height, int pixel = 1) {
     Imf::MultiPartInputFile file(path);
     const Imf::Header &header = file.header(0);
     if (header.name() != "gbuffer" || !Imf::hasWorldToCamera(header) || !Imf::hasWorldToNDC(header)) {
@@ -96,7 +96,7 @@ bool check(const char *path, double left, double above, double width, double hei
         return false;
     }
     const Imath::Box2i window = header.displayWindow();
-    bool ok = window.max.x + 1 == int(width) && window.max.y + 1 == int(height);
+    bool ok = (window.max.x + 1) * pixel == int(width) && (window.max.y + 1) * pixel == int(height);
     for (double x : {-0.7, 0.0, 0.5})
         for (double y : {-0.3, 0.25})
             for (double depth : {2.0, 9.0}) {
@@ -114,10 +114,11 @@ bool check(const char *path, double left, double above, double width, double hei
     return ok;
 }
 
-bool crop(const char *from, const char *to, const glint_edit_rectangle &r) {
+// A rectangle, or every n-th pixel.
+bool copy(const char *from, const char *to, const glint_edit_rectangle *r, std::uint32_t every) {
     glint_error err{};
     glint_edit *edit = glint_edit_open(from, nullptr, nullptr, nullptr, &err);
-    const bool ok = edit && glint_edit_crop(edit, &r, &err) && glint_edit_write(edit, to, &err);
+    const bool ok = edit && (r ? glint_edit_crop(edit, r, &err) : glint_edit_reduce(edit, every, &err)) && glint_edit_write(edit, to, &err);
     glint_edit_close(&edit);
     if (!ok) std::printf("# %s\n", err.message);
     return ok;
@@ -137,9 +138,12 @@ int main() {
                               bits & 8 ? GLINT_CLIP_Y_DOWN : GLINT_CLIP_Y_UP};
         const glint_edit_rectangle rectangle = {5, 2, 6, 4};
         const bool ok = write_capture(whole.c_str(), frame_of(c)) && check(whole.c_str(), 0, 0, W, H) &&
-                        crop(whole.c_str(), part.c_str(), rectangle) && check(part.c_str(), 5, 2, 6, 4);
+                        copy(whole.c_str(), part.c_str(), &rectangle, 0) && check(part.c_str(), 5, 2, 6, 4) &&
+                        copy(whole.c_str(), part.c_str(), nullptr, 2) && check(part.c_str(), -0.5, -0.5, W, H, 2) &&
+                        copy(whole.c_str(), part.c_str(), nullptr, 3) &&
+                        check(part.c_str(), 0, 0, (W + 1) / 3 * 3, (H + 1) / 3 * 3, 3);
         failed += !ok;
-        std::printf("%sok %d - view axes %+g %+g %+g, NDC y %s; cropped, too\n", ok ? "" : "not ", ++number, c.x, c.y,
+        std::printf("%sok %d - view axes %+g %+g %+g, NDC y %s; cropped and reduced, too\n", ok ? "" : "not ", ++number, c.x, c.y,
                     c.z, c.clip_y == GLINT_CLIP_Y_UP ? "up" : "down");
         std::remove(whole.c_str());
         std::remove(part.c_str());

@@ -85,6 +85,10 @@ static bool may_differ(const char *name, const char *but) {
 }
 
 size_t edited_expect_same(const char *original, const char *copy, uint32_t x0, uint32_t y0, const char *but) {
+    return edited_expect_grid(original, copy, (struct edited_grid){x0, y0, 1}, but);
+}
+
+size_t edited_expect_grid(const char *original, const char *copy, struct edited_grid grid, const char *but) {
     struct glint_exr *a = edited_open(original), *b = edited_open(copy);
     size_t compared = 0;
     for (size_t p = 0; glint_exr_part(b, p); p++) {
@@ -104,11 +108,13 @@ size_t edited_expect_same(const char *original, const char *copy, uint32_t x0, u
             const enum glint_stored as = to->channels[c].stored;
             uint8_t *left = stored(a, from_part, name, as), *right = stored(b, p, name, as);
             const size_t bytes = as == GLINT_STORED_HALF ? 2 : 4;
-            const size_t dx = moved ? x0 / ratio : 0, dy = moved ? y0 / ratio : 0;
+            const size_t step = moved ? grid.step : 1, middle = (step - 1) / 2;
+            const size_t dx = moved ? grid.x0 / ratio + middle : 0, dy = moved ? grid.y0 / ratio + middle : 0;
             for (size_t y = 0; y < to->height; y++)
-                if (memcmp(left + ((y + dy) * from->width + dx) * bytes, right + y * to->width * bytes,
-                           to->width * bytes))
-                    fail_msg("%s: %s differs in line %zu", to->name, name, y);
+                for (size_t x = 0; x < to->width; x++)
+                    if (memcmp(left + ((y * step + dy) * from->width + x * step + dx) * bytes,
+                               right + (y * to->width + x) * bytes, bytes))
+                        fail_msg("%s: %s differs in line %zu", to->name, name, y);
             free(left);
             free(right);
             compared++;

@@ -13,5 +13,10 @@ bool edited_has(const char *path, const char *part, const char *channel);
 /* Every channel and attribute of the copy is as in the original, pixel by pixel from (x0, y0) on; `but` names channels and attributes that
    may differ, or is NULL. Returns the number of compared channels. */
 size_t edited_expect_same(const char *original, const char *copy, uint32_t x0, uint32_t y0, const char *but);
+/* The same of every step-th pixel, from the middle of the first block in a rectangle that begins at (x0, y0). */
+struct edited_grid {
+    uint32_t x0, y0, step;
+};
+size_t edited_expect_grid(const char *original, const char *copy, struct edited_grid grid, const char *but);
 
 #endif

@@ -1,4 +1,4 @@
-/* A server of a few routes for http.py: http_host [ADDRESS [PORT]]. Prints its port and token as JSON, and ends when its input does. */
+/* A server of a few routes for live_server.py: http_host [ADDRESS [PORT]]. Prints its port and token as JSON, and ends when its input does. */
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -45,8 +45,8 @@ static void count(struct host *host, unsigned calls, int streams) {
 
 static void echo(void *user, const struct http_request *request, struct http_answer *answer) {
     count(user, 1, 0);
-    answer->json = json_pack("{ss, ss, ss, sO?}", "method", request->method, "path", request->path, "text", text_of(request, "text"), "body",
-                             request->body);
+    answer->json = json_pack("{ss, ss, ss, sO?}", "method", request->method, "path", request->path, "text",
+                             text_of(request, "text"), "body", request->body);
 }
 
 static void counts(void *user, const struct http_request *request, struct http_answer *answer) {
@@ -75,7 +75,8 @@ static void large(void *user, const struct http_request *request, struct http_an
 static void fail(void *user, const struct http_request *request, struct http_answer *answer) {
     struct glint_error err;
     count(user, 1, 0);
-    glint_fail(&err, (enum glint_code)atol(text_of(request, "code")), "message \xff of \"%s\"", text_of(request, "text"));
+    glint_fail(&err, (enum glint_code)atol(text_of(request, "code")), "message \xff of \"%s\"",
+               text_of(request, "text"));
     http_error(answer, &err);
 }
 
@@ -110,9 +111,14 @@ int main(int argc, char **argv) {
     char token[2 * HTTP_TOKEN_BYTES + 1];
     struct glint_error err;
     if (!http_new_token(token, &err)) return fprintf(stderr, "%s\n", err.message), 2;
-    struct http *http = http_start(&(struct http_options){.address = argc > 1 ? argv[1] : NULL, .port = (uint16_t)(argc > 2 ? atol(argv[2]) : 0),
-                                                          .token = token, .routes = routes, .user = &host, .page = page,
-                                                          .page_bytes = sizeof page - 1}, &err);
+    struct http *http = http_start(&(struct http_options){.address = argc > 1 ? argv[1] : NULL,
+                                                          .port = (uint16_t)(argc > 2 ? atol(argv[2]) : 0),
+                                                          .token = token,
+                                                          .routes = routes,
+                                                          .user = &host,
+                                                          .page = page,
+                                                          .page_bytes = sizeof page - 1},
+                                   &err);
     if (!http) return fprintf(stderr, "%s\n", err.message), 1;
     printf("{\"port\": %u, \"token\": \"%s\"}\n", (unsigned)http_port(http), token);
     fflush(stdout);

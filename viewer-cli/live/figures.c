@@ -49,6 +49,10 @@ static bool open_judge(struct live *live, const struct judged *wanted, struct gl
     return (live->judge = glint_judge_create(live->device, &options, err));
 }
 
+static const char *const *slots_or_null(const char **slots) {
+    return slots[0] ? slots : NULL;
+}
+
 static bool load_frame(struct live *live, size_t frame, struct glint_error *err) {
     struct glint_capture *before = live->judged.capture;
     live->judged.capture = glint_capture_open(live->frames[frame].path, NULL, err);
@@ -66,11 +70,14 @@ static bool load_frame(struct live *live, size_t frame, struct glint_error *err)
 static bool load_frames(struct live *live, const struct state *state, struct glint_error *err) {
     const size_t first = state_first_frame(live, state), last = state->capture;
     const bool there = live->judged.capture && live->judged.frame == last;
+    glint_judge_override(live->judge, slots_or_null(state->skip), slots_or_null(state->force));
     if (there && (first == last || live->judged.before == state->key)) return true;
     live->judged.before = 0;
     for (size_t frame = first; frame <= last; frame++) {
         const struct glint_replay_options options = {.results = live->judged.effect->results,
-                                                     .all = live->args->replay.all};
+                                                     .all = live->args->replay.all,
+                                                     .skip = slots_or_null(state->skip),
+                                                     .force = slots_or_null(state->force)};
         if (!load_frame(live, frame, err)) return false;
         if (frame < last &&
             !glint_replay_run(glint_judge_replay(live->judge), state->pipeline, &options, live_progress, live, err))
@@ -82,6 +89,7 @@ static bool load_frames(struct live *live, const struct state *state, struct gli
 
 /* After anything but an interruption the judge begins again. */
 static bool keep_judge(struct live *live, bool ok, const struct glint_error *err) {
+    if (live->judge) glint_judge_override(live->judge, NULL, NULL);
     if (ok || err->code == GLINT_ERROR_USAGE) return ok;
     if (err->code == GLINT_ERROR_DEVICE || err->code == GLINT_ERROR_MEMORY) live_close(live);
     else if (err->code != GLINT_ERROR_INTERRUPTED) live_close_judge(live);
@@ -262,15 +270,12 @@ static bool read_measuring(struct live *live, const struct http_request *request
         !answer_number(request, "rounds", 0, ROUNDS_MAX, 0, &rounds, err))
         return false;
     m->rounds = (uint32_t)rounds;
-    if (m->state.skip[0] || m->state.force[0])
-        return glint_fail(err, GLINT_ERROR_USAGE, "figures are not measured while passes are skipped or forced");
     m->truth = against && !strcmp(against, "truth");
     m->reference = against && !strcmp(against, "reference");
     if (against && !m->truth && !m->reference)
         return glint_fail(err, GLINT_ERROR_USAGE, "against: expected reference, truth or null, found \"%.40s\"",
                           against);
-    if (!glint_study_made(m->state.pipeline, m->effect)) m->why = "no slot of the pipeline makes the effect's result";
-    else if (m->effect->no_truth && against) m->why = m->effect->no_truth;
+    if (m->effect->no_truth && against) m->why = m->effect->no_truth;
     else if (m->truth && !has_truth(live, &m->state, m->effect)) m->why = "the capture holds no truth of the effect";
     if (m->why) m->truth = m->reference = false;
     return true;
@@ -312,7 +317,8 @@ static json_t *target_json(const struct live *live, const struct measuring *m, c
                            const struct glint_pixels *pixels) {
     const struct glint_row *made = glint_study_made(m->state.pipeline, m->effect);
     char name[64];
-    json_t *channels = json_array();
+    json_t *channels = json_array(), *compares = json_array();
+    for (size_t k = 0; m->effect->results[k]; k++) json_array_append_new(compares, json_string(m->effect->results[k]));
     snprintf(name, sizeof name, "%s of %s", m->truth ? "truth" : "reference", m->effect->name);
     for (uint32_t k = 0; k < pixels->components; k++) json_array_append_new(channels, json_stringn(&"RGBA"[k], 1));
     const bool fogged =
@@ -322,9 +328,9 @@ static json_t *target_json(const struct live *live, const struct measuring *m, c
                   (json_int_t)pixels->width, "height", (json_int_t)pixels->height, "channels", channels, "unit",
                   made ? made->unit : "1", "meaning", m->truth ? "what a path tracer found" : "the converged result",
                   "level", 0, "levels", 1, "cube", 0);
-    return json_pack("{s:s, s:b, s:O, s:[II], s:[], s:[o], s:s, s:s?, s:s?}", "run", id, "draft", 0, "state",
+    return json_pack("{s:s, s:b, s:O, s:[II], s:[], s:[o], s:s, s:o, s:s?}", "run", id, "draft", 0, "state",
                      m->state.json, "size", (json_int_t)pixels->width, (json_int_t)pixels->height, "passes", "images",
-                     image, "picture", name, "compares", made ? made->name : NULL, "note",
+                     image, "picture", name, "compares", compares, "note",
                      fogged ? "The truth has no fog, and this state applies fog." : NULL);
 }
 

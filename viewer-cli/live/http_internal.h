@@ -11,7 +11,7 @@
 
 enum { HTTP_TOKEN_LEAST = 16, HTTP_TOKEN_MOST = 256 };
 struct http_guard {
-    char host[64]; /* the address that the server listens at, as a Host has it: "127.0.0.1", "[::1]" */
+    char host[64];      /* the address that the server listens at, as a Host has it: "127.0.0.1", "[::1]" */
     bool loopback, any; /* `any`: 0.0.0.0 or :: */
     uint16_t port;
     char token[HTTP_TOKEN_MOST + 1];
@@ -42,7 +42,7 @@ bool http_query_allowed(struct MHD_Connection *connection, struct http_refusal *
 /* Connections that only those can have that have shown no token: requests past HTTP_CONNECTIONS - HTTP_SPARE are refused. */
 enum { HTTP_SPARE = 16 };
 struct http_peer {
-    int fd; /* -1: the place is free */
+    int fd;       /* -1: the place is free */
     bool trusted; /* has shown the token */
     bool cut, working;
     int64_t since_ms;
@@ -69,7 +69,8 @@ void http_peers_end(struct http_peers *peers, struct http_peer *peer);
 /* ---- Answers ---- */
 
 /* Sends the answer, and releases what it holds. `name`: a further header, or NULL. */
-enum MHD_Result http_send(struct MHD_Connection *connection, struct http_answer *answer, const char *name, const char *value);
+enum MHD_Result http_send(struct MHD_Connection *connection, struct http_answer *answer, const char *name,
+                          const char *value);
 /* The page's response, to be sent any number of times; NULL without memory. */
 struct MHD_Response *http_page_response(const char *page, size_t size);
 

@@ -86,6 +86,7 @@ static bool start_thread(pthread_t *thread, void *(*work)(void *), struct live *
 bool live_begin(struct live *live, struct glint_error *err) {
     struct state state = {0};
     pthread_mutex_init(&live->lock, NULL);
+    pthread_mutex_init(&live->converting, NULL);
     pthread_cond_init(&live->wake, NULL);
     pthread_cond_init(&live->changed, NULL);
     if (!read_frames(live, err) || !list_presets(live, err) || !make_folder(live, err) ||
@@ -99,6 +100,25 @@ bool live_begin(struct live *live, struct glint_error *err) {
     return ok && watch_files_init(&live->files, live->args, err) &&
            start_thread(&live->worker, live_worker, live, err) && (live->working = true) &&
            start_thread(&live->watcher, watch, live, err) && (live->watching = true);
+}
+
+/* Only names that the configuration has get a place, so that there are few. */
+const struct ocio_conversion *live_conversion(struct live *live, const struct ocio_options *options,
+                                              struct glint_error *err) {
+    const char *display = options->display ? options->display : "", *view = options->view ? options->view : "";
+    size_t i = 0;
+    pthread_mutex_lock(&live->converting);
+    struct conversion *at = live->conversions;
+    while (i < CONVERSIONS && at[i].ready && (strcmp(at[i].display, display) != 0 || strcmp(at[i].view, view) != 0))
+        i++;
+    if (i == CONVERSIONS) glint_fail(err, GLINT_ERROR_LIMIT, "more than %d views were asked for", CONVERSIONS);
+    else if (!at[i].ready && (at[i].ready = ocio_prepare(options, err))) {
+        snprintf(at[i].display, sizeof at[i].display, "%s", display);
+        snprintf(at[i].view, sizeof at[i].view, "%s", view);
+    }
+    const struct ocio_conversion *ready = i < CONVERSIONS ? at[i].ready : NULL;
+    pthread_mutex_unlock(&live->converting);
+    return ready;
 }
 
 void live_stop(struct live *live) {
@@ -122,7 +142,9 @@ void live_end(struct live *live) {
     free(live->presets);
     json_decref(live->registry);
     json_decref(live->times);
+    for (size_t i = 0; i < CONVERSIONS; i++) ocio_release(&live->conversions[i].ready);
     pthread_mutex_destroy(&live->lock);
+    pthread_mutex_destroy(&live->converting);
     pthread_cond_destroy(&live->wake);
     pthread_cond_destroy(&live->changed);
 }

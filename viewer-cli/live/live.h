@@ -7,6 +7,7 @@
 
 #include <pthread.h>
 
+#include "draw/view/ocio.h"
 #include "draw/view/source.h"
 #include "glint/judge.h"
 #include "live/http.h"
@@ -57,6 +58,14 @@ struct runs {
     char watched[WATCHED][128]; /* images that were asked for last: each run reads them back at once */
 };
 
+/* ---- Conversions to displays, each prepared once ---- */
+
+enum { CONVERSIONS = 32 };
+struct conversion {
+    char display[128], view[128]; /* "": the default */
+    struct ocio_conversion *ready;
+};
+
 /* ---- Everything ---- */
 
 struct job;
@@ -77,6 +86,9 @@ struct live {
     uint64_t generation; /* of the files of shaders and presets */
     struct events events;
     struct runs runs;
+
+    pthread_mutex_t converting; /* of the conversions */
+    struct conversion conversions[CONVERSIONS];
 
     /* The worker's own. */
     struct glint_device *device;
@@ -107,6 +119,9 @@ bool live_begin(struct live *live, struct glint_error *err);
 /* Ends jobs and streams, before the server is stopped. */
 void live_stop(struct live *live);
 void live_end(struct live *live);
+/* The conversion of colours for a display and view, which stays until the end. NULL on failure. */
+const struct ocio_conversion *live_conversion(struct live *live, const struct ocio_options *options,
+                                              struct glint_error *err);
 /* answers.c */
 extern const struct http_route live_routes[];
 

@@ -3,12 +3,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "draw/page/page.h"
 #include "draw/view/png_file.h"
 #include "draw/view/render.h"
 #include "live/answers.h"
+#include "live/rows.h"
 #include "options/args.h"
 
 /* ---- What a query asks for ---- */
@@ -65,79 +65,63 @@ static bool read_options(const struct http_request *request, struct render_optio
 
 /* ---- Drawing ---- */
 
-/* Rows of a colour picture, which threads draw beside each other. */
-struct band {
-    struct source source;
+/* A colour picture whose pixels depend on themselves alone. */
+struct drawing {
+    const struct source *source;
     const struct render_options *options;
-    struct picture picture;
+    struct picture *picture;
+    pthread_mutex_t lock; /* of what follows */
     size_t invalid;
-    bool ok, threaded;
+    bool ok;
     struct glint_error err;
-    pthread_t thread;
 };
 
-static void *draw_band(void *user) {
-    struct band *band = user;
-    struct legend legend;
-    band->ok = render_plain(&band->picture, &legend, &band->source, band->options, &band->invalid, &band->err);
-    return NULL;
-}
-
-static bool join_bands(struct band *bands, size_t count, struct picture *picture, size_t *invalid,
-                       struct glint_error *err) {
-    uint32_t y = 0;
+/* A few rows at a time: their floats stay in the cache, and their memory is used again. */
+static void draw_rows(void *user, uint32_t first, uint32_t end) {
+    enum { ROWS = 8 };
+    struct drawing *d = user;
+    struct glint_error err = {0};
+    size_t invalid = 0;
     bool ok = true;
-    for (size_t i = 0; i < count; i++) {
-        if (bands[i].threaded) pthread_join(bands[i].thread, NULL);
-        if (ok && !bands[i].ok) ok = glint_fail(err, bands[i].err.code, "%s", bands[i].err.message);
-        if (ok) picture_paste(picture, &bands[i].picture, 0, y);
-        y += bands[i].source.height;
-        *invalid += bands[i].invalid;
-        picture_finish(&bands[i].picture);
+    for (uint32_t y = first; ok && y < end; y += ROWS) {
+        struct picture part = {0};
+        struct legend legend;
+        struct source rows = *d->source;
+        size_t found = 0;
+        rows.height = end - y < ROWS ? end - y : ROWS;
+        rows.texels += (size_t)y * rows.width * rows.components;
+        ok = render_plain(&part, &legend, &rows, d->options, &found, &err);
+        if (ok) picture_paste(d->picture, &part, 0, y);
+        invalid += found;
+        picture_finish(&part);
     }
-    return ok;
+    pthread_mutex_lock(&d->lock);
+    d->invalid += invalid;
+    if (!ok && d->ok) d->ok = false, d->err = err;
+    pthread_mutex_unlock(&d->lock);
 }
 
-static bool draw_bands(struct picture *picture, const struct source *source, const struct render_options *options,
-                       size_t *invalid, struct glint_error *err) {
-    enum { BANDS_MAX = 16, LEAST_ROWS = 64 };
-    const long processors = sysconf(_SC_NPROCESSORS_ONLN);
-    struct band bands[BANDS_MAX] = {{.ok = false}};
-    const uint32_t most = source->height / LEAST_ROWS;
-    const uint32_t count = most < 1           ? 1
-                           : most > BANDS_MAX ? BANDS_MAX
-                                              : most,
-                   parts = processors < (long)count ? (uint32_t)processors : count;
-    if (!picture_init(picture, source->width, source->height, COLOR_BACKGROUND, err)) return false;
-    for (uint32_t i = 0, y = 0; i < parts; i++) {
-        struct band *band = &bands[i];
-        const uint32_t end = (uint32_t)((uint64_t)source->height * (i + 1) / parts);
-        band->source = *source;
-        band->source.height = end - y;
-        band->source.texels = source->texels + (size_t)y * source->width * source->components;
-        band->options = options;
-        y = end;
-        band->threaded = i + 1 < parts && pthread_create(&band->thread, NULL, draw_band, band) == 0;
-        if (!band->threaded) draw_band(band);
-    }
-    return join_bands(bands, parts, picture, invalid, err);
-}
-
-/* As glint view draws it: in bands where each pixel depends on itself alone. */
-static bool draw(struct picture *picture, struct legend *legend, const struct source *source,
-                 struct render_options *options, size_t *invalid, struct glint_error *err) {
-    const bool color = render_kind(source, options) == KIND_COLOR;
-    struct ocio_conversion *conversion = NULL;
-    *invalid = 0;
-    if (!color || source->cube) return render_plain(picture, legend, source, options, invalid, err);
+static bool draw_color(struct live *live, struct picture *picture, const struct source *source,
+                       struct render_options *options, size_t *invalid, struct glint_error *err) {
+    struct drawing drawing = {
+        .source = source, .options = options, .picture = picture, .lock = PTHREAD_MUTEX_INITIALIZER, .ok = true};
     const bool converts = !source->display || options->ocio.display || options->ocio.view;
-    if (converts && !(conversion = ocio_prepare(&options->ocio, err))) return false;
-    options->ocio.ready = conversion;
-    *legend = legend_of_color(source);
-    const bool ok = draw_bands(picture, source, options, invalid, err);
+    if (converts && !(options->ocio.ready = live_conversion(live, &options->ocio, err))) return false;
+    if (!picture_init(picture, source->width, source->height, COLOR_BACKGROUND, err)) return false;
+    rows_share(source->height, draw_rows, &drawing);
     options->ocio.ready = NULL;
-    ocio_release(&conversion);
-    return ok;
+    *invalid = drawing.invalid;
+    return drawing.ok || glint_fail(err, drawing.err.code, "%s", drawing.err.message);
+}
+
+/* As glint view draws it. */
+static bool draw(struct live *live, struct picture *picture, struct legend *legend, const struct source *source,
+                 struct render_options *options, size_t *invalid, struct glint_error *err) {
+    *invalid = 0;
+    if (render_kind(source, options) != KIND_COLOR || source->cube)
+        return render_plain(picture, legend, source, options, invalid, err);
+    *legend = legend_of_color(source);
+    return draw_color(live, picture, source, options, invalid, err);
 }
 
 /* ---- Answers ---- */
@@ -178,7 +162,7 @@ static void answer_raw(struct http_answer *answer, const struct picture *picture
     free(text);
 }
 
-static void answer_picture(const struct http_request *request, const struct source *source,
+static void answer_picture(struct live *live, const struct http_request *request, const struct source *source,
                            struct render_options *options, struct http_answer *answer) {
     struct picture picture = {0};
     struct legend legend = {0};
@@ -187,11 +171,43 @@ static void answer_picture(const struct http_request *request, const struct sour
     size_t invalid = 0;
     int format = 0;
     if (!query_choice(request, "format", formats, &format, &err) ||
-        !draw(&picture, &legend, source, options, &invalid, &err))
+        !draw(live, &picture, &legend, source, options, &invalid, &err))
         http_error(answer, &err);
     else if (format == 1) answer_raw(answer, &picture, &legend, invalid);
     else answer_png(answer, &picture);
     picture_finish(&picture);
+}
+
+/* Every n-th texel of the image in both directions: enough for a picture that is shown smaller. */
+static bool take_every(const struct source *source, uint32_t every, struct source *few, struct glint_error *err) {
+    const uint32_t n = source->components;
+    *few = *source;
+    few->width = (source->width + every - 1) / every;
+    few->height = (source->height + every - 1) / every;
+    few->texels = malloc(((size_t)few->width * few->height * n + 1) * sizeof(float));
+    if (!few->texels) return fail_memory(err);
+    for (uint32_t y = 0; y < few->height; y++)
+        for (uint32_t x = 0; x < few->width; x++)
+            memcpy(few->texels + ((size_t)y * few->width + x) * n,
+                   source->texels + ((size_t)y * every * source->width + (size_t)x * every) * n, n * sizeof(float));
+    return true;
+}
+
+static void answer_source(struct live *live, const struct http_request *request, const struct source *source,
+                          struct render_options *options, struct http_answer *answer) {
+    enum { MOST = 64 };
+    double every = 1;
+    bool given;
+    struct glint_error err = {0};
+    struct source few;
+    if (!query_number(request, "every", &every, &given, &err)) http_error(answer, &err);
+    else if (!(every >= 1 && every <= MOST && every == floor(every)))
+        http_refuse(answer, 400, "usage", "every: expected a whole number from 1 to 64");
+    else if (every == 1 || source->cube) answer_picture(live, request, source, options, answer);
+    else if (take_every(source, (uint32_t)every, &few, &err)) {
+        answer_picture(live, request, &few, options, answer);
+        source_finish(&few);
+    } else http_error(answer, &err);
 }
 
 void live_answer_picture(void *user, const struct http_request *request, struct http_answer *answer) {
@@ -201,7 +217,7 @@ void live_answer_picture(void *user, const struct http_request *request, struct 
     struct held *held = NULL;
     if (read_options(request, &options, &err) &&
         (held = runs_take(live, http_query(request, "run"), http_query(request, "image"), &err)))
-        answer_picture(request, &held->source, &options, answer);
+        answer_source(live, request, &held->source, &options, answer);
     else http_error(answer, &err);
     runs_release(live, held);
 }
@@ -268,7 +284,7 @@ void live_answer_difference(void *user, const struct http_request *request, stru
         (b = runs_take(live, http_query(request, "other"), other ? other : image, &err)) &&
         make_difference(&difference, &a->source, &b->source, &err)) {
         choose_range(&difference, &options);
-        answer_picture(request, &difference, &options, answer);
+        answer_source(live, request, &difference, &options, answer);
     } else http_error(answer, &err);
     source_finish(&difference);
     runs_release(live, a);

@@ -3,7 +3,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <Imath/half.h>
+
 #include "live/live.h"
+#include "live/rows.h"
 #include "options/args.h"
 
 enum { HELD_BYTES = 512 << 20 };
@@ -62,6 +65,34 @@ static void name_channel(const char *names, uint32_t i, char *name, size_t size)
     snprintf(name, size, "%.*s", (int)(length - skip), names + skip);
 }
 
+/* Halves become floats row by row, on several threads. */
+struct widening {
+    const uint16_t *halves;
+    float *floats;
+    size_t row;
+};
+static void widen_rows(void *user, uint32_t first, uint32_t end) {
+    const struct widening *w = user;
+    for (size_t i = first * w->row; i < end * w->row; i++) w->floats[i] = imath_half_to_float(w->halves[i]);
+}
+
+static bool read_texels(struct live *live, const struct glint_image *image, struct source *source,
+                        struct glint_error *err) {
+    const size_t row = (size_t)image->width * image->components, values = row * image->height;
+    const bool half = image->format == GLINT_FORMAT_R16F || image->format == GLINT_FORMAT_RG16F ||
+                      image->format == GLINT_FORMAT_RGBA16F;
+    if (!(source->texels = malloc((values + 1) * sizeof *source->texels))) return fail_memory(err);
+    if (!half)
+        return glint_replay_read_image(live->replay, image, source->integer ? GLINT_U32 : GLINT_F32, source->texels,
+                                       err);
+    uint16_t *halves = malloc((values + 1) * sizeof *halves);
+    const bool ok = halves ? glint_replay_read_image(live->replay, image, GLINT_F16, halves, err) : fail_memory(err);
+    struct widening widening = {halves, source->texels, row};
+    if (ok) rows_share(image->height, widen_rows, &widening);
+    free(halves);
+    return ok;
+}
+
 static bool read_source(struct live *live, const struct state *state, const struct glint_image *image,
                         struct source *source, struct glint_error *err) {
     const char *names = image->row->kind == GLINT_ROW_CAPTURE ? image->row->source : image->row->channels;
@@ -79,8 +110,7 @@ static bool read_source(struct live *live, const struct state *state, const stru
         name_channel(names ? names : "", k, source->channels[k], sizeof source->channels[k]);
         list[k] = source->channels[k];
     }
-    if (!(source->texels = malloc((values + 1) * sizeof *source->texels))) return fail_memory(err);
-    if (!glint_replay_read_image(live->replay, image, source->integer ? GLINT_U32 : GLINT_F32, source->texels, err)) {
+    if (!read_texels(live, image, source, err)) {
         source_finish(source);
         return false;
     }

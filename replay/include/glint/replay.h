@@ -65,6 +65,11 @@ struct glint_device_options {
 struct glint_device *glint_device_create(const struct glint_device_options *options, struct glint_error *err);
 void glint_device_destroy(struct glint_device **device);
 const struct glint_device_info *glint_device_get_info(const struct glint_device *device);
+/* Whether a call has found that the device was lost, such as after a fault of the driver or when it was unplugged. The call has failed with
+   GLINT_ERROR_DEVICE, and so do all later ones that execute something. Nothing brings it back: destroy the replays and the device, and create them again, which
+   may work at once, later or never. Captures and pipelines stay valid. After other errors, also GLINT_ERROR_DEVICE and GLINT_ERROR_MEMORY, device and replay may be used
+   again: a replay then computes everything anew. */
+bool glint_device_lost(const struct glint_device *device);
 /* The number of validation warnings and errors so far. *last receives the text of the last one, "" if there was none. */
 uint32_t glint_device_messages(const struct glint_device *device, const char **last);
 
@@ -334,7 +339,8 @@ bool glint_replay_capture_hash(struct glint_replay *replay, char hash[33], struc
 bool glint_replay_shader_hash(struct glint_replay *replay, const struct glint_pipeline *pipeline,
                               const struct glint_pass *pass, uint64_t *hash, struct glint_error *err);
 /* Writes `folder`/run.json and one file NN-SLOT.exr for each pass, where NN is the place of the pass in the pipeline. A run that
-   the folder already holds is removed first. Each file appears complete or not at all, run.json last. */
+   the folder already holds is removed first. Each file appears complete or not at all, run.json last. A call that
+   fails removes what it has written. */
 bool glint_replay_write(struct glint_replay *replay, const char *folder, glint_progress progress, void *user,
                         struct glint_error *err);
 /* Seconds since the last load in one phase: "read", "upload", "passes", "readback" or "write". The phases overlap: files are

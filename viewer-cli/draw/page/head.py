@@ -1,6 +1,6 @@
 """What stands around the document of every page: head.py STYLE.css... NOTICE ECHARTS.js SCRIPT.js... HEAD.html SCRIPTS.html. The policy
-names the scripts by their digests, so that nothing else on the page runs, and lets nothing be fetched. ECharts is written between document
-and scripts by the program, which needs it for itself, too. With --live before them, and one output: a whole page that may ask its server."""
+names the scripts by their digests, so that nothing else on the page runs, and lets nothing be fetched. With --live before them, the page may
+ask its own server. ECharts is written between document and scripts by the program, which needs it for itself, too."""
 import base64
 import hashlib
 import sys
@@ -11,6 +11,7 @@ live = sys.argv[1] == "--live"
 paths = sys.argv[1 + live:]
 styles, scripts, outputs = ([p for p in paths if p.endswith(end)] for end in (".css", ".js", ".html"))
 (notice,) = (p for p in paths if p not in styles + scripts + outputs)
+head, rest = outputs
 
 
 def read(path):
@@ -27,7 +28,7 @@ for path in scripts:
     digests.append("'sha256-" + base64.b64encode(hashlib.sha256(text).digest()).decode() + "'")
 policy = (f"default-src 'none'; script-src {' '.join(digests)}; style-src 'unsafe-inline'; img-src data:{LIVE if live else ''}; "
           "base-uri 'none'; form-action 'none'")
-with open(outputs[0], "w", encoding="utf-8") as file:
+with open(head, "w", encoding="utf-8") as file:
     file.write(f"""<!doctype html>
 <!-- Charts by {" ".join(read(notice).decode().split())} Licensed under the Apache License, Version 2.0,
      https://www.apache.org/licenses/LICENSE-2.0 -->
@@ -43,9 +44,7 @@ with open(outputs[0], "w", encoding="utf-8") as file:
 </head>
 <body>
 <noscript><p>This page builds itself by a script that it carries; it {"asks the program that it came from" if live else "fetches nothing"}.</p></noscript>
-""")
-    if not live:
-        file.write('<script type="application/json" id="document">')
-with open(outputs[-1], "a" if live else "w", encoding="utf-8") as file:
-    file.writelines(f"<script>{read(path).decode()}</script>\n" for path in scripts[0 if live else 1:])
+<script type="application/json" id="document">""")
+with open(rest, "w", encoding="utf-8") as file:
+    file.writelines(f"<script>{read(path).decode()}</script>\n" for path in scripts[1:])
     file.write("</body>\n</html>\n")

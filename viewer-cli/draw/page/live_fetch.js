@@ -17,7 +17,7 @@ glintLive.fetch = (function () {
 
     /* done(wish, {head, pixels}) and failed(wish, error) are called for wishes {"path", "what", …} that nothing has made useless. */
     function pictures(done, failed) {
-        let wanted = null, flying = null, stop = null, path = null; /* path: of what is shown */
+        let wanted = null, flying = null, stop = null, path = null; /* path: of what was answered last */
 
         async function pump() {
             while (wanted && !flying && wanted.path !== path) {
@@ -31,7 +31,9 @@ glintLive.fetch = (function () {
                 } catch (error) {
                     if (wanted !== wish) continue;
                     wanted = null;
-                    if (!givenUp(error)) failed(wish, error);
+                    if (givenUp(error)) continue;
+                    if (error.status === 400 || error.status === 404) path = wish.path; /* it would be refused again */
+                    failed(wish, error);
                 } finally {
                     flying = null;
                 }
@@ -57,7 +59,7 @@ glintLive.fetch = (function () {
             while (waiting) {
                 const {words, done} = waiting;
                 waiting = null;
-                done(await post(...words).catch(() => null));
+                done(await post(...words));
             }
             busy = false;
         }

@@ -61,28 +61,30 @@ glintLive.picture = (function () {
     function overlay() {
         const progress = progressBar(), draft = element('span', {class: 'draft', role: 'status'}), failure = element('p', {class: 'note', role: 'alert'});
         return {e: element('div', {class: 'live-over'}, progress.e, draft, failure), draw(store, wrong) {
-            const message = store.error ? store.error.message || store.error : wrong;
+            const message = store.error ? store.error.message || store.error : wrong.A || wrong.B || wrong.D;
             progress.draw(store.progress);
             draft.textContent = store.result?.draft ? 'Draft: half the resolution, the whole frame follows' : '';
             draft.hidden = !draft.textContent;
             failure.hidden = !message;
-            failure.textContent = message ? glintChart.text(`${message}${store.result ? '\nThe picture is that of the last run that succeeded.' : ''}`) : '';
+            failure.textContent = !message ? '' : glintChart.text(message) +
+                (store.error && store.result ? '\nThe picture is that of the last run that succeeded.' : '');
         }};
     }
 
     function warningOf(shown) {
-        return ['A', 'B'].filter(k => shown[k]?.head.invalid > 0)
-            .map(k => `${glintParts.numberText(shown[k].head.invalid, 0)} ${shown[k].head.invalid === 1 ? 'pixel' : 'pixels'} of ${k} ${shown[k].head.invalid === 1 ? 'is' : 'are'} not finite (NaN or infinite).`).join(' ');
+        return ['A', 'B'].map(k => [k, shown[k]?.head.invalid]).filter(([, count]) => count > 0).map(([k, count]) =>
+            `${glintParts.numberText(count, 0)} ${count === 1 ? 'pixel' : 'pixels'} of ${k} ${count === 1 ? 'is' : 'are'} not finite (NaN or infinite).`).join(' ');
     }
 
     /* ---- The element ---- */
 
     function make(store) {
-        const self = {store, shown: {A: null, B: null, D: null}, sizes: new Map(), wrong: null, look: null};
+        const self = {store, shown: {A: null, B: null, D: null}, sizes: new Map(), wrong: {}, look: null};
         self.over = overlay();
         self.warning = element('p', {class: 'note', role: 'status'});
         self.view = view(store);
-        self.want = Object.fromEntries(['A', 'B', 'D'].map(k => [k, fetch.pictures((wish, picture) => take(self, k, wish, picture), (_, error) => fail(self, error))]));
+        self.want = Object.fromEntries(['A', 'B', 'D'].map(k =>
+            [k, fetch.pictures((wish, picture) => take(self, k, wish, picture), (_, error) => fail(self, k, error))]));
         const ask = fetch.newest((x, y) => values(self, x, y));
         self.stage = glintStage.stage({title: 'Picture', pictures: pictures(self)}, glintParts.page(), {
             values: ask, pick: (x, y) => pick(self, x, y), over: self.over.e,
@@ -118,37 +120,51 @@ glintLive.picture = (function () {
         return `/api/v1/${what}?${query}`;
     }
 
-    /* Asks for what has to be there: A, then B in the colours of A, then the heat map if it is looked at. */
     function refresh(self) {
-        const {result, pinned, look} = self.store, {A} = self.shown;
-        const image = result && images.chosen(result, look.image);
+        askAll(self);
         mark(self);
         self.over.draw(self.store, self.wrong);
+    }
+
+    /* Asks for what has to be there: A, then B in the colours of A, then the heat map if it is looked at. */
+    function askAll(self) {
+        const {result, pinned, look} = self.store, {A} = self.shown;
+        const image = result && images.chosen(result, look.image);
         if (!image) return;
-        self.want.A({path: path('picture', {run: result.run, image: image.name}, look), what: image.name, run: result.run, image, draft: result.draft});
+        request(self, 'A', {path: path('picture', {run: result.run, image: image.name}, look), what: image.name, run: result.run, image,
+            draft: result.draft, capture: result.state.capture});
         const other = pinned && images.chosen(pinned.result, image.name);
         if (!other) {
             const had = self.shown.B || self.shown.D;
-            for (const k of ['B', 'D']) { self.want[k](null); self.shown[k] = null; }
+            for (const k of ['B', 'D']) { request(self, k, null); self.shown[k] = null; }
             if (had) draw(self);
             return;
         }
         if (!A || A.image.name !== image.name) return;
         const same = A.head.range && look.low === null && look.high === null
             ? {low: A.head.range[0], high: A.head.range[1], scale: A.head.key?.scale?.log ? 'log' : 'linear'} : {};
-        self.want.B({path: path('picture', {run: pinned.result.run, image: other.name, ...same}, look), what: `${pinned.result.run} ${other.name}`,
+        request(self, 'B', {path: path('picture', {run: pinned.result.run, image: other.name, ...same}, look), what: `${pinned.result.run} ${other.name}`,
             run: pinned.result.run, image: other, title: pinned.title});
         if (self.look.mode !== HEAT) return;
-        self.want.D({path: path('difference', {run: A.run, other: pinned.result.run, image: A.image.name, ...(other.name === A.image.name ? {} : {other_image: other.name})}),
+        const named = other.name === A.image.name ? {} : {other_image: other.name};
+        request(self, 'D', {path: path('difference', {run: A.run, other: pinned.result.run, image: A.image.name, ...named}),
             what: `${pinned.result.run} ${A.image.name}`});
+    }
+
+    /* What is shown already, and what is wanted no more, is not wrong. */
+    function request(self, which, wanted) {
+        if (!wanted || self.shown[which]?.path === wanted.path) self.wrong[which] = null;
+        self.want[which](wanted);
     }
 
     function take(self, which, wish, picture) {
         const {head} = picture;
         self.shown[which] = {...wish, ...picture};
-        self.wrong = null;
+        self.wrong[which] = null;
         if (which === 'A') {
-            if (!wish.draft) self.sizes.set(wish.what, [head.width, head.height]);
+            if (!wish.draft) self.sizes.set(`${wish.capture} ${wish.what}`, [head.width, head.height]);
+            if (self.shown.A?.image.name !== self.last) self.notOfFrame = '';
+            self.last = wish.image.name;
             if (self.shown.D && self.shown.D.what.split(' ')[1] !== wish.what) self.shown.D = null;
             self.view.draw(head);
         }
@@ -156,8 +172,8 @@ glintLive.picture = (function () {
         refresh(self);
     }
 
-    function fail(self, error) {
-        self.wrong = error.message;
+    function fail(self, which, error) {
+        self.wrong[which] = error.message;
         self.over.draw(self.store, self.wrong);
     }
 
@@ -166,7 +182,7 @@ glintLive.picture = (function () {
         if (!A) return frameOf(store);
         const own = [A.head.width, A.head.height], draft = A.draft && store.registry.captures[store.state.capture]?.draft;
         if (!A.draft) return own;
-        return sizes.get(A.what) || (draft && own[0] === draft[0] && own[1] === draft[1] ? frameOf(store) : own);
+        return sizes.get(`${A.capture} ${A.what}`) || (draft && own[0] === draft[0] && own[1] === draft[1] ? frameOf(store) : own);
     }
 
     function pictures(self) {
@@ -177,26 +193,42 @@ glintLive.picture = (function () {
 
     function draw(self) {
         self.stage.update(pictures(self));
-        self.warning.textContent = warningOf(self.shown);
-        self.warning.hidden = !self.warning.textContent;
+        drawWarning(self);
         self.over.draw(self.store, self.wrong);
         mark(self);
     }
 
+    function drawWarning(self) {
+        self.warning.textContent = [warningOf(self.shown), self.notOfFrame].filter(t => t).join('\n');
+        self.warning.hidden = !self.warning.textContent;
+    }
+
     /* ---- Pixels ---- */
+
+    /* The truth of an image of the effect: values of other units beside it would say nothing. */
+    function truthOf(truth, A) {
+        const image = truth?.result.images.find(i => i.name === truth.result.picture);
+        return image && A?.image.channels.some(c => image.channels.includes(c)) ? {run: truth.result.run, image} : null;
+    }
 
     async function values(self, x, y) {
         const {A, B} = self.shown, {truth} = self.store;
-        const of = [['A', A], ['B', B], ['Truth', truth && {run: truth.result.run, image: {name: truth.result.picture}}]]
+        const of = [['A', A], ['B', B], [truth?.result.picture, truthOf(truth, A)]]
             .filter(([, p]) => p).map(([caption, p]) => ({caption, run: p.run, image: p.image.name, b: caption === 'B'}));
         if (!A) return null;
-        const answer = await api.post('/api/v1/values', {x, y, size: sizeOf(self), of: of.map(({run, image}) => ({run, image}))});
-        return valueTable(of, answer.values, x, y);
+        try {
+            const answer = await api.post('/api/v1/values', {x, y, size: sizeOf(self), of: of.map(({run, image}) => ({run, image}))});
+            return valueTable(of, answer.values, x, y);
+        } catch (error) {
+            return {title: `${x},${y}`, channels: [], unit: '', rows: [[error.message, []]]};
+        }
     }
 
     function pick(self, x, y) {
         const frame = frameOf(self.store), size = sizeOf(self);
-        if (!isOfFrame(frame, size)) return;
+        self.notOfFrame = isOfFrame(frame, size) ? '' : 'Pixels of this image are no pixels of the frame: there is nothing to probe.';
+        drawWarning(self);
+        if (self.notOfFrame) return;
         self.store.setLook({x: between(x, size[0], frame[0]), y: between(y, size[1], frame[1])});
     }
 

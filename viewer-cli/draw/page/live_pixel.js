@@ -6,16 +6,17 @@ glintLive.pixel = (function () {
 
     function make(store) {
         const self = {store, asked: null, stop: null, url: null, done: null};
-        self.title = element('h2', {id: 'pixel-title'});
+        self.title = element('h3', {id: 'pixel-title'});
+        self.hint = element('p', {class: 'faint'}, 'Click a pixel of the picture, or press Enter on the one that is pointed at, to see its rays.');
         self.close = element('button', {type: 'button', 'aria-label': 'close the pixel', click: () => store.setLook({x: null, y: null})}, 'Close');
         self.image = element('img', {alt: ''});
         self.why = element('p', {class: 'faint'});
-        self.failure = element('p', {class: 'note', role: 'alert'});
+        self.failure = element('p', {class: 'note', role: 'alert', hidden: ''});
         self.text = element('pre', {tabindex: 0, 'aria-label': 'what glint probe says'});
         self.drawing = element('figure', {tabindex: 0, role: 'group', 'aria-label': 'rays of the pixel: arrow keys go to the next pixel, Shift by ten, Escape closes',
             keydown: event => { if (key(store, event)) event.preventDefault(); }}, self.image, self.why);
-        self.e = element('section', {class: 'live-pixel', 'aria-labelledby': 'pixel-title', 'aria-live': 'polite'},
-            element('div', {class: 'bar'}, self.title, self.close), self.failure, self.drawing, self.text);
+        self.inner = element('div', null, element('div', {class: 'bar'}, self.title, self.close), self.failure, self.drawing, self.text);
+        self.e = element('section', {class: 'live-pixel', 'aria-labelledby': 'pixel-title'}, self.hint, self.inner);
         self.image.addEventListener('load', () => { if (self.old) URL.revokeObjectURL(self.old); self.old = null; });
         for (const what of ['look', 'result']) store.on(what, () => refresh(self));
         refresh(self);
@@ -37,7 +38,8 @@ glintLive.pixel = (function () {
     /* Asks again once a whole frame of another state is there, or another pixel is chosen. */
     function refresh(self) {
         const {store} = self, {result} = store, at = chosen(store);
-        self.e.hidden = !at;
+        self.inner.hidden = !at;
+        self.hint.hidden = !!at;
         if (!at) {
             self.stop?.abort();
             self.asked = null;

@@ -10,7 +10,8 @@ glintLive.view = (function () {
     }
 
     function exposure(store) {
-        const slider = element('input', {type: 'range', min: -10, max: 10, step: 0.25, 'aria-label': 'exposure in EV', input: () => store.setLook({exposure: +slider.value})});
+        const slider = element('input', {type: 'range', min: -10, max: 10, step: 0.25, 'aria-label': 'exposure in EV',
+            input: () => store.setLook({exposure: +slider.value})});
         const reset = element('button', {type: 'button', 'aria-label': 'exposure back to 0 EV', click: () => store.setLook({exposure: 0})});
         return {e: element('label', {class: 'exposure'}, element('span', null, 'Exposure'), slider, reset), draw({exposure}) {
             slider.value = exposure || 0;
@@ -41,7 +42,8 @@ glintLive.view = (function () {
 
     function range(store) {
         const kinds = choice('kind of picture', store.registry.kinds || [], kind => store.setLook({kind, low: null, high: null, scale: null}));
-        const fields = ['low', 'high'].map(end => element('input', {type: 'text', inputmode: 'decimal', size: 8, 'aria-label': `${end} end of the range`, placeholder: 'auto',
+        const fields = ['low', 'high'].map(end => element('input', {
+            type: 'text', inputmode: 'decimal', size: 11, 'aria-label': `${end} end of the range`, placeholder: 'auto',
             change: event => {
                 const value = numberOf(event.target.value), look = {...store.look, [end]: value};
                 const wrong = value === undefined || (look.low !== null && look.high !== null && look.low >= look.high);

@@ -58,122 +58,135 @@
         return `${count} point${count > 1 ? 's' : ''} without a place on these axes (not known, or at or below zero of a logarithmic axis) ${count > 1 ? 'are' : 'is'} not drawn.`;
     }
 
+    /* ---- One chart: `at` is the place of the point that is shown, `kept` of the one that was chosen, `before` of the one before that ---- */
+
+    const placeOf = ({data}, name) => data.points.findIndex(q => q.p.name === name);
+
+    /* The place of what ECharts draws, by the number of its series and its datum. */
+    const placeAt = ({data}, {seriesIndex, data: datum}) => data.points.findIndex(q => data.places[q.series] === seriesIndex && q.i === datum?.point);
+
+    function show(self, k) {
+        const {data: {points, detailed}, kept, before} = self;
+        self.at = k;
+        if (detailed) self.aside.replaceChildren(...pointElements(self.data, points[k], points[kept === k ? before : kept]?.p, self.own));
+    }
+
+    /* A ring around a mark; bars may stand on others and are highlighted themselves. */
+    function ring({data, at, drawn}) {
+        const shown = data.points[at], bar = shown?.s.kind === 'bar';
+        drawn?.setOption({series: [{id: 'chosen', data: shown && !bar ? [[shown.p.x, shown.p.y]] : []}]});
+        drawn?.dispatchAction({type: 'downplay'});
+        if (bar) drawn?.dispatchAction({type: 'highlight', seriesIndex: data.places[shown.series], dataIndex: shown.i});
+    }
+
+    function go(self, k) {
+        show(self, k);
+        ring(self);
+    }
+
+    function keep(self, k) {
+        self.table?.lineOf(self.kept)?.classList.remove('chosen');
+        if (k !== self.kept) self.before = k < 0 ? -1 : self.kept;
+        self.kept = k;
+        self.table?.lineOf(k)?.classList.add('chosen');
+        go(self, k);
+    }
+
+    /* The point of this name is kept in the other charts too. */
+    function select(self, k) {
+        const {own, choose} = self, point = self.data.points[k]?.p, name = point?.name;
+        keep(self, k);
+        for (const c of own.charts) if (c !== self.entry && (name || k < 0)) c.keep(k < 0 ? -1 : c.placeOf(name));
+        for (const p of own.players) if (name) p.go(name);
+        if (point && choose) choose(point);
+    }
+
+    function option(self) {
+        return chartOption(self.data, self.plot.clientWidth, e => {
+            const q = self.data.points[placeAt(self, e)];
+            return q ? element('div', null, element('b', null, q.p.name || q.s.name), coordinates(self.data, q.p)) : null;
+        });
+    }
+
+    function attempt(self, draw) {
+        try {
+            draw();
+        } catch (error) {
+            self.plot.replaceChildren(element('p', {class: 'note'}, `this chart cannot be drawn: ${error.message}`));
+        }
+    }
+
+    function draw(self) {
+        if (self.drawn) self.drawn.dispose();
+        self.drawn = echarts.init(self.plot, null, {renderer: 'svg'});
+        self.drawn.setOption(option(self));
+        self.drawn.on('mouseover', e => { const k = placeAt(self, e); if (k >= 0) go(self, k); });
+        self.drawn.on('mouseout', () => go(self, self.kept));
+        self.drawn.on('click', e => { const k = placeAt(self, e); if (k >= 0) select(self, k); });
+        ring(self);
+    }
+
+    /* Everything around the plot. */
+    function build(self) {
+        const {data: {chart, points, read, detailed}, plot, aside, title, columns, left, summary, fold, result} = self;
+        plot.setAttribute('aria-label', `chart: ${glintChart.text(chart.title)}; arrow keys go through its points, Enter keeps one`);
+        plot.style.height = aside.style.height = `${glintChart.size(chart)[1]}px`;
+        title.textContent = glintChart.text(chart.title);
+        columns.className = detailed ? 'chart detailed' : 'chart';
+        left.textContent = leftOut(read.left);
+        self.table = points.length ? pointTable(self.data, k => select(self, k)) : null;
+        summary.textContent = `Its ${points.length} points as a table`;
+        fold.replaceChildren(summary, ...(self.table ? [self.table] : []));
+        attach(title, chart.title, e => result.prepend(e));
+        attach(aside, detailed, e => columns.append(e));
+        attach(left, read.left, e => columns.after(e));
+        attach(fold, self.table, e => result.append(e));
+    }
+
+    function replace(self, chart) {
+        const {data: {points}, table} = self, line = points.findIndex((_, k) => table.lineOf(k) === document.activeElement);
+        const names = [self.kept, self.before, self.at, line].map(k => points[k]?.p.name);
+        self.data = describe(chart);
+        const places = names.map(name => name === undefined ? -1 : placeOf(self, name));
+        [self.kept, self.before, self.at] = places;
+        build(self);
+        self.table?.lineOf(places[3])?.focus();
+        self.table?.lineOf(self.kept)?.classList.add('chosen');
+        show(self, self.at < 0 ? self.kept : self.at);
+        attempt(self, () => {
+            self.drawn?.resize();
+            self.drawn?.setOption(option(self), true);
+            ring(self);
+        });
+    }
+
+    /* Whether the key means something here. */
+    function press(self, key) {
+        const step = {ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1}[key], {order} = self.data;
+        if (step && order.length) {
+            const at = order.indexOf(self.at);
+            go(self, order[at < 0 ? (step > 0 ? 0 : order.length - 1) : (at + step + order.length) % order.length]);
+        } else if (key === 'Enter' && self.at >= 0) select(self, self.at);
+        else if (key === 'Escape') select(self, -1);
+        else return false;
+        return true;
+    }
+
     /* `choose(point)`: called when somebody chooses a POINT by a click or by Enter. The element has draw(), for when it is in the document
        or its width changed, and replace(chart), which keeps the focus and the point of the same name. */
     function chartElement(chart, own, choose) {
-        const state = {data: describe(chart), drawn: null, table: null, kept: -1, before: -1, at: -1};
-        const plot = element('div', {class: 'plot', tabindex: 0, role: 'group'});
-        const aside = element('aside', {class: 'point', 'aria-live': 'polite', tabindex: 0});
-        const title = element('h3'), columns = element('div', null, plot), left = element('p', {class: 'faint'});
-        const summary = element('summary'), fold = element('details', null, summary), result = element('section', null, columns);
-
-        function show(k) {
-            const {data, kept, before} = state, {points} = data;
-            state.at = k;
-            if (data.detailed) aside.replaceChildren(...pointElements(data, points[k], points[kept === k ? before : kept]?.p, own));
-        }
-
-        /* A ring around a mark; bars may stand on others and are highlighted themselves. */
-        function ring() {
-            const shown = state.data.points[state.at], bar = shown?.s.kind === 'bar';
-            state.drawn?.setOption({series: [{id: 'chosen', data: shown && !bar ? [[shown.p.x, shown.p.y]] : []}]});
-            state.drawn?.dispatchAction({type: 'downplay'});
-            if (bar) state.drawn?.dispatchAction({type: 'highlight', seriesIndex: state.data.places[shown.series], dataIndex: shown.i});
-        }
-
-        function go(k) { show(k); ring(); }
-
-        function keep(k) {
-            state.table?.lineOf(state.kept)?.classList.remove('chosen');
-            if (k !== state.kept) state.before = k < 0 ? -1 : state.kept;
-            state.kept = k;
-            state.table?.lineOf(k)?.classList.add('chosen');
-            go(k);
-        }
-
-        /* The point of this name is kept in the other charts too. */
-        function select(k) {
-            keep(k);
-            const point = state.data.points[k]?.p, name = point?.name;
-            for (const c of own.charts) if (c.keep !== keep && (name || k < 0)) c.keep(k < 0 ? -1 : c.placeOf(name));
-            for (const p of own.players) if (name) p.go(name);
-            if (point && choose) choose(point);
-        }
-
-        const placeOf = name => state.data.points.findIndex(q => q.p.name === name);
-        const placeAt = (series, d) => state.data.points.findIndex(q => state.data.places[q.series] === series && q.i === d?.point);
-
-        function tip(e) {
-            const q = state.data.points[placeAt(e.seriesIndex, e.data)];
-            return q ? element('div', null, element('b', null, q.p.name || q.s.name), coordinates(state.data, q.p)) : null;
-        }
-
-        function attempt(draw) {
-            try {
-                draw();
-            } catch (error) {
-                plot.replaceChildren(element('p', {class: 'note'}, `this chart cannot be drawn: ${error.message}`));
-            }
-        }
-
-        function draw() {
-            if (state.drawn) state.drawn.dispose();
-            state.drawn = echarts.init(plot, null, {renderer: 'svg'});
-            state.drawn.setOption(chartOption(state.data, plot.clientWidth, tip));
-            state.drawn.on('mouseover', e => { const k = placeAt(e.seriesIndex, e.data); if (k >= 0) go(k); });
-            state.drawn.on('mouseout', () => go(state.kept));
-            state.drawn.on('click', e => { const k = placeAt(e.seriesIndex, e.data); if (k >= 0) select(k); });
-            ring();
-        }
-
-        /* Everything around the plot. */
-        function build() {
-            const {data} = state, {points, read} = data;
-            plot.setAttribute('aria-label', `chart: ${glintChart.text(data.chart.title)}; arrow keys go through its points, Enter keeps one`);
-            plot.style.height = aside.style.height = `${glintChart.size(data.chart)[1]}px`;
-            title.textContent = glintChart.text(data.chart.title);
-            columns.className = data.detailed ? 'chart detailed' : 'chart';
-            left.textContent = leftOut(read.left);
-            state.table = points.length ? pointTable(data, select) : null;
-            summary.textContent = `Its ${points.length} points as a table`;
-            fold.replaceChildren(summary, ...(state.table ? [state.table] : []));
-            attach(title, data.chart.title, e => result.prepend(e));
-            attach(aside, data.detailed, e => columns.append(e));
-            attach(left, read.left, e => columns.after(e));
-            attach(fold, state.table, e => result.append(e));
-        }
-
-        result.draw = () => attempt(draw);
-        result.replace = chart => {
-            const {kept, before, at, table, data: {points}} = state, line = points.findIndex((_, k) => table.lineOf(k) === document.activeElement);
-            const names = [kept, before, at, line].map(k => points[k]?.p.name);
-            state.data = describe(chart);
-            const places = names.map(name => name === undefined ? -1 : placeOf(name));
-            [state.kept, state.before, state.at] = places;
-            build();
-            state.table?.lineOf(places[3])?.focus();
-            state.table?.lineOf(state.kept)?.classList.add('chosen');
-            show(state.at < 0 ? state.kept : state.at);
-            attempt(() => {
-                state.drawn?.resize();
-                state.drawn?.setOption(chartOption(state.data, plot.clientWidth, tip), true);
-                ring();
-            });
-        };
-        plot.addEventListener('keydown', e => {
-            const step = {ArrowRight: 1, ArrowUp: 1, ArrowLeft: -1, ArrowDown: -1}[e.key], {order} = state.data;
-            if (step && order.length) {
-                const at = order.indexOf(state.at);
-                go(order[at < 0 ? (step > 0 ? 0 : order.length - 1) : (at + step + order.length) % order.length]);
-            } else if (e.key === 'Enter' && state.at >= 0) select(state.at);
-            else if (e.key === 'Escape') select(-1);
-            else return;
-            e.preventDefault();
-        });
-        build();
-        show(-1);
-        own.charts.push({keep, placeOf, draw: result.draw});
-        return result;
+        const self = {own, choose, data: describe(chart), drawn: null, table: null, kept: -1, before: -1, at: -1};
+        self.plot = element('div', {class: 'plot', tabindex: 0, role: 'group', keydown: e => { if (press(self, e.key)) e.preventDefault(); }});
+        self.aside = element('aside', {class: 'point', 'aria-live': 'polite', tabindex: 0});
+        self.columns = element('div', null, self.plot);
+        Object.assign(self, {title: element('h3'), left: element('p', {class: 'faint'}), summary: element('summary')});
+        self.fold = element('details', null, self.summary);
+        self.result = element('section', null, self.columns);
+        build(self);
+        show(self, -1);
+        self.entry = {keep: k => keep(self, k), placeOf: name => placeOf(self, name), draw: () => attempt(self, () => draw(self))};
+        own.charts.push(self.entry);
+        return Object.assign(self.result, {draw: self.entry.draw, replace: chart => replace(self, chart)});
     }
 
     function pointTable({read, points, keys}, select) {

@@ -133,8 +133,8 @@ const glintStage = (function () {
         self.bar = element('div', {class: 'bar', role: 'toolbar', 'aria-label': name});
         self.sizes = element('select', {'aria-label': 'size', change: () => self.zoom.set(+self.sizes.value)},
             ...glintZoom.STEPS.map((t, i) => element('option', {value: i}, t)));
-        self.result = element('section', {class: 'stage'}, self.bar, self.slider,
-            element('div', {class: 'stage-view'}, self.scroll, hooks.over), self.key, self.readout);
+        self.view = element('div', {class: 'stage-view'}, self.scroll, hooks.over);
+        self.result = element('section', {class: 'stage'}, self.bar, self.slider, self.view, self.key, self.readout);
         self.mode = () => (self.modes.find(([mode]) => mode === self.state.mode) || self.modes[0])[0];
     }
 
@@ -219,13 +219,20 @@ const glintStage = (function () {
         return v ? [v.width, v.height] : [image.naturalWidth || 16, image.naturalHeight || 9];
     }
 
-    /* As wide as its column, or by whole pixels. */
+    /* As wide as its column, or by whole pixels behind a window as high as the whole would be, so that what is zoomed stays in place. */
     function size(self, zoom) {
+        const {frame, scroll, slider, view} = self, {scrollLeft, scrollTop} = scroll;
         const [width, height] = grid(self) || natural(self), two = self.mode() === 'beside' ? 2 : 1;
-        self.frame.style.width = self.slider.style.width = zoom ? `${two * width * 2 ** (zoom - 1)}px`
-            : `min(100%, ${(two * 78 * width / height).toFixed(1)}vh)`;
-        self.slider.style.maxWidth = '100%';
-        self.frame.style.aspectRatio = self.pictures.some(p => p.pixels !== undefined) ? `${two * width} / ${height}` : '';
+        const now = [zoom, width, height, two, view.clientWidth, innerHeight].join();
+        if (now === self.sized) return;
+        frame.style.aspectRatio = self.pictures.some(p => p.pixels !== undefined) ? `${two * width} / ${height}` : '';
+        const fit = frame.style.width = `min(100%, ${(two * 78 * width / height).toFixed(1)}vh)`;
+        const high = frame.offsetHeight;
+        scroll.style.height = zoom && high ? `${high + 6}px` : '';
+        frame.style.width = slider.style.width = zoom ? `${two * width * 2 ** (zoom - 1)}px` : fit;
+        slider.style.maxWidth = '100%';
+        Object.assign(scroll, {scrollLeft, scrollTop});
+        self.sized = high ? now : null;
     }
 
     /* Where the middle of a pixel is in the frame, 0 to 1. */
@@ -357,7 +364,10 @@ const glintStage = (function () {
         });
         frame.addEventListener('keydown', event => { if (key(self, press, event)) event.preventDefault(); });
         self.slider.addEventListener('input', () => slide(self, +self.slider.value));
-        self.layers[0].image.addEventListener('load', () => size(self, self.zoom.zoom));
+        const resize = () => { self.sized = null; size(self, self.zoom.zoom); };
+        self.layers[0].image.addEventListener('load', resize);
+        let width = 0;
+        new ResizeObserver(() => { if (self.view.clientWidth !== width) { width = self.view.clientWidth; resize(); } }).observe(self.view);
     }
 
     /* Shows the other picture. */

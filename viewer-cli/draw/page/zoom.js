@@ -10,13 +10,13 @@ const glintZoom = (function () {
     function create(frame, scroll, own) {
         let zoom = 0, turned = 0;
 
-        /* Pixels of the window for one of the picture. */
-        function scaleOf(step) {
-            if (step > 0) return 2 ** (step - 1);
-            const before = zoom;
+        /* Pixels of the window for one of the picture, where it fits. There nothing is scrolled, which comes back. */
+        function fitScale() {
+            const {scrollLeft, scrollTop} = scroll;
             own.resize(0);
             const scale = frame.getBoundingClientRect().width / (own.across() * own.size()[0]);
-            own.resize(before);
+            own.resize(zoom);
+            Object.assign(scroll, {scrollLeft, scrollTop});
             return scale;
         }
 
@@ -42,7 +42,7 @@ const glintZoom = (function () {
 
         /* The next larger or smaller of all steps, fit among them where its size puts it. */
         function by(way, at) {
-            const scales = STEPS.map((_, i) => scaleOf(i)), now = scales[zoom];
+            const scales = STEPS.map((_, i) => i ? 2 ** (i - 1) : fitScale()), now = scales[zoom];
             const steps = scales.map((scale, i) => ({scale, i})).filter(s => way * (s.scale - now) > 1e-6).sort((a, b) => way * (a.scale - b.scale));
             if (steps.length) set(steps[0].i, at);
         }

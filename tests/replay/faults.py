@@ -1,0 +1,123 @@
+"""Calls of Vulkan that fail, by tests/replay/fault_layer.c: every function that a replay calls, from its first calls to its last one, with each result.
+
+faults.py GLINT LAYER_FOLDER [all]
+"""
+import collections
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+
+sys.path.append(os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "viewer-cli"))
+import tap  # noqa: E402
+
+RESULTS = {"VK_ERROR_DEVICE_LOST": "the device was lost", "VK_ERROR_OUT_OF_DEVICE_MEMORY": "out of device memory",
+           "VK_ERROR_OUT_OF_HOST_MEMORY": "out of host memory", "VK_TIMEOUT": "an unexpected result"}
+# What happens before a device or a capture is there names neither; vkDeviceWaitIdle only ends what is over.
+EARLY = {"vkCreateInstance", "vkEnumeratePhysicalDevices", "vkCreateDevice", "vkCreateCommandPool", "vkAllocateCommandBuffers", "vkCreateFence",
+         "vkCreatePipelineCache", "vkCreateSampler"}
+HARMLESS = {"vkDeviceWaitIdle"}
+PRESET = "kf2"
+
+
+class Faults:
+    def __init__(self, everything):
+        self.everything = everything
+        self.folder = tempfile.mkdtemp(prefix="glint-faults-")
+        self.capture = os.path.join(self.folder, "tiny.exr")
+        tap.glint("sample", "street", "-o", self.capture, "--size", "32x18", "--cube-size", "8")
+        self.counts = self.count("replay", self.capture, "--preset", PRESET, "-o", os.path.join(self.folder, "whole"))
+        self.slots = {name.split("-", 1)[1][:-4] for name in os.listdir(os.path.join(self.folder, "whole")) if name != "run.json"}
+
+    def environment(self, **fault):
+        layers = {"VK_LAYER_PATH": sys.argv[2], "VK_INSTANCE_LAYERS": "VK_LAYER_GLINT_fault"}
+        return {**os.environ, **layers, **{f"GLINT_FAULT_{name}": str(value) for name, value in fault.items()}}
+
+    def run(self, *words, **fault):
+        return subprocess.run([sys.argv[1], *words], capture_output=True, text=True, env=self.environment(**fault), timeout=120)
+
+    def count(self, *words):
+        path = os.path.join(self.folder, "counts")
+        run = self.run(*words, COUNTS=path)
+        assert run.returncode == 0, run.stderr
+        counts = collections.Counter()
+        with open(path, encoding="utf-8") as lines:
+            for line in lines:
+                name, number = line.split()
+                counts[name] += int(number)
+        return counts
+
+    def numbers(self, call):
+        """Which calls of a function fail: the first ones, then fewer and fewer, and the last one."""
+        last = self.counts[call]
+        return range(1, last + 1) if self.everything else sorted({1, (last + 1) // 2, last})
+
+    def expect(self, call, number, result, times=0):
+        """One replay: it fails with a message that says what and where, and leaves no folder."""
+        out = os.path.join(self.folder, "out")
+        run = self.run("replay", self.capture, "--preset", PRESET, "-o", out, CALL=call, FROM=number, RESULT=result, TIMES=times)
+        said = f"{call} {number} {result}: exit {run.returncode}\n{run.stderr}"
+        assert run.returncode in (1, 2, 3, 4, 5), said
+        assert "Sanitizer" not in run.stderr and "runtime error" not in run.stderr, said
+        assert RESULTS[result] in run.stderr, said
+        assert call in EARLY or self.capture in run.stderr or (call.endswith("DescriptorSetLayout") and number == 1) or self.before_capture(call, number), said
+        assert not os.path.exists(out), (said, os.listdir(out))
+        return run.stderr
+
+    def before_capture(self, call, number):
+        """The buffer of the frame is made with the replay."""
+        return number == 1 and call in ("vkCreateBuffer", "vkAllocateMemory", "vkMapMemory", "vkBindBufferMemory")
+
+    def test_every_call_that_fails_is_told(self):
+        calls = sorted(set(self.counts) - HARMLESS)
+        tried = 0
+        for call in calls:
+            for number in self.numbers(call):
+                results = list(RESULTS) if self.everything else [list(RESULTS)[(number + len(call)) % 4], "VK_ERROR_DEVICE_LOST"][:1 if number > 1 else 2]
+                for result in results:
+                    self.expect(call, number, result)
+                    tried += 1
+        print(f"# {tried} replays with faults in {len(calls)} functions")
+        assert len(calls) >= 25 and tried > 60
+
+    def test_a_pass_that_runs_is_named(self):
+        """The last submissions read images back; those with timestamps before them run passes."""
+        named = set()
+        for number in range(1, self.counts["vkGetQueryPoolResults"] + 1):
+            said = self.expect("vkGetQueryPoolResults", number, "VK_ERROR_DEVICE_LOST")
+            named |= {slot for slot in self.slots if f" {slot}/" in said}
+        for number in range(1, self.counts["vkCreateComputePipelines"] + 1):
+            said = self.expect("vkCreateComputePipelines", number, "VK_ERROR_OUT_OF_DEVICE_MEMORY")
+            named |= {slot for slot in self.slots if f" {slot}/" in said}
+        assert self.slots <= named, (self.slots, named)
+
+    def test_waiting_without_end_does_no_harm(self):
+        for result in RESULTS:
+            run = self.run("replay", self.capture, "--preset", PRESET, CALL="vkDeviceWaitIdle", RESULT=result)
+            assert run.returncode == 0, run.stderr
+
+    def test_devices_that_cannot_be_listed(self):
+        for result, text in RESULTS.items():
+            for call in ("vkCreateInstance", "vkEnumeratePhysicalDevices"):
+                run = self.run("devices", CALL=call, RESULT=result)
+                assert run.returncode != 0 and text in run.stderr, (call, result, run)
+
+    def test_an_old_run_outlives_a_fault(self):
+        """A run that fails before it writes leaves the folder of an earlier one as it is."""
+        out = os.path.join(self.folder, "kept")
+        tap.glint("replay", self.capture, "--preset", PRESET, "-o", out)
+        before = sorted(os.listdir(out))
+        run = self.run("replay", self.capture, "--preset", PRESET, "-o", out, CALL="vkWaitForFences", FROM=20)
+        assert run.returncode != 0 and sorted(os.listdir(out)) == before, run
+
+    def finish(self):
+        shutil.rmtree(self.folder)
+
+
+tests = Faults(len(sys.argv) > 3)
+try:
+    failed = tap.run(tests)
+finally:
+    tests.finish()
+sys.exit(failed)
