@@ -133,6 +133,8 @@ class Tests:
         assert self.ask("picks") == [[10, 3]] and self.ask(cut) == before
         self.browser.drag([self.at(20, 5), self.at(25, 5), self.at(29.5, 5)])
         assert self.ask("picks") == [[10, 3]] and self.ask(cut).startswith("inset(0px 0px 0px 75"), self.ask(cut)
+        # nor does one that ends where it began
+        self.browser.drag([self.at(20, 5), self.at(25, 5), self.at(20, 5)])
         self.press("A")
         self.browser.drag([self.at(20, 5), self.at(29.5, 5)])
         assert self.ask("picks.length") == 1
@@ -167,7 +169,8 @@ class Tests:
         assert self.ask(size) == ["1\u00d7", 40]
         assert [c["zoom"] for c in self.ask("changes")][-1] == 1 and 0 in [c["zoom"] for c in self.ask("changes")]
         # without Ctrl the wheel scrolls; keys zoom, too
-        self.browser.wheel(*place, 120)
+        for _ in range(2):
+            self.browser.wheel(*place, -120)
         assert self.ask(size)[0] == "1\u00d7"
         self.ask("$('.frame').focus()")
         for key, shown in (("+", "2\u00d7"), ("+", "4\u00d7"), ("-", "2\u00d7"), ("0", "fit")):

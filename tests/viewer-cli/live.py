@@ -52,3 +52,9 @@ class Live:
         self.process.stdout.close()
         self.process.stderr.close()
         return status
+
+    def end_and_read(self):
+        """The exit status, and what it wrote to stderr."""
+        self.process.terminate()
+        said = self.process.stderr.read()
+        return self.process.wait(60), said

@@ -107,14 +107,14 @@ glintLive.figures = (function () {
         return self;
     }
 
-    /* ---- What is shown ---- */
+    /* ---- What is shown: the last figures, until there are those of the state ---- */
 
     function headline(store, meter) {
-        const a = meter.isCurrent() ? meter.figures : null, b = meter.other, pinned = store.pinned && !store.pinned.of ? store.pinned : null;
+        const {figures: a, other: b} = meter, pinned = store.pinned && !store.pinned.of ? store.pinned : null;
         const metric = store.registry.metrics.find(m => m.name === meter.metric), rows = [];
         const ms = ns => Number.isFinite(ns) ? ns / 1e6 : null;
         if (a?.against) rows.push([metric?.title || meter.metric, meter.total(a)?.value, meter.total(b)?.value, '', metric?.help]);
-        rows.push(['every frame', ms(meter.timeOf(a, store.result)), ms(meter.timeOf(b, pinned?.result)), 'ms', 'sum of the passes that run in every frame']);
+        rows.push(['every frame', ms(meter.timeOf(meter.isCurrent() ? a : null, store.result)), ms(meter.timeOf(b, pinned?.result)), 'ms', 'sum of the passes that run in every frame']);
         if (Number.isFinite(a?.cubemaps_ns)) rows.push(['when a cube map changes', ms(a.cubemaps_ns), ms(b?.cubemaps_ns), 'ms']);
         if (a) {
             for (const [name, key, unit] of [['rays', 'rays', ''], ['steps of a ray', 'steps', ''], ['fetches of a ray', 'fetches', ''], ['steps', 'steps_px', '1/pixel'], ['fetches', 'fetches_px', '1/pixel']])
@@ -124,14 +124,14 @@ glintLive.figures = (function () {
     }
 
     function errorTables(meter, pinned) {
-        const a = meter.isCurrent() ? meter.figures : null, errors = list(a?.errors).filter(e => e.metric === meter.metric).slice(1);
+        const errors = list(meter.figures?.errors).filter(e => e.metric === meter.metric).slice(1);
         const other = e => list(meter.other?.errors).find(o => o.metric === e.metric && o.set === e.set && o.class === e.class)?.value;
         const sets = [...new Set(errors.map(e => e.set))];
         return sets.map(set => comparison('', errors.filter(e => e.set === set).map(e => [e.class, e.value, other(e), '', `${e.pixels} pixels`]), pinned, set ? `Error by ${set}` : 'Error'));
     }
 
     function endTable(meter, pinned) {
-        const a = meter.isCurrent() ? meter.figures : null, ends = list(a?.ends);
+        const ends = list(meter.figures?.ends);
         if (!ends.length) return null;
         const other = e => list(meter.other?.ends).find(o => o.tracer === e.tracer && o.reason === e.reason);
         const share = v => Number.isFinite(v) ? `${(100 * v).toFixed(1)} %` : '\u2013', several = new Set(ends.map(e => e.tracer)).size > 1, errors = ends.some(e => Number.isFinite(e.error));
@@ -216,7 +216,7 @@ glintLive.figures = (function () {
             if (own.running) return 'measuring \u2026';
             if (!store.effect) return store.result ? 'Nothing that this pipeline makes can be judged.' : '';
             if (!own.measurable()) return 'Figures are not measured while passes are skipped or forced.';
-            if (!own.isCurrent()) return own.isAutomatic() ? '' : 'Not measured yet for this state.';
+            if (!own.isCurrent()) return own.isAutomatic() ? 'waiting to measure \u2026' : own.figures ? 'These are of an earlier state: measure again.' : 'Not measured yet.';
             return [own.figures.why, own.figures.against || own.figures.why ? null : 'The capture has nothing to compare with.', store.pinned?.of ? 'B is what the result should be, and has no figures.' : null].filter(t => t).join(' ');
         }
 
@@ -224,7 +224,7 @@ glintLive.figures = (function () {
             const pinned = store.pinned && !store.pinned.of ? store.pinned : null;
             bar.update();
             said.textContent = glintChart.text(words());
-            body.classList.toggle('stale', !own.isCurrent());
+            body.classList.toggle('stale', !!own.figures && !own.isCurrent());
             if (store.result) body.replaceChildren(headline(store, own), ...errorTables(own, pinned), ...[endTable(own, pinned)].filter(t => t));
             chart.update();
         }

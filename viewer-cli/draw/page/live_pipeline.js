@@ -149,13 +149,10 @@ glintLive.pipeline = (function () {
             const {state} = store, infos = store.registry.passes.filter(p => p.slot === slot);
             const has = text => words.every(w => text.toLowerCase().includes(w));
             const whole = has(`${slot} ${infos.map(i => `${i.slot_title} ${i.effect} ${i.variant} ${i.title} ${i.source}`).join(' ')}`);
-            let some = 0;
-            for (const c of controls) {
-                const p = c.parameter, fits = (whole || has(`${p.name} ${p.help} ${p.source} ${p.unit} ${list(p.choices).join(' ')}`)) && (!only || p.name in state.set);
-                c.row.hidden = !fits;
-                if (fits) some++;
-            }
-            found = some > 0 && (only || (words.length > 0 && !whole));
+            const own = controls.filter(({parameter: p}) => has(`${p.name} ${p.help} ${p.source} ${p.unit} ${list(p.choices).join(' ')}`));
+            const fit = (own.length && words.length ? own : whole ? controls : own).filter(c => !only || c.parameter.name in state.set), some = fit.length;
+            for (const c of controls) c.row.hidden = !fit.includes(c);
+            found = some > 0 && (only || (words.length > 0 && own.length > 0));
             row.hidden = !(whole || some) || (only && !differsIn(state, slot));
             fold();
             return !row.hidden;
