@@ -161,10 +161,10 @@ class Browser:
         with open(path, "wb") as file:
             file.write(base64.b64decode(data))
 
-    def picture(self, path, width, height):
+    def picture(self, path, width, height, scale=1):
         """The upper left part of what is scrolled to, also below the window, as PNG or JPEG by the file's name."""
         kind = {"format": "jpeg", "quality": 82} if path.endswith(".jpg") else {"format": "png"}
-        data = self.call("Page.captureScreenshot", clip={"x": self.evaluate("scrollX"), "y": self.evaluate("scrollY"), "width": width, "height": height, "scale": 1},
+        data = self.call("Page.captureScreenshot", clip={"x": self.evaluate("scrollX"), "y": self.evaluate("scrollY"), "width": width, "height": height, "scale": scale},
                          captureBeyondViewport=True, **kind)["data"]
         with open(path, "wb") as file:
             file.write(base64.b64decode(data))
