@@ -55,8 +55,8 @@
         document.body.classList.add('live');
         document.body.replaceChildren(glintLive.bar(store, [help, look.button]), glintLive.notes(store),
             element('main', {class: 'panels'}, glintLive.pipeline(store),
-                element('div', {class: 'middle'}, ...[glintLive.shot(store), picture, glintLive.warnings(store)].filter(e => e)),
-                element('div', {class: 'side'}, ...[pixel, glintLive.figures(store), glintLive.out(store)].filter(e => e))), keys);
+                element('div', {class: 'rest'}, element('div', {class: 'middle'}, ...[glintLive.shot(store), picture, glintLive.warnings(store)].filter(e => e)),
+                    element('div', {class: 'side'}, pixel, glintLive.figures(store), glintLive.out(store)))), keys);
         document.title = `glint live: ${glintChart.text(store.registry.captures[0]?.name)}`;
     }
 

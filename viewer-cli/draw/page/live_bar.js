@@ -20,7 +20,7 @@ glintLive.bar = (function () {
     /* B: a menu of what can be pinned, and what is. */
     function pinChooser(store) {
         const select = element('select', {id: 'pin', 'aria-label': 'what B is', title: 'what A is compared with', change: () => choose(select.value)});
-        const swap = element('button', {type: 'button', id: 'swap', title: 'swap A and B (x)', click: () => store.swap()}, 'Swap A and B');
+        const swap = element('button', {type: 'button', id: 'swap', title: 'swap A and B (x)', click: () => store.swap()}, 'Swap');
         let shown = null;
 
         function choose(value) {

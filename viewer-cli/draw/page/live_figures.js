@@ -82,7 +82,10 @@ glintLive.figures = (function () {
                 note(found, result);
                 store.emit('figures');
                 self.other = null;
-                if (store.pinned && !store.pinned.of) self.other = await measure(store.pinned.result.state, rounds, wanted);
+                if (store.pinned && !store.pinned.of) {
+                    self.other = await measure(store.pinned.result.state, rounds, wanted);
+                    note(self.other, store.pinned.result);
+                }
             } catch (error) {
                 if (error.code !== 'superseded') self.error = error;
             } finally {
@@ -114,7 +117,8 @@ glintLive.figures = (function () {
         const metric = store.registry.metrics.find(m => m.name === meter.metric), rows = [];
         const ms = ns => Number.isFinite(ns) ? ns / 1e6 : null;
         if (a?.against) rows.push([metric?.title || meter.metric, meter.total(a)?.value, meter.total(b)?.value, '', metric?.help]);
-        rows.push(['every frame', ms(meter.timeOf(meter.isCurrent() ? a : null, store.result)), ms(meter.timeOf(b, pinned?.result)), 'ms', 'sum of the passes that run in every frame']);
+        const rounds = meter.isCurrent() && Number.isFinite(a.frame_ns) ? a.rounds : 0;
+        rows.push(['every frame', ms(meter.timeOf(rounds ? a : null, store.result)), ms(meter.timeOf(b, pinned?.result)), rounds ? `ms, median of ${rounds}` : 'ms, one replay', 'sum of the passes that run in every frame']);
         if (Number.isFinite(a?.cubemaps_ns)) rows.push(['when a cube map changes', ms(a.cubemaps_ns), ms(b?.cubemaps_ns), 'ms']);
         if (a) {
             for (const [name, key, unit] of [['rays', 'rays', ''], ['steps of a ray', 'steps', ''], ['fetches of a ray', 'fetches', ''], ['steps', 'steps_px', '1/pixel'], ['fetches', 'fetches_px', '1/pixel']])

@@ -157,7 +157,7 @@ glintLive.pipeline = (function () {
             fold();
             return !row.hidden;
         }
-        return {row, update, filter, open(yes) { open = yes; fold(); }};
+        return {row, update, filter, variant: () => shown};
     }
 
     /* What there is to read about a slot. */
@@ -245,7 +245,7 @@ glintLive.pipeline = (function () {
         /* What has the focus is explained in a place of its own, so that nothing moves under the pointer. */
         function explain(event) {
             const name = event.target.closest?.('.parameter')?.dataset.name, slot = event.target.closest?.('.slot')?.dataset.slot;
-            const found = name && [...list(store.registry.pipeline), ...store.registry.passes.flatMap(p => p.slot === slot ? p.parameters : [])].find(p => p.name === name);
+            const found = name && [...list(store.registry.pipeline), ...list(variantOf(store, slot, rows.get(slot)?.variant())?.parameters)].find(p => p.name === name);
             if (found) help.replaceChildren(glintLive.control.helpElement(found));
             else if (slot && event.type === 'focusin') help.replaceChildren(passElement(store, slot));
         }
