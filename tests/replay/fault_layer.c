@@ -9,7 +9,7 @@
 
    GLINT_FAULT_STAY    a library that is not unloaded, so that a sanitizer can name what the driver never frees
 
-   What is not destroyed when its device is, is told on stderr.
+   What is not destroyed when its device is, is told on stderr. A call that destroys something while the device may still execute ends the process.
 
    A device of which any call has returned VK_ERROR_DEVICE_LOST is lost: from then on it executes nothing, and returns that from the calls that wait, submit
    and read results. Its other functions go on working, as the specification has it: objects of a lost device are created and destroyed. */
@@ -117,7 +117,7 @@ static const char *const call_names[] = {
 /* Instances and devices by the loader's table, to which queues, command buffers and physical devices point, too. */
 struct object {
     void *table;
-    bool lost;
+    bool lost, executes; /* executes: something was submitted, and nothing has waited for it */
     VkInstance instance;
     VkDevice device;
     long made[CALLS]; /* by each call, less those that were destroyed */
@@ -207,6 +207,7 @@ static void lose(struct object *object) {
     PFN_vkDeviceWaitIdle wait = (PFN_vkDeviceWaitIdle)object->next[CALL_DeviceWaitIdle];
     object->lost = true;
     wait(object->device);
+    object->executes = false;
 }
 
 static VkResult fault_of_device(struct object *object, enum call call, bool fails_when_lost) {
@@ -222,10 +223,23 @@ static void count_made(struct object *object, enum call call, long more) {
     pthread_mutex_unlock(&lock);
 }
 
+static void note_success(struct object *object, enum call call) {
+    count_made(object, call, 1);
+    if (call == CALL_QueueSubmit || call == CALL_QueueSubmit2) object->executes = true;
+    if (call == CALL_WaitForFences || call == CALL_QueueWaitIdle || call == CALL_DeviceWaitIdle) object->executes = false;
+}
+
+static void note_destroyed(struct object *object, enum call made_by, const char *name) {
+    count_made(object, made_by, -1);
+    if (!object->executes) return;
+    fprintf(stderr, "fault layer: vk%s while the device may execute\n", name);
+    abort();
+}
+
 #define DESTROY(made_by, name, type)                                                                                   \
     static VKAPI_ATTR void VKAPI_CALL fault_##name(VkDevice h, type one, const VkAllocationCallbacks *allocator) {     \
         struct object *object = object_find(h);                                                                       \
-        if (one) count_made(object, CALL_##made_by, -1);                                                               \
+        if (one) note_destroyed(object, CALL_##made_by, #name);                                                        \
         ((PFN_vk##name)object->next[CALL_##name])(h, one, allocator);                                                  \
     }
 DESTROYS
@@ -244,7 +258,7 @@ static void tell_left(const struct object *object) {
         struct object *object = object_find(h);                                                                       \
         VkResult result = fault_of_device(object, CALL_##name, fails);                                                 \
         if (!result) result = ((PFN_vk##name)object->next[CALL_##name])arguments;                                      \
-        if (!result) count_made(object, CALL_##name, 1);                                                               \
+        if (!result) note_success(object, CALL_##name);                                                                \
         return result;                                                                                                 \
     }
 DEVICE_CALLS
