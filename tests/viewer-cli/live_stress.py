@@ -85,7 +85,7 @@ class Tests:
                 client.join(SECONDS + 300)
             failed = [f for client in clients for f in client.failed]
             asked, given_up = sum(c.asked for c in clients), sum(c.given_up for c in clients)
-            said = live.end_and_read()
+            said = live.end(), live.read()
         print(f"# {asked} requests of {CLIENTS} clients, {given_up} given up")
         assert not failed, failed[:5]
         assert asked > CLIENTS and given_up < asked, (asked, given_up)

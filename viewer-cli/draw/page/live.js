@@ -12,8 +12,8 @@
             if (api.setToken(given.includes('#') ? given.split('#')[1].split('&')[0] : given)) start();
             else askToken('This is no token.');
         }}, element('h1', null, 'glint live'), why ? element('p', {class: 'message error', role: 'alert'}, why) : null,
-        element('p', {id: 'token-help'}, 'This page needs the token of the server that it talks to. The command glint live prints an address such as ' + `${location.origin}/#\u2026` +
-            ': open that address, or paste it here.'),
+        element('p', {id: 'token-help'}, 'This page needs the token of the server that it talks to. The command glint live prints an address such as ' +
+            `${location.origin}/#\u2026: open that address, or paste it here.`),
         element('label', {for: 'token'}, 'Address or token'), field, element('button', {type: 'submit'}, 'Open'));
         document.body.replaceChildren(form);
         field.focus();
@@ -22,8 +22,8 @@
 
     function fail(error) {
         if (error.status === 401) return askToken('The server does not know this token: it may have been started again since.');
-        document.body.replaceChildren(element('main', {class: 'token'}, element('h1', null, 'glint live'), element('p', {class: 'message error', role: 'alert'}, error.message),
-            element('button', {type: 'button', click: start}, 'Try again')));
+        document.body.replaceChildren(element('main', {class: 'token'}, element('h1', null, 'glint live'),
+            element('p', {class: 'message error', role: 'alert'}, error.message), element('button', {type: 'button', click: start}, 'Try again')));
         document.documentElement.dataset.ready = 'failed';
     }
 
@@ -31,7 +31,7 @@
         api.stream(`/api/v1/events?client=${api.client}`, event => {
             if (event.event === 'progress' && event.client === api.client) store.progress = {what: event.what, done: event.done};
             else if (event.event === 'idle') store.progress = null;
-            else if (event.event === 'changed') store.request();
+            else if (event.event === 'changed') { store.emit('files'); store.request(); }
             else if (event.event === 'notice') store.notice(event.text);
             else if (event.event === 'gone') { store.gone = true; store.setGone(true); }
             else if (event.event === 'connected') {
@@ -55,8 +55,8 @@
         document.body.classList.add('live');
         document.body.replaceChildren(glintLive.bar(store, [help, look.button]), glintLive.notes(store),
             element('main', {class: 'panels'}, glintLive.pipeline(store),
-                element('div', {class: 'middle'}, ...[glintLive.shot(store), picture, glintLive.warnings(store)].filter(e => e)),
-                element('div', {class: 'side'}, ...[pixel, glintLive.figures(store), glintLive.out(store)].filter(e => e))), keys);
+                element('div', {class: 'rest'}, element('div', {class: 'middle'}, ...[glintLive.shot(store), picture, glintLive.warnings(store)].filter(e => e)),
+                    element('div', {class: 'side'}, pixel, glintLive.figures(store), glintLive.out(store)))), keys);
         document.title = `glint live: ${glintChart.text(store.registry.captures[0]?.name)}`;
     }
 
@@ -92,7 +92,9 @@
         document.documentElement.dataset.ready = 'yes';
     }
 
-    api.onRefused(() => { if (document.documentElement.dataset.ready === 'yes') askToken('The server does not know this token any more: it may have been started again.'); });
+    api.onRefused(() => {
+        if (document.documentElement.dataset.ready === 'yes') askToken('The server does not know this token any more: it may have been started again.');
+    });
     document.documentElement.dataset.look = matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light';
     if (api.begin()) start(); else askToken('');
 })();

@@ -2,11 +2,11 @@
    glintLive.bar(store, buttons), glintLive.notes(store) and glintLive.warnings(store) are elements. */
 glintLive.bar = (function () {
     'use strict';
-    const {element, list} = glintParts;
+    const {element, list} = glintParts, {store: {bare}} = glintLive;
 
     function presetChooser(store) {
         const {presets} = store.registry;
-        const select = element('select', {id: 'preset', 'aria-label': 'preset', change: () => store.change(s => Object.assign(s, {preset: select.value, use: {}, set: {}, skip: [], force: []}))},
+        const select = element('select', {id: 'preset', 'aria-label': 'preset', change: () => store.change(s => bare(s.capture, select.value))},
             ...presets.map(p => element('option', {value: p.name, title: glintChart.text(p.title)}, p.name)));
         const update = () => {
             select.value = store.state.preset;
@@ -20,14 +20,14 @@ glintLive.bar = (function () {
     /* B: a menu of what can be pinned, and what is. */
     function pinChooser(store) {
         const select = element('select', {id: 'pin', 'aria-label': 'what B is', title: 'what A is compared with', change: () => choose(select.value)});
-        const swap = element('button', {type: 'button', id: 'swap', title: 'swap A and B (x)', click: () => store.swap()}, 'Swap A and B');
+        const swap = element('button', {type: 'button', id: 'swap', title: 'swap A and B (x)', click: () => store.swap()}, 'Swap');
         let shown = null;
 
         function choose(value) {
             const [kind, name] = JSON.parse(value);
             if (kind === 'none') store.unpin();
             else if (kind === 'now') store.pinState(store.state);
-            else if (kind === 'bare') store.pinState({capture: store.state.capture, preset: name, use: {}, set: {}, skip: [], force: []}, name);
+            else if (kind === 'bare') store.pinState(bare(store.state.capture, name), name);
             else if (kind === 'answer') store.pinAnswer(name, store.effect, name === 'truth' ? 'truth' : 'reference');
             update();
         }
@@ -41,7 +41,8 @@ glintLive.bar = (function () {
             const group = (label, options) => element('optgroup', {label}, ...options);
             select.replaceChildren(pinned ? option('kept', '', pinned.title) : option('none', '', 'nothing'),
                 ...(pinned ? [option('none', '', 'nothing')] : []), option('now', '', 'this state'),
-                ...(effect ? [group('what it should be', [...(truth ? [option('answer', 'truth', 'truth of the capture')] : []), option('answer', 'reference', registry.reference ? 'reference run' : 'reference (traced now)')])] : []),
+                ...(effect ? [group('what it should be', [...(truth ? [option('answer', 'truth', 'truth of the capture')] : []),
+                    option('answer', 'reference', registry.reference ? 'reference run' : 'reference (traced now)')])] : []),
                 group('a preset', registry.presets.map(p => option('bare', p.name, p.name))));
             select.selectedIndex = 0;
         }
@@ -72,8 +73,10 @@ glintLive.bar = (function () {
         store.on('state', update);
         update();
         const {registry} = store, [capture] = registry.captures;
-        return element('header', {class: 'bar'}, element('h1', {title: glintChart.text(`${registry.tool}, ${registry.device?.name}`)}, 'glint live', element('span', null, registry.captures.length > 1 ? `${registry.captures.length} captures` : capture?.name)),
-            presetChooser(store), element('span', {class: 'together'}, undo, redo), element('span', {class: 'together'}, ...pinChooser(store)), status(store), element('span', {class: 'ends'}, ...buttons));
+        const of = registry.captures.length > 1 ? `${registry.captures.length} captures` : capture?.name, together = (...parts) => element('span', {class: 'together'}, ...parts);
+        return element('header', {class: 'bar'},
+            element('h1', {title: glintChart.text(`${registry.tool}, ${registry.device?.name}`)}, 'glint live', element('span', null, of)),
+            presetChooser(store), together(undo, redo), together(...pinChooser(store)), status(store), element('span', {class: 'ends'}, ...buttons));
     };
 })();
 
@@ -82,10 +85,11 @@ glintLive.notes = (function () {
     const {element, list} = glintParts;
 
     function badTable(store, values) {
-        return element('div', {class: 'scroll'}, element('table', null, element('thead', null, element('tr', null, ...['pass', 'image', 'channel', 'pixel', 'value', 'how many'].map(t => element('th', {scope: 'col'}, t)))),
-            element('tbody', null, ...values.map(v => element('tr', null, element('td', null, v.slot), element('td', null, v.image), element('td', null, v.channel),
-                element('td', null, element('button', {type: 'button', title: 'show this pixel', click: () => store.setLook({image: v.image, x: v.x, y: v.y})}, `${v.x}, ${v.y}`)),
-                element('td', null, String(v.value)), element('td', {class: 'number'}, [v.not_finite ? `${v.not_finite} not finite` : '', v.clamped ? `${v.clamped} clamped` : ''].filter(t => t).join(', ')))))));
+        const button = v => element('button', {type: 'button', title: 'show this pixel', click: () => store.setLook({image: v.image, x: v.x, y: v.y})}, `${v.x}, ${v.y}`);
+        const counts = v => [v.not_finite ? `${v.not_finite} not finite` : '', v.clamped ? `${v.clamped} clamped` : ''].filter(t => t).join(', ');
+        const row = v => element('tr', null, ...[v.slot, v.image, v.channel, button(v), String(v.value), counts(v)].map(c => element('td', null, c)));
+        const heads = ['pass', 'image', 'channel', 'pixel', 'value', 'how many'].map(t => element('th', {scope: 'col'}, t));
+        return element('div', {class: 'scroll'}, element('table', null, element('thead', null, element('tr', null, ...heads)), element('tbody', null, ...values.map(row))));
     }
 
     /* What the replay warns of. */
@@ -98,7 +102,7 @@ glintLive.notes = (function () {
             if (key === shown) return;
             shown = key;
             box.hidden = !said.length && !bad.length;
-            box.firstChild.textContent = [some(said.length, 'warning'), some(bad.length, 'channel'), bad.length ? 'with values that are not finite' : null].filter(t => t).join(', ').replace(/, with/, ' with');
+            box.firstChild.textContent = [some(said.length, 'warning'), bad.length ? `${some(bad.length, 'channel')} with values that are not finite` : null].filter(t => t).join(', ');
             box.replaceChildren(box.firstChild, ...said.map(t => element('p', null, t)), ...(bad.length ? [badTable(store, bad)] : []));
         });
         return box;
@@ -110,7 +114,8 @@ glintLive.notes = (function () {
         const error = element('div', {class: 'message error', role: 'alert', hidden: ''}), news = element('div', {class: 'news', role: 'status'});
         const close = (label, f) => element('button', {type: 'button', class: 'close', 'aria-label': label, title: label, click: f}, '\u00d7');
         /* What was refused is said at its control, where that is on the page; what failed is said over the picture. */
-        const standsAtControl = () => store.refusal.names.some(name => [...document.querySelectorAll('.parameter')].some(row => row.dataset.name === name && row.offsetParent));
+        const rowOf = name => [...document.querySelectorAll('.parameter')].find(row => row.dataset.name === name);
+        const standsAtControl = () => store.refusal.names.some(name => rowOf(name)?.offsetParent);
         store.on('refused', () => {
             error.hidden = !store.refusal || standsAtControl();
             error.replaceChildren(...(error.hidden ? [] : [element('p', null, store.refusal.message), close('dismiss the message', store.clearRefusal)]));

@@ -83,7 +83,8 @@ glintLive.control = (function () {
     function numberControl(p, act, label) {
         let places = placesOf(p, []), preset = p.default, drag = '', typing = false;
         const slider = element('input', {type: 'range', min: 0, step: 1, 'aria-label': label});
-        const field = element('input', {type: 'text', inputmode: 'decimal', class: 'exact', 'aria-label': `${label}, exact value`, autocomplete: 'off', spellcheck: 'false'});
+        const field = element('input', {type: 'text', inputmode: 'decimal', class: 'exact', 'aria-label': `${label}, exact value`,
+            autocomplete: 'off', spellcheck: 'false'});
         const marks = [element('i', {class: 'mark default', title: `default: ${text(p.default)}`}), element('i', {class: 'mark preset'})];
         const track = element('span', {class: 'track'}, slider, ...marks);
 
@@ -159,8 +160,8 @@ glintLive.control = (function () {
         }}, short);
         const revert = element('button', {type: 'button', class: 'revert', click: () => { act.revert(); inner.focus.focus(); }}, '\u21ba');
         const refusal = element('p', {class: 'refusal', role: 'alert', hidden: ''});
-        const row = element('div', {class: `parameter ${p.choices ? 'choice' : p.type}`, 'data-name': p.name}, name, element('span', {class: 'value'}, ...inner.parts),
-            element('span', {class: 'unit'}, unitOf(p)), revert, refusal, help);
+        const row = element('div', {class: `parameter ${p.choices ? 'choice' : p.type}`, 'data-name': p.name}, name,
+            element('span', {class: 'value'}, ...inner.parts), element('span', {class: 'unit'}, unitOf(p)), revert, refusal, help);
         inner.focus.setAttribute('aria-describedby', help.id);
         return {row, parameter: p, show({value, preset, refused}) {
             inner.show(value, preset, refused);

@@ -44,10 +44,10 @@ glintLive.keys = (function () {
     return function (store, look) {
         const help = element('dialog', {class: 'help-keys', 'aria-label': 'Keys'});
         const keys = table(store, look, help);
-        help.append(element('h2', null, 'Keys'), element('dl', null, ...keys.flatMap(([name, what]) => [element('dt', null, ...name.split('+').flatMap((k, i) => [i ? '+' : null, element('kbd', null, k)])), element('dd', null, what)]),
-            element('dt', null, element('kbd', null, 'Tab')), element('dd', null, 'the next control; arrow keys move sliders, Shift and arrow keys in the picture go by ten pixels'),
-            element('dt', null, element('kbd', null, 'Esc')), element('dd', null, 'leaves the search, closes this list')),
-        element('form', {method: 'dialog'}, element('button', null, 'Close')));
+        const entry = (name, what) => [element('dt', null, ...name.split('+').flatMap((k, i) => [i ? '+' : null, element('kbd', null, k)])), element('dd', null, what)];
+        help.append(element('h2', null, 'Keys'), element('dl', null, ...keys.flatMap(([name, what]) => entry(name, what)),
+            ...entry('Tab', 'the next control; arrow keys move sliders, Shift and arrow keys in the picture go by ten pixels'),
+            ...entry('Esc', 'leaves the search, closes this list')), element('button', {type: 'button', click: () => help.close()}, 'Close'));
         document.addEventListener('keydown', event => {
             if (event.key === 'Escape' && event.target.id === 'search') {
                 event.target.value = '';

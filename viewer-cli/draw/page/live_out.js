@@ -40,7 +40,8 @@ glintLive.out = (function () {
             return b;
         };
         const command = element('pre', {class: 'command', tabindex: 0, 'aria-label': 'command line that gives the same run'});
-        const name = element('input', {type: 'text', 'aria-label': 'name of the preset or of the run folder', value: 'mine', spellcheck: 'false', autocomplete: 'off'});
+        const name = element('input', {type: 'text', 'aria-label': 'name of the preset or of the run folder', value: 'mine',
+            spellcheck: 'false', autocomplete: 'off'});
         const link = element('pre', {class: 'command link', tabindex: 0, 'aria-label': 'link to this state', hidden: ''});
 
         async function savePreset() {
@@ -70,13 +71,15 @@ glintLive.out = (function () {
         for (const on of ['slots', 'state', 'pinned']) store.on(on, update);
         update();
         return element('section', {class: 'panel out', id: 'out', 'aria-label': 'Out', tabindex: -1}, element('h2', null, 'Out'), command,
-            element('div', {class: 'tools'}, button('Copy command', 'the command line that gives the same run (c)', () => toClipboard(store.command, command), 'copy-command'),
+            element('div', {class: 'tools'},
+                button('Copy command', 'the command line that gives the same run (c)', () => toClipboard(store.command, command), 'copy-command'),
                 button('Copy link', 'a link to this state and look, without the token', () => {
                     link.hidden = false;
                     link.textContent = store.link();
                     return toClipboard(store.link(), link);
                 }, 'copy-link'), report),
-            element('div', {class: 'tools'}, element('label', null, 'Name ', name), button('Save preset', 'a preset file with these variants and parameters', savePreset, 'save-preset'),
+            element('div', {class: 'tools'}, element('label', null, 'Name ', name),
+                button('Save preset', 'a preset file with these variants and parameters', savePreset, 'save-preset'),
                 store.registry.out ? button('Write run folder', 'a folder as glint replay -o writes it', write, 'write-run') : null), link, said);
     };
 })();

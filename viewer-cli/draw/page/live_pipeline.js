@@ -2,9 +2,9 @@
    All of it comes from the registry and from what the server says of the state. glintLive.pipeline(store) is the element. */
 glintLive.pipeline = (function () {
     'use strict';
-    const {element, list} = glintParts;
+    const {element, list} = glintParts, {store: {bare}} = glintLive;
     const NONE = 'none'; /* as in --use SLOT=none */
-    const KEPT = 'up to date';
+    const KEPT = 'up to date', SKIPPED = 'skipped: what reads its images gets fallback values';
 
     function milliseconds(ns) { return `${glintChart.number(+(ns / 1e6).toPrecision(3))} ms`; }
 
@@ -68,16 +68,18 @@ glintLive.pipeline = (function () {
         const info = store.registry.passes.find(p => p.slot === slot);
         const variants = store.registry.passes.filter(p => p.slot === slot);
         const fold = element('button', {type: 'button', class: 'fold', 'aria-expanded': 'false', 'aria-label': `${slot}: parameters`, click: toggle});
-        const on = element('input', {type: 'checkbox', 'aria-label': `${slot}: runs`, title: 'off: the pass is skipped, and what reads its images gets fallback values (--skip)', change: () =>
+        const on = element('input', {type: 'checkbox', 'aria-label': `${slot}: runs`, title: `off: ${SKIPPED} (--skip)`, change: () =>
             store.change(s => { s.skip = on.checked ? remove(s.skip, slot) : [...remove(s.skip, slot), slot]; s.force = remove(s.force, slot); })});
         const variant = element('select', {'aria-label': `${slot}: variant`, change: () => store.change(s => useVariant(store, s, slot, variant.value))},
-            ...variants.map(v => element('option', {value: v.variant, title: glintChart.text(`${v.title}, ${v.source}`)}, v.variant)), element('option', {value: NONE}, NONE));
+            ...variants.map(v => element('option', {value: v.variant, title: glintChart.text(`${v.title}, ${v.source}`)}, v.variant)),
+            element('option', {value: NONE}, NONE));
         const force = element('button', {type: 'button', class: 'force', title: 'run it even if the plan finds that it is not needed (--force)', click: () =>
             store.change(s => { s.force = s.force.includes(slot) ? remove(s.force, slot) : [...s.force, slot]; })}, 'Run anyway');
-        const revert = element('button', {type: 'button', class: 'revert', 'aria-label': `${slot}: back to the preset`, title: 'all of this slot back to the preset', click: () =>
-            { store.change(s => revertSlot(s, slot)); fold.focus(); }}, '\u21ba');
+        const revert = element('button', {type: 'button', class: 'revert', 'aria-label': `${slot}: back to the preset`, title: 'all of this slot back to the preset',
+            click: () => { store.change(s => revertSlot(s, slot)); fold.focus(); }}, '\u21ba');
         const time = element('span', {class: 'bar time'}), fetches = element('span', {class: 'bar fetches'}), note = element('p', {class: 'why'});
-        const title = element('button', {type: 'button', class: 'title', tabindex: -1, title: glintChart.text(info?.slot_title), click: toggle}, element('b', null, slot), ' ', element('span', {class: 'faint'}, info?.slot_title));
+        const title = element('button', {type: 'button', class: 'title', tabindex: -1, title: glintChart.text(info?.slot_title), click: toggle},
+            element('b', null, slot), ' ', element('span', {class: 'faint'}, info?.slot_title));
         const row = element('div', {class: 'head'}, fold, on, title, revert, variant, time, fetches, note, force);
         return {row, fold, on, variant, force, revert, time, fetches, note};
     }
@@ -85,7 +87,7 @@ glintLive.pipeline = (function () {
     /* Why a pass did not run, or what it ran with. */
     function noteOf(state, slot, variant, pass, said, counted) {
         if (variant === NONE) return 'not in the pipeline';
-        if (state.skip.includes(slot)) return 'skipped: what reads its images gets fallback values';
+        if (state.skip.includes(slot)) return SKIPPED;
         const words = [];
         if (pass && !pass.ran && !pass.cached) words.push(`left out: ${pass.reason || 'nothing needs it'}`);
         if (pass?.cached && counted) words.push(KEPT);
@@ -117,7 +119,8 @@ glintLive.pipeline = (function () {
             const pass = variantOf(store, slot, variant);
             controls = list(pass?.parameters).map(p => parameterControl(store, p));
             const from = pass ? element('p', {class: 'faint'}, `${pass.title}${pass.source ? ` \u00b7 source: ${pass.source}` : ''}`) : null;
-            body.replaceChildren(...[from, ...controls.map(c => c.row), pass && !controls.length ? element('p', {class: 'faint'}, 'No parameters.') : null].filter(e => e));
+            const none = pass && !controls.length ? element('p', {class: 'faint'}, 'No parameters.') : null;
+            body.replaceChildren(...[from, ...controls.map(c => c.row), none].filter(e => e));
         }
 
         function update(said, scale) {
@@ -136,12 +139,12 @@ glintLive.pipeline = (function () {
             const forced = state.force.includes(slot);
             head.force.hidden = !forced && (!pass || pass.ran || pass.cached || !head.on.checked);
             head.force.setAttribute('aria-pressed', String(forced));
-            const ns = pass?.ns;
+            const ns = pass?.ns, known = Number.isFinite(counted);
             bar(head.time, Number.isFinite(ns) ? milliseconds(ns) : '', Number.isFinite(ns) ? ns / scale.ns : 0,
                 pass?.cached_work ? 'runs when a cube map changes only, not in every frame' : 'time on the device when it last ran');
-            bar(head.fetches, Number.isFinite(counted) ? `${count(counted)} fetches` : pass?.cached ? KEPT : '', Number.isFinite(counted) ? counted / scale.fetches : 0,
-                Number.isFinite(counted) ? 'texture fetches of all rays of a frame' : 'nothing that it depends on has changed, so it was not run again');
-            head.fetches.classList.toggle('kept', !Number.isFinite(counted));
+            bar(head.fetches, known ? `${count(counted)} fetches` : pass?.cached ? KEPT : '', known ? counted / scale.fetches : 0,
+                known ? 'texture fetches of all rays of a frame' : 'nothing that it depends on has changed, so it was not run again');
+            head.fetches.classList.toggle('kept', !known);
         }
 
         /* Whether it stands in the list: what is looked for, and whether only what differs shall. */
@@ -157,7 +160,7 @@ glintLive.pipeline = (function () {
             fold();
             return !row.hidden;
         }
-        return {row, update, filter, open(yes) { open = yes; fold(); }};
+        return {row, update, filter, variant: () => shown};
     }
 
     /* What there is to read about a slot. */
@@ -169,6 +172,13 @@ glintLive.pipeline = (function () {
     }
 
     /* ---- Slots that the pipeline lacks ---- */
+
+    function addRow(store, slot, passes) {
+        const add = p => element('button', {type: 'button', 'aria-label': `add ${slot}: ${p.variant}`, title: glintChart.text(`${p.title}, ${p.source}`),
+            click: () => store.change(s => useVariant(store, s, slot, p.variant))}, p.variant);
+        return element('div', {class: 'add'}, element('span', null, element('b', null, slot), ' ', element('span', {class: 'faint'}, passes[0].slot_title)),
+            element('span', {class: 'variants'}, ...passes.map(add)));
+    }
 
     function missing(store) {
         const box = element('details', {class: 'missing'}, element('summary', null, 'Add a pass'));
@@ -185,10 +195,7 @@ glintLive.pipeline = (function () {
             shown = key;
             box.hidden = !left.length;
             box.replaceChildren(box.firstChild, ...left.map(g => element('section', null, element('h3', {title: glintChart.text(g.about)}, g.title),
-                ...[...new Set(g.passes.map(p => p.slot))].map(slot => element('div', {class: 'add'}, element('span', null, element('b', null, slot), ' ',
-                    element('span', {class: 'faint'}, g.passes.find(p => p.slot === slot).slot_title)),
-                    element('span', {class: 'variants'}, ...g.passes.filter(p => p.slot === slot).map(p => element('button', {type: 'button', 'aria-label': `add ${slot}: ${p.variant}`,
-                        title: glintChart.text(`${p.title}, ${p.source}`), click: () => store.change(s => useVariant(store, s, slot, p.variant))}, p.variant))))))));
+                ...[...new Set(g.passes.map(p => p.slot))].map(slot => addRow(store, slot, g.passes.filter(p => p.slot === slot))))));
         };
         return box;
     }
@@ -202,9 +209,10 @@ glintLive.pipeline = (function () {
     }
 
     function tools(store, filter) {
-        const search = element('input', {type: 'search', id: 'search', placeholder: 'Search passes, parameters, help', 'aria-label': 'Search passes, parameters and their help', input: filter});
+        const search = element('input', {type: 'search', id: 'search', placeholder: 'Search passes, parameters, help',
+            'aria-label': 'Search passes, parameters and their help', input: filter});
         const only = element('input', {type: 'checkbox', change: filter});
-        const all = element('button', {type: 'button', title: 'everything back to the preset', click: () => store.change(s => Object.assign(s, {use: {}, set: {}, skip: [], force: []}))}, 'Reset all');
+        const all = element('button', {type: 'button', title: 'everything back to the preset', click: () => store.change(s => bare(s.capture, s.preset))}, 'Reset all');
         const head = element('div', {class: 'tools'}, element('h2', null, 'Pipeline'), element('label', null, only, ' only what differs'), all);
         return {bars: [head, element('div', {class: 'tools'}, search)], search, only, all};
     }
@@ -220,7 +228,8 @@ glintLive.pipeline = (function () {
         function filter() {
             const words = bars.search.value.toLowerCase().split(/\s+/).filter(w => w), only = bars.only.checked;
             const left = order.filter(s => rows.get(s).filter(words, only)).length;
-            for (const c of general) c.row.hidden = !words.every(w => `${c.parameter.name} ${c.parameter.help}`.toLowerCase().includes(w)) || (only && !(c.parameter.name in store.state.set));
+            for (const {row, parameter: p} of general)
+                row.hidden = !words.every(w => `${p.name} ${p.help}`.toLowerCase().includes(w)) || (only && !(p.name in store.state.set));
             add.update(words, order);
             if (words.length && !only) add.open = !left && !add.hidden;
             add.classList.toggle('unwanted', only);
@@ -245,7 +254,8 @@ glintLive.pipeline = (function () {
         /* What has the focus is explained in a place of its own, so that nothing moves under the pointer. */
         function explain(event) {
             const name = event.target.closest?.('.parameter')?.dataset.name, slot = event.target.closest?.('.slot')?.dataset.slot;
-            const found = name && [...list(store.registry.pipeline), ...store.registry.passes.flatMap(p => p.slot === slot ? p.parameters : [])].find(p => p.name === name);
+            const own = variantOf(store, slot, rows.get(slot)?.variant())?.parameters;
+            const found = name && [...list(store.registry.pipeline), ...list(own)].find(p => p.name === name);
             if (found) help.replaceChildren(glintLive.control.helpElement(found));
             else if (slot && event.type === 'focusin') help.replaceChildren(passElement(store, slot));
         }

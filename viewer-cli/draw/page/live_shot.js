@@ -14,7 +14,8 @@ glintLive.shot = (function () {
             store.emit('changed');
         };
         const play = element('button', {type: 'button', class: 'play', click: () => setPlaying(!store.playing)});
-        const slider = element('input', {type: 'range', min: 0, max: last, step: 1, 'aria-label': 'frame of the shot', input: () => { setPlaying(false); seek(+slider.value); }});
+        const slider = element('input', {type: 'range', min: 0, max: last, step: 1, 'aria-label': 'frame of the shot',
+            input: () => { setPlaying(false); seek(+slider.value); }});
         const name = element('span', {class: 'frame-name', 'aria-live': 'polite'});
         const cuts = captures.flatMap((c, i) => {
             if (!c.cut || i === 0) return [];
@@ -22,7 +23,7 @@ glintLive.shot = (function () {
             mark.style.setProperty('--at', i / last);
             return [mark];
         });
-        const step = (by, text, label) => element('button', {type: 'button', 'aria-label': label, title: label, click: () => { setPlaying(false); seek(store.state.capture + by); }}, text);
+        const step = (by, text, label) => element('button', {type: 'button', 'aria-label': label, title: label, click: () => store.seek(by)}, text);
 
         /* The next frame is asked for when this one is there. */
         let asked = 0;

@@ -13,8 +13,11 @@ glintLive.store = (function () {
     }
 
     function complete(state, start) {
-        return {capture: start.capture || 0, preset: start.preset, use: {}, set: {}, skip: [], force: [], ...copy(state)};
+        return {...bare(start.capture || 0, start.preset), ...copy(state)};
     }
+
+    /* A preset as it is. */
+    function bare(capture, preset) { return {capture, preset, use: {}, set: {}, skip: [], force: []}; }
 
     /* ---- The permalink: #s= and base64url of {"state", "look"} ---- */
 
@@ -155,5 +158,5 @@ glintLive.store = (function () {
         return store;
     }
 
-    return Object.assign(make, {keyOf, copy, linked});
+    return Object.assign(make, {keyOf, copy, bare, linked});
 })();

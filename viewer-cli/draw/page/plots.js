@@ -135,7 +135,7 @@
         columns.className = detailed ? 'chart detailed' : 'chart';
         left.textContent = leftOut(read.left);
         self.table = points.length ? pointTable(self.data, k => select(self, k)) : null;
-        summary.textContent = `Its ${points.length} points as a table`;
+        summary.textContent = points.length === 1 ? 'Its point as a table' : `Its ${points.length} points as a table`;
         fold.replaceChildren(summary, ...(self.table ? [self.table] : []));
         attach(title, chart.title, e => result.prepend(e));
         attach(aside, detailed, e => columns.append(e));
