@@ -65,7 +65,7 @@ class Film:
                  "(document.getElementById('film-pointer'))")
         self.browser.settle()
         path = os.path.join(self.folder, f"{len(self.frames):03}.png")
-        self.browser.picture(path, WIDTH, HEIGHT, scale=SCALE)
+        self.browser.screenshot(path, scale=SCALE)
         self.frames.append((path, ms))
 
     def move(self, x, y, steps=6):
@@ -163,7 +163,10 @@ def story(film):
     film.say("Error and time of all that was tried; a click on a point goes back to it")
     film.ask("document.querySelector('.tried').scrollIntoView({block: 'center'})")
     film.browser.settle()
-    film.shot(700)
+    film.shot(900)
+    points = film.ask("(r => [r.x, r.y, r.width, r.height])(document.querySelector('.tried svg').getBoundingClientRect())")
+    film.move(points[0] + points[2] * 0.4, points[1] + points[3] * 0.5)
+    film.shot(1800)
 
 
 def main():
