@@ -75,7 +75,8 @@ bool run_prepare(struct run *run, struct glint_error *err) {
             images += (uint32_t)step->dispatch_count * row_is_image(&pass->rows[r]);
     }
     const uint32_t sums = rays_sums(run);
-    if (!descriptors_create(run->gpu, sets + sums + quick, images + 2 * sums + 1, quick, &run->descriptors, err)) return false;
+    if (!descriptors_create(run->gpu, sets + sums + quick, images + 2 * sums + 1, quick, &run->descriptors, err))
+        return false;
     for (size_t p = 0; p < graph->pass_count; p++)
         if (run->steps[p].execute && !step_describe(run, &run->steps[p], err)) return false;
     if (quick && !prepare_values(run, err)) return false;

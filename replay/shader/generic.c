@@ -221,7 +221,7 @@ static void emit(struct turning *t, const uint32_t *words, size_t count) {
 }
 /* An instruction from its operands. */
 #define EMIT(t, code, ...)                                                                                             \
-    emit(t, (const uint32_t[]){(uint32_t)(sizeof((uint32_t[]){0, __VA_ARGS__}) / 4) << 16 | (code), __VA_ARGS__},     \
+    emit(t, (const uint32_t[]){(uint32_t)(sizeof((uint32_t[]){0, __VA_ARGS__}) / 4) << 16 | (code), __VA_ARGS__},      \
          sizeof((uint32_t[]){0, __VA_ARGS__}) / 4)
 
 static void emit_decorations(struct turning *t) {

@@ -30,7 +30,7 @@ struct constants {
     VkSpecializationMapEntry entries[CONSTANTS_MAX];
     uint32_t data[CONSTANTS_MAX];
     uint32_t count;
-    uint64_t parameters; /* bits of the indices of those that are values of parameters */
+    uint64_t parameters;               /* bits of the indices of those that are values of parameters */
     uint32_t push[PUSH_BYTES_MAX / 4]; /* the first one is the MIP level of the dispatch */
     uint32_t push_count;
     bool probed; /* the shader records probed pixels */
@@ -52,10 +52,11 @@ VkDescriptorType row_descriptor(const struct glint_row *row);
 
 struct programs {
     struct program *first;
-    struct generic *generic;      /* modules that read parameters from memory */
-    VkDescriptorSetLayout frame;  /* set 1 */
-    VkDescriptorSetLayout values; /* set 2 of generic programs: a uniform buffer with a dynamic offset, VALUES_BYTES for each pass */
-    uint64_t compiled;            /* pipelines created so far */
+    struct generic *generic;     /* modules that read parameters from memory */
+    VkDescriptorSetLayout frame; /* set 1 */
+    VkDescriptorSetLayout
+        values; /* set 2 of generic programs: a uniform buffer with a dynamic offset, VALUES_BYTES for each pass */
+    uint64_t compiled; /* pipelines created so far */
     VkSampler linear, nearest;
 };
 bool programs_init(struct programs *programs, struct gpu *gpu, struct glint_error *err);

@@ -80,8 +80,9 @@ static void check_module(void **state, const struct glint_pass *pass, const uint
                          size_t *turned_all, size_t *kept_all) {
     static struct listing before, after;
     /* What neither loads values nor is computed from constants stays. */
-    static const char *const same[] = {"OpFunction", "OpLabel", "OpStore", "OpExtInst", "OpFMul", "OpFAdd", "OpPhi",
-                                       "OpImageFetch", "OpBranchConditional", "OpFunctionCall"};
+    static const char *const same[] = {
+        "OpFunction", "OpLabel", "OpStore",      "OpExtInst",           "OpFMul",
+        "OpFAdd",     "OpPhi",   "OpImageFetch", "OpBranchConditional", "OpFunctionCall"};
     const struct places places = places_of(pass);
     uint64_t turned;
     size_t generic_bytes;
@@ -117,8 +118,91 @@ static void the_module_of_every_pass_is_valid(void **state) {
     assert_true(turned > 300 / every);
 }
 
+/* ---- Users' shaders ---- */
+
+#define START                                                                                                          \
+    "#version 460\n"                                                                                                   \
+    "#extension GL_GOOGLE_include_directive : require\n"                                                               \
+    "#extension GL_EXT_samplerless_texture_functions : require\n"                                                      \
+    "#include \"shared/bindings.glsl\"\n"                                                                              \
+    "#include \"march.pass.h\"\n"                                                                                      \
+    "#include \"shared/push_begin.glsl\"\n"                                                                            \
+    "#include \"march.pass.h\"\n"                                                                                      \
+    "};\n"
+#define STORE "imageStore(travelled, ivec2(gl_GlobalInvocationID.xy), vec4(x));"
+
+/* A pass that declares nothing but its output, at binding 4. */
+static const struct glint_row bare_row = {.kind = GLINT_ROW_WRITE, .id = 4, .name = "o", .glsl = "image2D"};
+static const struct glint_pass bare = {.slot = "cubemap_trace", .variant = "bare", .rows = &bare_row, .row_count = 1};
+static const struct places bare_places = {
+    .ids = {[FIRST_PLACE] = 3}, .parameters = 1 << FIRST_PLACE, .names = {[FIRST_PLACE] = "mine"}};
+
+static void check_users_shader(void **state, const char *text, const char *stay) {
+    static struct listing listing;
+    const bool alone = strncmp(text, START, strlen(START)) != 0;
+    const struct glint_pass *pass = alone ? &bare : glint_pass_find("cubemap_trace", "march");
+    const struct places places = alone ? bare_places : places_of(pass);
+    const struct fixture *fixture = *state;
+    struct shaders shaders;
+    struct spirv spirv = {0};
+    struct glint_error err = {0};
+    char path[200], names[400] = "";
+    uint64_t turned;
+    size_t bytes;
+    snprintf(path, sizeof path, "%s/mine.comp", fixture->folder);
+    FILE *file = fopen(path, "w");
+    assert_true(file && fputs(text, file) >= 0 && fclose(file) == 0);
+    assert_true(shaders_init(&shaders, NULL, &err));
+    if (!spirv_find(&spirv, &shaders, &(struct pipeline_pass){.pass = pass, .shader = path}, &err))
+        fail_msg("%s: %s", text, err.message);
+    uint32_t *generic = spirv_generic(spirv.words, spirv.bytes, places.ids, places.parameters, &turned, &bytes);
+    assert_non_null(generic);
+    list(state, generic, bytes, &listing);
+    const uint64_t left = constants_in(&listing, &places);
+    for (uint32_t place = FIRST_PLACE; place < SPIRV_PLACES; place++)
+        if (left >> place & 1) strcat(strcat(names, places.names[place]), " ");
+    assert_string_equal(names, stay);
+    assert_true(turned == (places.parameters & ~left));
+    list_free(&listing);
+    free(generic);
+    shaders_finish(&shaders);
+}
+
+/* Catches: a constant that is read from memory where SPIR-V wants a constant, and one that needlessly is not. */
+static void constants_stay_where_they_must(void **state) {
+    static const struct {
+        const char *text, *stay; /* names of parameters, each followed by a blank */
+    } cases[] = {
+        {START "void main() { float x = steps_hq; " STORE " }", ""},
+        {START "void main() { float x[steps_hq]; x[3] = 1; imageStore(travelled, ivec2(0), vec4(x[steps_lq])); }",
+         "steps_hq "},
+        {START "shared float y[2 * steps_hq + chain]; void main() { y[refinements] = 2; barrier(); float x = y[1] + "
+               "chain; " STORE " }",
+         "steps_hq chain "},
+        {START "const ivec2 both = ivec2(steps_hq, steps_lq); void main() { float x = both[gl_LocalInvocationIndex % "
+               "2] + both.y; " STORE " }",
+         ""},
+        {START "float y = rough_level; float f(float z) { return verify ? z * rough_level : y; }\n"
+               "void main() { float x = secant ? f(1) : f(float(count)); " STORE " }",
+         ""},
+        {START "void main() { float x = 0; for (int i = 0; i < steps_hq; i++) { if (i > refinements && !verify) break; "
+               "x += i; }\n"
+               "switch (count + loop) { case 1: x += 2; break; default: x += 3; } " STORE " }",
+         ""},
+        {START "layout(constant_id = 2000) const int mine = 2; void main() { float x = mine * steps_hq; " STORE " }",
+         ""},
+        {START "void main() { float x = 1; " STORE " }", ""},
+        /* neither unsigned integers nor what glint declares */
+        {"#version 460\nlayout(constant_id = 3) const float mine = 1;\nfloat f() { return mine; }\n"
+         "layout(set = 0, binding = 4, r32f) uniform image2D o;\nvoid main() { imageStore(o, ivec2(0), vec4(f())); }",
+         ""},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) check_users_shader(state, cases[i].text, cases[i].stay);
+}
+
 int main(int argc, char **argv) {
     if (argc > 1) every = (size_t)atoi(argv[1]);
-    const struct CMUnitTest tests[] = {cmocka_unit_test(the_module_of_every_pass_is_valid)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(the_module_of_every_pass_is_valid),
+                                       cmocka_unit_test(constants_stay_where_they_must)};
     return cmocka_run_group_tests(tests, fixture_setup_host, fixture_teardown);
 }
