@@ -244,7 +244,7 @@ struct glint_pass_result {
     bool cached;      /* its images were still up to date, so that it did not execute */
     bool cached_work; /* it depends on cube maps alone: its cost arises when a cube map changes, not every frame */
     char reason[400];
-    bool quick; /* its time is that of a program that reads parameters from memory */
+    bool quick;             /* its time is that of a program that reads parameters from memory */
     struct glint_time time; /* n = 0 when not timed */
     uint64_t texels;        /* as in struct glint_plan_entry */
     uint64_t
