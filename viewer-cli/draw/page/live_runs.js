@@ -80,7 +80,8 @@ glintLive.runs = (function () {
 
         /* What another client's run gave up is asked again, and then waits its turn. */
         async function run(state, draft, urgent, signal) {
-            const body = {state, draft, urgent, client: api.client};
+            /* Where passes are fast, the compiling of programs for a new value is what takes long. */
+            const body = {state, draft, urgent, quick: draft || !registry.device.cpu, client: api.client};
             try {
                 return await api.post('/api/v1/run', body, signal);
             } catch (error) {
