@@ -2,13 +2,18 @@
 
    GLINT_FAULT_CALL    the name of a function, such as vkAllocateMemory
    GLINT_FAULT_RESULT  what it returns, such as VK_ERROR_OUT_OF_DEVICE_MEMORY; VK_ERROR_DEVICE_LOST without it
-   GLINT_FAULT_FROM    the number of its first call that fails, 1 without it, counted in the process
+   GLINT_FAULT_FROM    the number of its first call that fails, 1 without it, counted in the process since one of these variables changed
    GLINT_FAULT_TIMES   how many calls fail; all from the first on without it
    GLINT_FAULT_FILE    while a file of this name exists, devices are lost at the next call that a lost device fails, and none can be created
    GLINT_FAULT_COUNTS  a file to which each process appends how often it called each function, when its last instance is destroyed
 
+   GLINT_FAULT_STAY    a library that is not unloaded, so that a sanitizer can name what the driver never frees
+
+   What is not destroyed when its device is, is told on stderr. A call that destroys something while the device may still execute ends the process.
+
    A device of which any call has returned VK_ERROR_DEVICE_LOST is lost: from then on it executes nothing, and returns that from the calls that wait, submit
    and read results. Its other functions go on working, as the specification has it: objects of a lost device are created and destroyed. */
+#include <dlfcn.h>
 #include <pthread.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -56,6 +61,23 @@
 #define INSTANCE_CALLS \
     INSTANCE_CALL(EnumeratePhysicalDevices, (VkInstance h, uint32_t *a, VkPhysicalDevice *b), (h, a, b)) \
     INSTANCE_CALL(GetPhysicalDeviceImageFormatProperties, (VkPhysicalDevice h, VkFormat a, VkImageType b, VkImageTiling c, VkImageUsageFlags d, VkImageCreateFlags e, VkImageFormatProperties *f), (h, a, b, c, d, e, f))
+/* DESTROY(the call that makes it, the one that destroys it, its type): what has to be destroyed before the device is */
+#define DESTROYS \
+    DESTROY(AllocateMemory, FreeMemory, VkDeviceMemory) \
+    DESTROY(CreateBuffer, DestroyBuffer, VkBuffer) \
+    DESTROY(CreateBufferView, DestroyBufferView, VkBufferView) \
+    DESTROY(CreateImage, DestroyImage, VkImage) \
+    DESTROY(CreateImageView, DestroyImageView, VkImageView) \
+    DESTROY(CreateSampler, DestroySampler, VkSampler) \
+    DESTROY(CreateShaderModule, DestroyShaderModule, VkShaderModule) \
+    DESTROY(CreatePipelineCache, DestroyPipelineCache, VkPipelineCache) \
+    DESTROY(CreatePipelineLayout, DestroyPipelineLayout, VkPipelineLayout) \
+    DESTROY(CreateComputePipelines, DestroyPipeline, VkPipeline) \
+    DESTROY(CreateDescriptorSetLayout, DestroyDescriptorSetLayout, VkDescriptorSetLayout) \
+    DESTROY(CreateDescriptorPool, DestroyDescriptorPool, VkDescriptorPool) \
+    DESTROY(CreateCommandPool, DestroyCommandPool, VkCommandPool) \
+    DESTROY(CreateQueryPool, DestroyQueryPool, VkQueryPool) \
+    DESTROY(CreateFence, DestroyFence, VkFence)
 /* clang-format on */
 
 enum call {
@@ -68,7 +90,17 @@ enum call {
     CALL_CreateDevice,
     CALLS
 };
-enum { CALL_DestroyInstance = CALLS, CALL_DestroyDevice, CALL_GetInstanceProcAddr, CALL_GetDeviceProcAddr, FUNCTIONS };
+/* Functions that cannot fail. */
+enum {
+    CALL_DestroyInstance = CALLS,
+    CALL_DestroyDevice,
+    CALL_GetInstanceProcAddr,
+    CALL_GetDeviceProcAddr,
+#define DESTROY(made_by, name, type) CALL_##name,
+    DESTROYS
+#undef DESTROY
+        FUNCTIONS
+};
 
 static const char *const call_names[] = {
 #define DEVICE_CALL(fails, name, parameters, arguments) "vk" #name,
@@ -76,19 +108,25 @@ static const char *const call_names[] = {
     DEVICE_CALLS INSTANCE_CALLS
 #undef DEVICE_CALL
 #undef INSTANCE_CALL
-    "vkCreateInstance", "vkCreateDevice", "vkDestroyInstance", "vkDestroyDevice", "vkGetInstanceProcAddr", "vkGetDeviceProcAddr"};
+    "vkCreateInstance", "vkCreateDevice", "vkDestroyInstance", "vkDestroyDevice", "vkGetInstanceProcAddr", "vkGetDeviceProcAddr",
+#define DESTROY(made_by, name, type) "vk" #name,
+    DESTROYS
+#undef DESTROY
+};
 
 /* Instances and devices by the loader's table, to which queues, command buffers and physical devices point, too. */
 struct object {
     void *table;
-    bool lost;
+    bool lost, executes; /* executes: something was submitted, and nothing has waited for it */
     VkInstance instance;
     VkDevice device;
+    long made[CALLS]; /* by each call, less those that were destroyed */
     PFN_vkVoidFunction next[FUNCTIONS]; /* of the layer below, which has to be asked while the object is created */
 };
 static struct object objects[64];
 static size_t object_count, instance_count;
-static unsigned long counts[CALLS];
+static unsigned long counts[CALLS], since; /* since: calls of GLINT_FAULT_CALL since the variables changed */
+static char variables[512];
 static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
 
 static void *table_of(const void *handle) {
@@ -147,13 +185,18 @@ static bool file_is_there(void) {
 
 /* Counts the call. VK_SUCCESS: it is passed on. */
 static VkResult fault_of(enum call call) {
-    pthread_mutex_lock(&lock);
-    const unsigned long number = ++counts[call];
-    pthread_mutex_unlock(&lock);
     const char *name = getenv("GLINT_FAULT_CALL");
     const unsigned long from = number_of("GLINT_FAULT_FROM", 1), times = number_of("GLINT_FAULT_TIMES", 0);
-    if (!name || strcmp(name, call_names[call]) != 0 || number < from || (times && number >= from + times))
-        return VK_SUCCESS;
+    const bool named = name && strcmp(name, call_names[call]) == 0;
+    char now[sizeof variables];
+    snprintf(now, sizeof now, "%s %lu %lu", name ? name : "", from, times);
+    pthread_mutex_lock(&lock);
+    counts[call]++;
+    if (strcmp(now, variables) != 0) since = 0;
+    memcpy(variables, now, sizeof now);
+    const unsigned long number = since += named;
+    pthread_mutex_unlock(&lock);
+    if (!named || number < from || (times && number >= from + times)) return VK_SUCCESS;
     return result_of_name(getenv("GLINT_FAULT_RESULT"));
 }
 
@@ -164,6 +207,7 @@ static void lose(struct object *object) {
     PFN_vkDeviceWaitIdle wait = (PFN_vkDeviceWaitIdle)object->next[CALL_DeviceWaitIdle];
     object->lost = true;
     wait(object->device);
+    object->executes = false;
 }
 
 static VkResult fault_of_device(struct object *object, enum call call, bool fails_when_lost) {
@@ -173,11 +217,49 @@ static VkResult fault_of_device(struct object *object, enum call call, bool fail
     return result;
 }
 
+static void count_made(struct object *object, enum call call, long more) {
+    pthread_mutex_lock(&lock);
+    object->made[call] += more;
+    pthread_mutex_unlock(&lock);
+}
+
+static void note_success(struct object *object, enum call call) {
+    count_made(object, call, 1);
+    if (call == CALL_QueueSubmit || call == CALL_QueueSubmit2) object->executes = true;
+    if (call == CALL_WaitForFences || call == CALL_QueueWaitIdle || call == CALL_DeviceWaitIdle) object->executes = false;
+}
+
+static void note_destroyed(struct object *object, enum call made_by, const char *name) {
+    count_made(object, made_by, -1);
+    if (!object->executes) return;
+    fprintf(stderr, "fault layer: vk%s while the device may execute\n", name);
+    abort();
+}
+
+#define DESTROY(made_by, name, type)                                                                                   \
+    static VKAPI_ATTR void VKAPI_CALL fault_##name(VkDevice h, type one, const VkAllocationCallbacks *allocator) {     \
+        struct object *object = object_find(h);                                                                       \
+        if (one) note_destroyed(object, CALL_##made_by, #name);                                                        \
+        ((PFN_vk##name)object->next[CALL_##name])(h, one, allocator);                                                  \
+    }
+DESTROYS
+#undef DESTROY
+
+static void tell_left(const struct object *object) {
+#define DESTROY(made_by, name, type)                                                                                   \
+    if (object->made[CALL_##made_by])                                                                                  \
+        fprintf(stderr, "fault layer: %ld of vk%s are not destroyed\n", object->made[CALL_##made_by], #made_by);
+    DESTROYS
+#undef DESTROY
+}
+
 #define DEVICE_CALL(fails, name, parameters, arguments)                                                                \
     static VKAPI_ATTR VkResult VKAPI_CALL fault_##name parameters {                                                    \
         struct object *object = object_find(h);                                                                       \
-        const VkResult result = fault_of_device(object, CALL_##name, fails);                                           \
-        return result ? result : ((PFN_vk##name)object->next[CALL_##name])arguments;                         \
+        VkResult result = fault_of_device(object, CALL_##name, fails);                                                 \
+        if (!result) result = ((PFN_vk##name)object->next[CALL_##name])arguments;                                      \
+        if (!result) note_success(object, CALL_##name);                                                                \
+        return result;                                                                                                 \
     }
 DEVICE_CALLS
 #undef DEVICE_CALL
@@ -195,6 +277,7 @@ static VKAPI_ATTR void VKAPI_CALL fault_DestroyDevice(VkDevice device, const VkA
     if (!device) return;
     struct object *object = object_find(device);
     PFN_vkDestroyDevice next = (PFN_vkDestroyDevice)object->next[CALL_DestroyDevice];
+    tell_left(object);
     object->table = NULL;
     next(device, allocator);
 }
@@ -278,6 +361,9 @@ static PFN_vkVoidFunction own_function(const char *name, bool of_device) {
         {"vkDestroyInstance", false, (PFN_vkVoidFunction)fault_DestroyInstance},
         {"vkCreateDevice", false, (PFN_vkVoidFunction)fault_CreateDevice},
         {"vkDestroyDevice", true, (PFN_vkVoidFunction)fault_DestroyDevice},
+#define DESTROY(made_by, name, type) {"vk" #name, true, (PFN_vkVoidFunction)fault_##name},
+        DESTROYS
+#undef DESTROY
         {"vkGetInstanceProcAddr", false, (PFN_vkVoidFunction)fault_GetInstanceProcAddr},
         {"vkGetDeviceProcAddr", true, (PFN_vkVoidFunction)fault_GetDeviceProcAddr},
     };
@@ -301,6 +387,8 @@ VK_LAYER_EXPORT VKAPI_ATTR VkResult VKAPI_CALL
 vkNegotiateLoaderLayerInterfaceVersion(VkNegotiateLayerInterface *interface);
 
 VKAPI_ATTR VkResult VKAPI_CALL vkNegotiateLoaderLayerInterfaceVersion(VkNegotiateLayerInterface *interface) {
+    const char *stay = getenv("GLINT_FAULT_STAY");
+    if (stay) dlopen(stay, RTLD_LAZY | RTLD_NODELETE);
     if (interface->loaderLayerInterfaceVersion > 2) interface->loaderLayerInterfaceVersion = 2;
     interface->pfnGetInstanceProcAddr = fault_GetInstanceProcAddr;
     interface->pfnGetDeviceProcAddr = fault_GetDeviceProcAddr;

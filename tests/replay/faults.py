@@ -31,7 +31,11 @@ class Faults:
         self.slots = {name.split("-", 1)[1][:-4] for name in os.listdir(os.path.join(self.folder, "whole")) if name != "run.json"}
 
     def environment(self, **fault):
-        layers = {"VK_LAYER_PATH": sys.argv[2], "VK_INSTANCE_LAYERS": "VK_LAYER_GLINT_fault"}
+        # The driver keeps memory of its own; what of Vulkan is not destroyed, the layer tells.
+        leaks = os.path.join(self.folder, "leaks")
+        with open(leaks, "w", encoding="utf-8") as file:
+            file.write("leak:libvulkan_lvp\nleak:libLLVM\n")
+        layers = {"LSAN_OPTIONS": f"suppressions={leaks}:print_suppressions=0", "GLINT_FAULT_STAY": "libvulkan_lvp.so", "VK_LAYER_PATH": sys.argv[2], "VK_INSTANCE_LAYERS": "VK_LAYER_GLINT_fault"}
         return {**os.environ, **layers, **{f"GLINT_FAULT_{name}": str(value) for name, value in fault.items()}}
 
     def run(self, *words, **fault):
@@ -59,7 +63,7 @@ class Faults:
         run = self.run("replay", self.capture, "--preset", PRESET, "-o", out, CALL=call, FROM=number, RESULT=result, TIMES=times)
         said = f"{call} {number} {result}: exit {run.returncode}\n{run.stderr}"
         assert run.returncode in (1, 2, 3, 4, 5), said
-        assert "Sanitizer" not in run.stderr and "runtime error" not in run.stderr, said
+        assert not any(word in run.stderr for word in ("Sanitizer", "runtime error", "not destroyed")), said
         assert RESULTS[result] in run.stderr, said
         assert call in EARLY or self.capture in run.stderr or (call.endswith("DescriptorSetLayout") and number == 1) or self.before_capture(call, number), said
         assert not os.path.exists(out), (said, os.listdir(out))
@@ -82,14 +86,12 @@ class Faults:
         assert len(calls) >= 25 and tried > 60
 
     def test_a_pass_that_runs_is_named(self):
-        """The last submissions read images back; those with timestamps before them run passes."""
+        """The last submissions read images back, those before them run passes, and the first ones upload images."""
         named = set()
-        for number in range(1, self.counts["vkGetQueryPoolResults"] + 1):
-            said = self.expect("vkGetQueryPoolResults", number, "VK_ERROR_DEVICE_LOST")
-            named |= {slot for slot in self.slots if f" {slot}/" in said}
-        for number in range(1, self.counts["vkCreateComputePipelines"] + 1):
-            said = self.expect("vkCreateComputePipelines", number, "VK_ERROR_OUT_OF_DEVICE_MEMORY")
-            named |= {slot for slot in self.slots if f" {slot}/" in said}
+        for call in ("vkWaitForFences", "vkGetQueryPoolResults"):
+            for number in range(max(1, self.counts[call] - 20), self.counts[call] + 1):
+                said = self.expect(call, number, "VK_ERROR_DEVICE_LOST")
+                named |= {slot for slot in self.slots if f"running {slot}/" in said}
         assert self.slots <= named, (self.slots, named)
 
     def test_waiting_without_end_does_no_harm(self):
@@ -106,7 +108,8 @@ class Faults:
     def test_an_old_run_outlives_a_fault(self):
         """A run that fails before it writes leaves the folder of an earlier one as it is."""
         out = os.path.join(self.folder, "kept")
-        tap.glint("replay", self.capture, "--preset", PRESET, "-o", out)
+        run = self.run("replay", self.capture, "--preset", PRESET, "-o", out)
+        assert run.returncode == 0, run.stderr
         before = sorted(os.listdir(out))
         run = self.run("replay", self.capture, "--preset", PRESET, "-o", out, CALL="vkWaitForFences", FROM=20)
         assert run.returncode != 0 and sorted(os.listdir(out)) == before, run

@@ -2,6 +2,7 @@
 import http.client
 import json
 import subprocess
+import tempfile
 
 
 class Refused(Exception):
@@ -12,10 +13,11 @@ class Refused(Exception):
 
 class Live:
     def __init__(self, glint, *arguments, **more):
-        self.process = subprocess.Popen([glint, "live", *map(str, arguments)], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **more)
+        self.said = tempfile.TemporaryFile("w+")  # a pipe that nobody reads would stop the server
+        self.process = subprocess.Popen([glint, "live", *map(str, arguments)], stdout=subprocess.PIPE, stderr=self.said, text=True, **more)
         line = self.process.stdout.readline().strip()
         if "/#" not in line:
-            raise RuntimeError(f"no address: {line} {self.process.stderr.read()}")
+            raise RuntimeError(f"no address: {line} {self.read()}")
         self.address = line
         base, self.token = line.split("/#")
         self.host = base.removeprefix("http://")
@@ -44,11 +46,16 @@ class Live:
     def post(self, path, **body):
         return self.ask("POST", path, body)
 
+    def read(self):
+        """What it has written to stderr."""
+        self.process.wait(60)
+        self.said.seek(0)
+        return self.said.read()
+
     def end(self):
         """The exit status."""
         if self.process.poll() is None:
             self.process.terminate()
         status = self.process.wait(60)
         self.process.stdout.close()
-        self.process.stderr.close()
         return status

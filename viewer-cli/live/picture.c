@@ -162,8 +162,37 @@ static void answer_raw(struct http_answer *answer, const struct picture *picture
     free(text);
 }
 
+struct counting {
+    const struct source *source;
+    pthread_mutex_t lock;
+    size_t invalid;
+};
+
+static void count_rows(void *user, uint32_t first, uint32_t end) {
+    struct counting *c = user;
+    const struct source *s = c->source;
+    const uint32_t channels = s->components < 3 ? s->components : 3;
+    size_t invalid = 0;
+    for (size_t i = (size_t)first * s->width; i < (size_t)end * s->width; i++) {
+        bool bad = false;
+        for (uint32_t k = 0; k < channels; k++) bad |= !isfinite(s->texels[i * s->components + k]);
+        invalid += bad;
+    }
+    pthread_mutex_lock(&c->lock);
+    c->invalid += invalid;
+    pthread_mutex_unlock(&c->lock);
+}
+
+/* Pixels of a colour image that are NaN or infinite. */
+static size_t count_invalid(const struct source *source) {
+    struct counting counting = {source, PTHREAD_MUTEX_INITIALIZER, 0};
+    rows_share(source->height, count_rows, &counting);
+    return counting.invalid;
+}
+
+/* `whole`: the image of which the source is every n-th texel, or the source itself; all of its texels are checked. */
 static void answer_picture(struct live *live, const struct http_request *request, const struct source *source,
-                           struct render_options *options, struct http_answer *answer) {
+                           const struct source *whole, struct render_options *options, struct http_answer *answer) {
     struct picture picture = {0};
     struct legend legend = {0};
     struct glint_error err = {0};
@@ -173,12 +202,14 @@ static void answer_picture(struct live *live, const struct http_request *request
     if (!query_choice(request, "format", formats, &format, &err) ||
         !draw(live, &picture, &legend, source, options, &invalid, &err))
         http_error(answer, &err);
+    else if (format == 1 && whole != source) answer_raw(answer, &picture, &legend, count_invalid(whole));
     else if (format == 1) answer_raw(answer, &picture, &legend, invalid);
     else answer_png(answer, &picture);
     picture_finish(&picture);
 }
 
-/* Every n-th texel of the image in both directions: enough for a picture that is shown smaller. */
+/* Every n-th texel of the image in both directions: enough for a colour picture that is shown smaller. The ranges of false colours are
+   those of all texels, so that these pictures stay whole. */
 static bool take_every(const struct source *source, uint32_t every, struct source *few, struct glint_error *err) {
     const uint32_t n = source->components;
     *few = *source;
@@ -203,9 +234,10 @@ static void answer_source(struct live *live, const struct http_request *request,
     if (!query_number(request, "every", &every, &given, &err)) http_error(answer, &err);
     else if (!(every >= 1 && every <= MOST && every == floor(every)))
         http_refuse(answer, 400, "usage", "every: expected a whole number from 1 to 64");
-    else if (every == 1 || source->cube) answer_picture(live, request, source, options, answer);
+    else if (every == 1 || source->cube || render_kind(source, options) != KIND_COLOR)
+        answer_picture(live, request, source, source, options, answer);
     else if (take_every(source, (uint32_t)every, &few, &err)) {
-        answer_picture(live, request, &few, options, answer);
+        answer_picture(live, request, &few, source, options, answer);
         source_finish(&few);
     } else http_error(answer, &err);
 }
@@ -347,8 +379,9 @@ void live_answer_values(void *user, const struct http_request *request, struct h
         http_error(answer, &err);
         return;
     }
-    if (width < 1 || height < 1 || x >= width || y >= height || json_array_size(of) > MOST) {
-        http_refuse(answer, 400, "usage", "expected size: [width, height], x and y inside of it, and at most 8 images");
+    if (width < 1 || height < 1 || x >= width || y >= height || !json_is_array(of) || json_array_size(of) > MOST) {
+        http_refuse(answer, 400, "usage",
+                    "expected size: [width, height], x and y inside of it, and of: an array of at most 8 images");
         return;
     }
     json_t *list = json_array(), *which;

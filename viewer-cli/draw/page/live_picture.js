@@ -3,6 +3,7 @@
 glintLive.picture = (function () {
     'use strict';
     const {element} = glintParts, {api, images, view, fetch} = glintLive;
+    const RESIZE_MS = 150; /* after the last change of the window */
     const HEAT = 'alone0'; /* the mode of the stage in which the heat map is seen */
 
     const frameOf = store => store.registry.captures[store.state.capture]?.size || [16, 9];
@@ -88,7 +89,7 @@ glintLive.picture = (function () {
         const ask = fetch.newest((x, y) => values(self, x, y));
         self.stage = glintStage.stage({title: 'Picture', pictures: pictures(self)}, glintParts.page(), {
             values: ask, pick: (x, y) => pick(self, x, y), over: self.over.e,
-            change: look => { self.look = look; store.setLook(look); if (look.mode === HEAT) refresh(self); },
+            change: look => { self.look = look; store.setLook(look); refresh(self); },
             state: {mode: store.look.mode || 'slider', zoom: store.look.zoom || 0},
         });
         self.look = {mode: store.look.mode || 'slider', zoom: store.look.zoom || 0};
@@ -97,6 +98,8 @@ glintLive.picture = (function () {
         for (const what of ['error', 'progress']) store.on(what, () => self.over.draw(store, self.wrong));
         store.on('truth', () => self.stage.read());
         store.on('look', () => follow(self));
+        let resized = 0;
+        new ResizeObserver(() => { clearTimeout(resized); resized = setTimeout(() => askAll(self), RESIZE_MS); }).observe(self.stage);
         draw(self);
         refresh(self);
         return e;
@@ -120,6 +123,15 @@ glintLive.picture = (function () {
         return `/api/v1/${what}?${query}`;
     }
 
+    /* Texels that the screen has no room for need not be sent. */
+    function few(self, image) {
+        const room = self.stage.room(), every = Math.floor(image.width / room);
+        return room && every > 1 && !image.cube ? {every: Math.min(every, 64)} : {};
+    }
+
+    /* The size of an image, which the picture of a cube map is not. */
+    const sizeOfPicture = ({head, image}) => image.cube ? [head.width, head.height] : [image.width, image.height];
+
     function refresh(self) {
         askAll(self);
         mark(self);
@@ -131,7 +143,7 @@ glintLive.picture = (function () {
         const {result, pinned, look} = self.store, {A} = self.shown;
         const image = result && images.chosen(result, look.image);
         if (!image) return;
-        request(self, 'A', {path: path('picture', {run: result.run, image: image.name}, look), what: image.name, run: result.run, image,
+        request(self, 'A', {path: path('picture', {run: result.run, image: image.name, ...few(self, image)}, look), what: image.name, run: result.run, image,
             draft: result.draft, capture: result.state.capture});
         const other = pinned && images.chosen(pinned.result, image.name);
         if (!other) {
@@ -143,7 +155,7 @@ glintLive.picture = (function () {
         if (!A || A.image.name !== image.name) return;
         const same = A.head.range && look.low === null && look.high === null
             ? {low: A.head.range[0], high: A.head.range[1], scale: A.head.key?.scale?.log ? 'log' : 'linear'} : {};
-        request(self, 'B', {path: path('picture', {run: pinned.result.run, image: other.name, ...same}, look), what: `${pinned.result.run} ${other.name}`,
+        request(self, 'B', {path: path('picture', {run: pinned.result.run, image: other.name, ...same, ...few(self, other)}, look), what: `${pinned.result.run} ${other.name}`,
             run: pinned.result.run, image: other, title: pinned.title});
         if (self.look.mode !== HEAT) return;
         const named = other.name === A.image.name ? {} : {other_image: other.name};
@@ -162,7 +174,7 @@ glintLive.picture = (function () {
         self.shown[which] = {...wish, ...picture};
         self.wrong[which] = null;
         if (which === 'A') {
-            if (!wish.draft) self.sizes.set(`${wish.capture} ${wish.what}`, [head.width, head.height]);
+            if (!wish.draft) self.sizes.set(`${wish.capture} ${wish.what}`, sizeOfPicture(self.shown.A));
             if (self.shown.A?.image.name !== self.last) self.notOfFrame = '';
             self.last = wish.image.name;
             if (self.shown.D && self.shown.D.what.split(' ')[1] !== wish.what) self.shown.D = null;
@@ -180,7 +192,7 @@ glintLive.picture = (function () {
     /* The size that A stands for: a draft is shown as large as the whole picture. */
     function sizeOf({shown: {A}, sizes, store}) {
         if (!A) return frameOf(store);
-        const own = [A.head.width, A.head.height], draft = A.draft && store.registry.captures[store.state.capture]?.draft;
+        const own = sizeOfPicture(A), draft = A.draft && store.registry.captures[store.state.capture]?.draft;
         if (!A.draft) return own;
         return sizes.get(`${A.capture} ${A.what}`) || (draft && own[0] === draft[0] && own[1] === draft[1] ? frameOf(store) : own);
     }

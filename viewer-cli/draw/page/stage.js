@@ -110,6 +110,7 @@ const glintStage = (function () {
         self.result.mark = (x, y) => { self.picked = [x, y]; drawMarks(self); };
         self.result.pointed = () => state.x < 0 ? null : [state.x, state.y];
         self.result.read = () => point(self);
+        self.result.room = () => room(self);
         self.result.set = ({mode, zoom}) => {
             if (mode) state.mode = mode;
             if (zoom !== undefined) self.zoom.set(zoom);
@@ -220,6 +221,12 @@ const glintStage = (function () {
     }
 
     /* As wide as its column, or by whole pixels behind a window as high as the whole would be, so that what is zoomed stays in place. */
+    /* The width on the screen of one picture, in its pixels; 0: unknown, or all of the picture's own pixels are to be seen. */
+    function room(self) {
+        const width = self.frame.clientWidth / (self.mode() === 'beside' ? 2 : 1);
+        return self.state.zoom ? 0 : Math.round(width * devicePixelRatio);
+    }
+
     function size(self, zoom) {
         const {frame, scroll, slider, view} = self, {scrollLeft, scrollTop} = scroll;
         const [width, height] = grid(self) || natural(self), two = self.mode() === 'beside' ? 2 : 1;
