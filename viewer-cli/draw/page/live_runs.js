@@ -184,7 +184,8 @@ glintLive.runs = (function () {
         /* B follows to another frame. */
         async function follow() {
             const b = store.pinned, capture = store.state.capture;
-            if (!b || store.playing || b.result.state.capture === capture || store.busy()) return;
+            if (!b || store.playing || b.result.state.capture === capture || store.busy() || b.tried === capture) return;
+            b.tried = capture; /* there may be no answer for it */
             if (b.of) await store.pinAnswer(b.of, b.effect, b.title);
             else await store.pinState({...b.result.state, capture}, b.title);
         }
