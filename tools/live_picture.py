@@ -49,11 +49,13 @@ class Film:
 
     def quiet(self):
         """Until nothing replays or is measured any more, and the page stays as it is."""
-        text, since = None, 0
+        text, since, end = None, 0, time.monotonic() + 300
         while time.monotonic() - since < 0.9 or not self.ask("!glintLive.shown.busy() && !glintLive.shown.result.draft"):
             now = self.ask("document.body.innerText + [...document.querySelectorAll('[aria-busy]')].map(e => e.getAttribute('aria-busy'))")
             if now != text or "true" in now[-40:]:
                 text, since = now, time.monotonic()
+            if time.monotonic() > end:
+                sys.exit("live_picture: the page does not come to rest")
             time.sleep(0.05)
 
     def say(self, text):
