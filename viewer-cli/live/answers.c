@@ -29,15 +29,16 @@ static bool check_types(const json_t *body, struct glint_error *err) {
     static const struct {
         const char *name;
         int type;
-    } members[] = {{"draft", FLAG},  {"quick", FLAG},  {"urgent", FLAG}, {"reference", FLAG},       {"client", TEXT},
-                   {"effect", TEXT}, {"name", TEXT},   {"of", TEXT},     {"against", TEXT_OR_NULL}, {"metrics", LIST}};
+    } members[] = {{"draft", FLAG},  {"quick", FLAG}, {"urgent", FLAG}, {"reference", FLAG},       {"client", TEXT},
+                   {"effect", TEXT}, {"name", TEXT},  {"of", TEXT},     {"against", TEXT_OR_NULL}, {"metrics", LIST}};
     for (size_t i = 0; i < sizeof members / sizeof *members; i++) {
         const json_t *json = json_object_get(body, members[i].name);
         const int type = members[i].type;
         const bool fits = type == FLAG   ? json_is_boolean(json)
                           : type == LIST ? json_is_array(json)
                                          : json_is_string(json) || (type == TEXT_OR_NULL && json_is_null(json));
-        if (json && !fits) return glint_fail(err, GLINT_ERROR_USAGE, "%s: expected %s", members[i].name, expected[type]);
+        if (json && !fits)
+            return glint_fail(err, GLINT_ERROR_USAGE, "%s: expected %s", members[i].name, expected[type]);
     }
     return true;
 }
