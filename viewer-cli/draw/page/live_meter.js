@@ -50,7 +50,7 @@ glintLive.meter = (function () {
 
         self.measure = async (rounds, asked) => {
             const {result} = store;
-            if (!result || result.draft || !store.effect || !self.measurable() || (self.running && !asked)) return;
+            if (!result || result.draft || !store.effect || (self.running && !asked)) return;
             const state = copy(result.state), mine = self.running = {key: keyFor(state, against())};
             const wanted = () => self.running === mine && isShown(state);
             self.error = null;
@@ -77,12 +77,11 @@ glintLive.meter = (function () {
         /* Never against the reference, whose rays take minutes. */
         self.isAutomatic = () => self.against !== 'reference' && (self.automatic === null ? !!store.result && store.result.seconds < QUICK_S : self.automatic);
         /* Figures are of pipelines as the plan runs them. */
-        self.measurable = () => !store.state.skip.length && !store.state.force.length;
         self.isCurrent = () => !!self.figures && !!store.result && self.figures.key === keyFor(store.result.state, against());
         /* After a whole frame: what is known already costs nothing, the rest is measured where that was asked for. */
         self.follow = () => {
             const {result} = store;
-            if (!result || result.draft || store.busy() || store.playing || !self.measurable() || !isShown(result.state)) return;
+            if (!result || result.draft || store.busy() || store.playing || !isShown(result.state)) return;
             const known = cache.get(keyFor(result.state, against()));
             if (known || self.isAutomatic()) self.measure(0, false);
         };
