@@ -114,7 +114,7 @@ bool programs_init(struct programs *programs, struct gpu *gpu, struct glint_erro
     const VkDescriptorSetLayoutCreateInfo info = {
         .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, .bindingCount = 4, .pBindings = bindings};
     if (!gpu_ok(gpu, vkCreateDescriptorSetLayout(gpu->device, &info, NULL, &programs->frame),
-               "creating the layout of the frame", err))
+                "creating the layout of the frame", err))
         return false;
     device_set_name(gpu, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, (uint64_t)(uintptr_t)programs->frame, "frame");
     return true;
