@@ -1,5 +1,6 @@
 /* glint probe: records what every pass does for one pixel. */
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "command.h"
@@ -68,16 +69,19 @@ static bool run_reference(const struct arguments *a, struct probe *probe, struct
                           struct glint_error *err) {
     if (a->alone) return true;
     struct glint_pipeline *reference = probe_reference(pipeline, err);
-    const bool ok = reference && probe_run(probe, &probe->reference, replay, reference, options, err);
+    const bool ok = reference && probe_run(probe, &probe->reference, replay, reference, options, NULL, NULL, err);
     glint_pipeline_destroy(&reference);
     probe->has_reference = ok;
     return ok;
 }
 
 static enum status report(const struct arguments *a, const struct probe *probe, struct glint_error *err) {
-    if (a->out && !probe_draw(a->out, probe, err)) return command_fail(&cmd_probe, err);
+    char *drawing = a->out ? probe_draw(probe, err) : NULL;
+    const bool ok = !a->out || (drawing && output_text(a->out, drawing, err));
+    free(drawing);
+    if (!ok) return command_fail(&cmd_probe, err);
     if (a->json) return print_json(probe_json(probe));
-    probe_print(probe);
+    probe_print(stdout, probe);
     return STATUS_DONE;
 }
 
@@ -92,7 +96,7 @@ static enum status print_probe(const struct arguments *a, struct opened *opened,
     const struct glint_part_info *picture = glint_capture_find(opened->capture, "gbuffer");
     if (picture) probe.full[0] = picture->width, probe.full[1] = picture->height;
     const bool ok = glint_replay_load(replay, opened->capture, err) &&
-                    probe_run(&probe, &probe.own, replay, pipeline, &options, err) &&
+                    probe_run(&probe, &probe.own, replay, pipeline, &options, NULL, NULL, err) &&
                     run_reference(a, &probe, replay, pipeline, &options, err);
     const enum status status = ok ? report(a, &probe, err) : command_fail(&cmd_probe, err);
     probe_side_finish(&probe.own);

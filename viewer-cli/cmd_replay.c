@@ -388,24 +388,11 @@ static enum status replay_all(struct job *job) {
     return status;
 }
 
-/* The requested or default cache folder; NULL: none. The caller frees it. */
-static char *cache_folder(const char *asked) {
-    const char *named = asked ? asked : getenv("GLINT_CACHE");
-    const char *base = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
-    char *folder = NULL;
-    int length = 0;
-    if (named && strcmp(named, "none") == 0) return NULL;
-    if (named && named[0]) length = asprintf(&folder, "%s", named);
-    else if (base && base[0] == '/') length = asprintf(&folder, "%s/glint", base);
-    else if (home && home[0] == '/') length = asprintf(&folder, "%s/.cache/glint", home);
-    return length > 0 ? folder : NULL;
-}
-
 static enum status cmd_replay_run(int argc, char **argv) {
     struct arguments a = {0};
     metric_args_complete(argc, argv);
     command_parse(&cmd_replay, argc, argv, &a);
-    char *cache = cache_folder(a.cache);
+    char *cache = pipeline_args_cache(a.cache);
     a.pipeline.replay.cache = cache;
     struct job job = {.a = &a, .against = &a.against, .warned = json_object()};
     struct glint_error err = {0};

@@ -44,6 +44,7 @@ extern const struct command
     cmd_strip,
     cmd_plan,
     cmd_replay,
+    cmd_live,
     cmd_reference,
     cmd_compare,
     cmd_sweep,

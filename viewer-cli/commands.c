@@ -16,6 +16,7 @@ const struct command *const commands[] = {
     &cmd_strip,
     &cmd_plan,
     &cmd_replay,
+    &cmd_live,
     &cmd_reference,
     &cmd_compare,
     &cmd_sweep,

@@ -33,6 +33,9 @@ bool size_is_cube(enum glint_size_class size) {
     return (size_is_array(size) && size != GLINT_SIZE_PARABOLOIDS_MIPS) || size == GLINT_SIZE_SKY ||
            size == GLINT_SIZE_SKY_MIPS || size == GLINT_SIZE_PROBE_MIPS;
 }
+bool glint_row_is_cube(const struct glint_row *row) {
+    return size_is_cube(row->size);
+}
 bool size_has_levels(enum glint_size_class size) {
     return glint_size_is_picture(size) ? glint_size_levels(size) != 1
                                        : size == GLINT_SIZE_CUBEMAPS_MIPS || size == GLINT_SIZE_SKY_MIPS ||

@@ -86,6 +86,7 @@ void pool_finish(struct pool *pool) {
     if (!pool->gpu) return;
     pool_drop(pool, true);
     host_buffer_finish(&pool->staging, pool->gpu);
+    host_buffer_finish(&pool->readback, pool->gpu);
 }
 
 bool pool_stage(struct pool *pool, VkDeviceSize size, struct glint_error *err) {

@@ -35,6 +35,7 @@ struct pool {
     struct frame_source *source;
     struct pooled *images;
     struct host_buffer staging;
+    struct host_buffer readback; /* of single images */
     uint64_t runs;    /* number of runs so far */
     uint32_t number;  /* frame number of the last loaded frame */
     bool loaded, ran; /* a frame was loaded; a run of it succeeded */

@@ -72,15 +72,16 @@ bool pool_read_image(struct pool *pool, const struct glint_image *info, enum gli
     if (!same && type != (uint ? GLINT_U32 : GLINT_F32))
         return glint_fail(err, GLINT_ERROR_USAGE, "image %s is %s: it can be read as its own type or as %s", info->name,
                           format_name(image->image.desc.format), uint ? "uint" : "float");
-    struct host_buffer buffer = {0};
+    struct host_buffer *buffer = &pool->readback; /* kept, as new memory is slow to get */
     VkDeviceSize offset;
-    bool ok = pool_readback(pool, &(struct image_part){image, info}, 1, &buffer, &offset, err);
+    bool ok = pool_readback(pool, &(struct image_part){image, info}, 1, buffer, &offset, err);
     const size_t count = (size_t)info->width * info->height * info->components;
-    if (ok && same) memcpy(out, buffer.map, count * value_bytes);
+    if (ok && same) memcpy(out, buffer->map, count * value_bytes);
     else if (ok && uint)
-        for (size_t i = 0; i < count; i++) ((uint32_t *)out)[i] = ((const uint8_t *)buffer.map)[i];
+        for (size_t i = 0; i < count; i++) ((uint32_t *)out)[i] = ((const uint8_t *)buffer->map)[i];
     else if (ok)
-        for (size_t i = 0; i < count; i++) ((float *)out)[i] = imath_half_to_float(((const uint16_t *)buffer.map)[i]);
-    host_buffer_finish(&buffer, pool->gpu);
+        for (size_t i = 0; i < count; i++) ((float *)out)[i] = imath_half_to_float(((const uint16_t *)buffer->map)[i]);
+    enum { KEPT_BYTES = 64 << 20 };
+    if (buffer->size > KEPT_BYTES) host_buffer_finish(buffer, pool->gpu);
     return ok;
 }

@@ -24,6 +24,7 @@ struct glint_judge {
     uint32_t round;
     struct measured *measured;
     size_t measured_count;
+    const char *const *skip, *const *force;
 };
 
 const char *glint_target_name(enum glint_target target) {
@@ -75,6 +76,11 @@ bool glint_judge_load(struct glint_judge *judge, struct glint_capture *capture, 
     judge->capture = capture;
     judge->pixels = (size_t)gbuffer->width * gbuffer->height;
     return (judge->labels = glint_study_labels(capture, judge->options.effect, err)) != NULL;
+}
+
+void glint_judge_override(struct glint_judge *judge, const char *const *skip, const char *const *force) {
+    judge->skip = skip;
+    judge->force = force;
 }
 
 struct glint_replay *glint_judge_replay(struct glint_judge *judge) {
@@ -200,6 +206,8 @@ bool glint_judge_evaluate(struct glint_judge *judge, const struct glint_pipeline
     const struct glint_replay_options options = {.results = judge->options.effect->results,
                                                  .diagnostics = true,
                                                  .all = judge->options.all,
+                                                 .skip = judge->skip,
+                                                 .force = judge->force,
                                                  .keep_bytes = judge->options.keep_bytes,
                                                  .lineage = lineage};
     const struct target *targets[GLINT_TARGET_COUNT] = {NULL};
@@ -262,6 +270,8 @@ bool glint_judge_time(struct glint_judge *judge, const struct glint_pipeline *pi
                       struct glint_cost *cost, glint_progress progress, void *user, struct glint_error *err) {
     const struct glint_replay_options options = {.results = judge->options.effect->results,
                                                  .all = judge->options.all,
+                                                 .skip = judge->skip,
+                                                 .force = judge->force,
                                                  .repeat = 1,
                                                  .warmup = 1,
                                                  .no_cache = whole,

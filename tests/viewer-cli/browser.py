@@ -2,6 +2,7 @@
 import base64
 import json
 import os
+import re
 import shutil
 import subprocess
 import tempfile
@@ -112,9 +113,25 @@ class Browser:
             raise RuntimeError(f"{expression}: {result['exceptionDetails']}")
         return result["result"].get("value")
 
-    def mouse(self, kind, x, y):
-        button = "none" if kind == "mouseMoved" else "left"
-        self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button=button, clickCount=0 if button == "none" else 1)
+    def mouse(self, kind, x, y, button=None, **more):
+        """`button`: the one that is pressed or held; by default none of a moved pointer, and the left one."""
+        button = button or ("none" if kind == "mouseMoved" else "left")
+        held = {} if kind == "mouseReleased" else {"buttons": {"none": 0, "left": 1, "middle": 4}[button]}
+        self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button=button, clickCount=0 if kind == "mouseMoved" else 1, **held, **more)
+
+    def drag(self, path, button="left"):
+        """Presses at the first place, moves over the others, and lets go at the last."""
+        self.point_at(*path[0])
+        self.settle()
+        self.mouse("mousePressed", *path[0], button)
+        for place in path[1:]:
+            self.mouse("mouseMoved", *place, button)
+        self.mouse("mouseReleased", *path[-1], button)
+        self.settle()
+
+    def wheel(self, x, y, down, ctrl=False):
+        self.call("Input.dispatchMouseEvent", type="mouseWheel", x=x, y=y, deltaX=0, deltaY=down, modifiers=2 if ctrl else 0)
+        self.settle()
 
     def settle(self):
         """Until what the page changed is drawn: a pointer finds what is on the screen."""
@@ -130,9 +147,9 @@ class Browser:
         for kind in ("mousePressed", "mouseReleased"):
             self.mouse(kind, x, y)
 
-    def key(self, name, number=0):
+    def key(self, name, number=0, ways=("keyDown", "keyUp")):
         """`number`: the key's Windows number, without which the browser's own controls do not know it."""
-        for kind in ("keyDown", "keyUp"):
+        for kind in ways:
             self.call("Input.dispatchKeyEvent", type=kind, key=name, code=name, windowsVirtualKeyCode=number)
 
     def look(self, dark):
@@ -158,6 +175,14 @@ class Browser:
         os.close(self.to)
         os.close(self.come)
         shutil.rmtree(self.folder, ignore_errors=True)
+
+
+def add_script(path, script):
+    """Puts a script at the end of a page, and lets it run."""
+    with open(path, encoding="utf-8") as file:
+        text = re.sub(r"script-src [^;]*", "script-src 'unsafe-inline'", file.read(), count=1)
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(f"<script>{script}</script></body>".join(text.rsplit("</body>", 1)))
 
 
 def run_tests(tests, name):

@@ -8,7 +8,7 @@ import sys
 import xml.dom.minidom
 import zlib
 
-from browser import run_tests
+from browser import add_script, run_tests
 
 GLINT = sys.argv[1]
 HOSTILE = "</script><script>alert(1)</script><img src=x onerror=alert(2)>&quot;\"'`${alert(3)}"
@@ -142,6 +142,46 @@ class Tests:
         assert "few" in self.shown()
         self.browser.key("Escape")
         assert "few" not in self.shown() and "many" not in self.shown()
+        self.browser.quiet()
+
+    def scripted(self, document, script):
+        """A page with one more script, as a page of its own would have it."""
+        out = report(self.folder, document)
+        add_script(out, script)
+        self.browser.show(out)
+
+    def test_a_chart_is_replaced_under_the_focus_and_says_what_was_chosen(self):
+        first = chart([point(1, 0.1, "few", 8, "red.png"), point(4, 0.02, "many", 64, "blue.png")])["chart"]
+        later = chart([point(2, 0.1, "half", 16, "red.png"), point(4, 0.03, "many", 65, "blue.png"), point(5, 0.01, "most", 99, "red.png")], title="later")["chart"]
+        self.scripted(page(), f"""const own = glintParts.page(), chosen = []; let before; const plot = () => document.querySelector('.plot');
+            const made = glintParts.chartElement({json.dumps(first)}, own, p => chosen.push(p.name));
+            document.querySelector('main').append(made);
+            made.draw();""")
+        ask = self.browser.evaluate
+        ask("plot().focus()")
+        for key in ("ArrowRight", "ArrowRight", "Enter"):
+            self.browser.key(key)
+        assert ask("chosen.join()") == "many" and "many" in self.shown() and "64" in self.shown(), self.shown()
+        ask(f"before = plot(), made.replace({json.dumps(later)})")
+        assert ask("plot() === before && document.activeElement === before && own.charts.length === 1")
+        assert "many" in self.shown() and "65" in self.shown() and ask(TEXT_OF.format("main h3")) == "later", self.shown()
+        assert ask("document.querySelector('tr.chosen').cells[0].textContent") == "many" and len(ask(MARKS.replace("r.width - 9", "r.width - 8"))) == 3
+        self.browser.key("ArrowRight")
+        assert "most" in self.shown()
+        self.browser.key("Enter")
+        assert ask("chosen.join()") == "many,most"
+        # a row of the table keeps it too; a chart may lose what it had beside it, and come back
+        ask("made.querySelector('details').open = true, [...made.querySelectorAll('tbody tr')].find(r => r.cells[0].textContent === 'many').focus()")
+        ask(f"made.replace({json.dumps(first)})")
+        assert ask("document.activeElement.cells[0].textContent") == "many"
+        ask(f"made.replace({json.dumps(chart([[1, 0.1]])['chart'])})")
+        assert ask("made.querySelector('aside') === null && made.querySelectorAll('tbody tr').length === 1")
+        ask(f"made.replace({json.dumps(chart([])['chart'])}), plot().focus()")
+        self.browser.key("ArrowRight")
+        self.browser.key("Enter")
+        assert ask("made.querySelector('table') === null && chosen.join()") == "many,most"
+        ask(f"made.replace({json.dumps(first)})")
+        assert "Point at a mark" in self.shown() and ask("made.querySelectorAll('tbody tr').length") == 2
         self.browser.quiet()
 
     def test_names_of_strangers_stay_names(self):

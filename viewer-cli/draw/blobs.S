@@ -9,9 +9,10 @@
 BLOB(blob_font, GLINT_FONT)
 BLOB(blob_ocio, GLINT_OCIO)
 BLOB(blob_page_head, GLINT_PAGE_HEAD)
+BLOB(blob_page_scripts, GLINT_PAGE_SCRIPTS)
+BLOB(blob_live_head, GLINT_LIVE_HEAD)
+BLOB(blob_live_scripts, GLINT_LIVE_SCRIPTS)
 BLOB(blob_echarts, GLINT_ECHARTS)
 BLOB(blob_echarts_code, GLINT_ECHARTS_CODE)
 BLOB(blob_chart, GLINT_CHART)
-BLOB(blob_stage, GLINT_STAGE)
-BLOB(blob_page, GLINT_PAGE)
     .section .note.GNU-stack, "", %progbits

@@ -296,8 +296,8 @@ bool table_print_markdown(const struct table *t, FILE *out) {
 
 /* A ring of buffers, so that one printf can use several results. */
 static char *next_buffer(void) {
-    static char buffers[8][48];
-    static unsigned turn;
+    static _Thread_local char buffers[8][48];
+    static _Thread_local unsigned turn;
     return buffers[turn++ % 8];
 }
 

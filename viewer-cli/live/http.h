@@ -21,10 +21,10 @@ const char *http_query(const struct http_request *request, const char *name);
    there are some; 0 ends the answer. */
 typedef size_t (*http_next)(void *stream, char *out, size_t size);
 struct http_answer {
-    int status; /* 200 if it is left 0 */
-    const char *type;     /* of what `data` holds, such as "text/html"; NULL: JSON, which is taken from `json` */
-    json_t *json;         /* taken over; an error is made by http_error */
-    void *data;           /* malloc'd, taken over */
+    int status;       /* 200 if it is left 0 */
+    const char *type; /* of what `data` holds, such as "text/html"; NULL: JSON, which is taken from `json` */
+    json_t *json;     /* taken over; an error is made by http_error */
+    void *data;       /* malloc'd, taken over */
     size_t size;
     const char *download; /* a file name that a browser stores it under, or NULL */
     http_next next;       /* a stream instead of data */
@@ -42,10 +42,11 @@ struct http_route {
     const char *method, *path;
     http_handler handler;
 };
+/* All pointers but `address` and `token` are to be valid until http_stop. */
 struct http_options {
-    const char *address; /* to listen at; NULL: 127.0.0.1 */
-    uint16_t port;       /* 0: any free one */
-    const char *token;
+    const char *address;             /* to listen at, an IP address, also 0.0.0.0 or ::; NULL: 127.0.0.1 */
+    uint16_t port;                   /* 0: any free one */
+    const char *token;               /* 16 to 256 letters, digits and signs of ASCII */
     const struct http_route *routes; /* below /api/; the last has no path */
     void *user;
     const char *page; /* what "/" is, and with it the only thing that needs no token */
@@ -54,7 +55,8 @@ struct http_options {
 struct http;
 struct http *http_start(const struct http_options *options, struct glint_error *err);
 uint16_t http_port(const struct http *http);
-/* Takes no more requests and waits for the threads of those under way: streams and waiting handlers have to end first. */
+/* Takes no more requests and waits for the threads of those under way: streams and waiting handlers have to end first. Answers that are made
+   are still sent, to clients that take them within two seconds. */
 void http_stop(struct http **http);
 /* Fills `token` with new random hexadecimal digits. */
 bool http_new_token(char token[2 * HTTP_TOKEN_BYTES + 1], struct glint_error *err);

@@ -29,8 +29,8 @@ const char *format_name(enum glint_format format) {
 /* "half", "quarter, 3 levels" */
 static const char *picture_name(enum glint_size_class size) {
     static const char *const shifts[] = {"full", "half", "quarter", "eighth", "sixteenth"};
-    static char buffers[8][48];
-    static unsigned turn;
+    static _Thread_local char buffers[8][48];
+    static _Thread_local unsigned turn;
     char *text = buffers[turn++ % 8];
     const unsigned shift = glint_size_shift(size), levels = glint_size_levels(size);
     int length = shift < sizeof shifts / sizeof *shifts ? snprintf(text, sizeof *buffers, "%s", shifts[shift])
@@ -70,8 +70,8 @@ const char *size_name(enum glint_size_class size) {
 }
 
 const char *value_text(const struct glint_row *row, double value) {
-    static char buffers[8][32];
-    static unsigned turn;
+    static _Thread_local char buffers[8][32];
+    static _Thread_local unsigned turn;
     if (row->kind == GLINT_ROW_CHOICE) return row->choices[(int)value];
     if (row->type == GLINT_VALUE_BOOL && glint_row_is_parameter(row)) return value != 0 ? "on" : "off";
     char *text = buffers[turn++ % 8];
@@ -111,4 +111,10 @@ bool check_image(const char *name, struct glint_error *err) {
             if (glint_row_is_output(&passes[i].rows[r])) glint_nearest_offer(&near, passes[i].rows[r].name);
     return glint_fail(err, GLINT_ERROR_USAGE, "there is no image %s%s; glint passes lists them", name,
                       glint_nearest_text(&near));
+}
+
+const char *slot_title(const struct glint_pass *pass) {
+    for (size_t i = 0; i < pass->row_count; i++)
+        if (pass->rows[i].kind == GLINT_ROW_SLOT) return pass->rows[i].name;
+    return "";
 }

@@ -11,6 +11,9 @@ const char *size_name(enum glint_size_class size);
 /* The value of a parameter as `--set` takes it: "24", "ggx", "on". In static storage, valid for a few calls. */
 const char *value_text(const struct glint_row *row, double value);
 
+/* What the slot of a pass is for. */
+const char *slot_title(const struct glint_pass *pass);
+
 /* The row that declares an image, in any variant or in the capture; *slot is its slot or "capture". NULL: unknown. */
 const struct glint_row *image_find(const char *name, const char **slot);
 

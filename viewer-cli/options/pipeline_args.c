@@ -1,6 +1,8 @@
 /* The options of commands that run pipelines. */
 #include "options/pipeline_args.h"
 
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "glint/capture.h"
@@ -59,6 +61,18 @@ struct glint_replay_options pipeline_args_options(const struct pipeline_args *ar
     options.skip = list_or_null(&args->skip);
     options.force = list_or_null(&args->force);
     return options;
+}
+
+char *pipeline_args_cache(const char *asked) {
+    const char *named = asked ? asked : getenv("GLINT_CACHE");
+    const char *base = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
+    char *folder = NULL;
+    int length = 0;
+    if (named && strcmp(named, "none") == 0) return NULL;
+    if (named && named[0]) length = asprintf(&folder, "%s", named);
+    else if (base && base[0] == '/') length = asprintf(&folder, "%s/glint", base);
+    else if (home && home[0] == '/') length = asprintf(&folder, "%s/.cache/glint", home);
+    return length > 0 ? folder : NULL;
 }
 
 /* ---- Fog ---- */

@@ -84,6 +84,8 @@ const char *captures_fogged(const struct list *captures);
 /* If there is a capture with fog, says that a comparison with something that has none is one without it. */
 void pipeline_note_fog(const struct command *command, const struct glint_pipeline *pipeline, const char *fogged);
 struct glint_device *pipeline_args_device(const struct pipeline_args *args, struct glint_error *err);
+/* The requested or default cache folder, malloc'd; NULL: none. */
+char *pipeline_args_cache(const char *asked);
 struct glint_replay_options pipeline_args_options(const struct pipeline_args *args);
 
 #endif

@@ -3,6 +3,7 @@
 #define GLINT_VIEWER_PROBE_H
 
 #include <jansson.h>
+#include <stdio.h>
 
 #include "glint/probe.h"
 
@@ -39,10 +40,10 @@ struct probe {
     bool has_reference;
 };
 
-/* read.c: runs the pipeline with the pixel probed. */
+/* read.c: runs the pipeline with the pixel probed. `progress` may be NULL. */
 bool probe_run(struct probe *probe, struct probe_side *side, struct glint_replay *replay,
                const struct glint_pipeline *pipeline, const struct glint_replay_options *options,
-               struct glint_error *err);
+               glint_progress progress, void *user, struct glint_error *err);
 /* The pipeline with the reference tracers, which skip nothing; all other passes stay. */
 struct glint_pipeline *probe_reference(const struct glint_pipeline *pipeline, struct glint_error *err);
 void probe_side_finish(struct probe_side *side);
@@ -63,7 +64,7 @@ void probe_group_text(const struct probe_side *side, const struct glint_probe_re
                       const struct probe_group *group, char *text, size_t size);
 
 /* text.c, json.c */
-void probe_print(const struct probe *probe);
+void probe_print(FILE *out, const struct probe *probe);
 json_t *probe_json(const struct probe *probe);
 
 #endif

@@ -92,13 +92,13 @@ static bool read_side(struct probe *probe, struct probe_side *side, struct glint
 
 bool probe_run(struct probe *probe, struct probe_side *side, struct glint_replay *replay,
                const struct glint_pipeline *pipeline, const struct glint_replay_options *caller,
-               struct glint_error *err) {
+               glint_progress progress, void *user, struct glint_error *err) {
     struct glint_replay_options options = *caller;
     const uint32_t pixels[1][2] = {{probe->pixel[0], probe->pixel[1]}};
     options.captured = options.diagnostics = true;
     options.probes = pixels;
     options.probe_count = 1;
-    if (!glint_replay_run(replay, pipeline, &options, NULL, NULL, err)) return false;
+    if (!glint_replay_run(replay, pipeline, &options, progress, user, err)) return false;
     const struct glint_image *half = glint_replay_find_image(replay, "depth_half");
     memcpy(probe->half, half ? (uint32_t[]){half->width, half->height} : probe->full, sizeof probe->half);
     const bool reduced = memcmp(probe->full, probe->half, sizeof probe->full) != 0;

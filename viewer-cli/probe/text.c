@@ -27,8 +27,8 @@ static bool has_gap(const struct glint_probe_row *kind) {
 }
 
 /* `first`: number of preceding steps of the pass. */
-static void print_steps(const struct probe_side *side, const struct glint_probe_record *records, size_t count,
-                        size_t first) {
+static void print_steps(FILE *out, const struct probe_side *side, const struct glint_probe_record *records,
+                        size_t count, size_t first) {
     struct probe_group groups[GLINT_PROBE_VALUES];
     const size_t columns = probe_groups(records->kind, groups);
     char titles[GLINT_PROBE_VALUES + 3][48];
@@ -58,7 +58,7 @@ static void print_steps(const struct probe_side *side, const struct glint_probe_
             table_cell(table, "%s", text);
         }
     }
-    table_print(table, stdout);
+    table_print(table, out);
     table_destroy(&table);
 }
 
@@ -83,7 +83,7 @@ static bool is_void(const struct glint_probe_record *record, const struct probe_
                                           : strcmp(group->unit, "index") == 0 && strcmp(text, "none") == 0;
 }
 
-static void print_once(const struct probe_side *side, const struct glint_probe_record *record) {
+static void print_once(FILE *out, const struct probe_side *side, const struct glint_probe_record *record) {
     struct probe_group groups[GLINT_PROBE_VALUES];
     const size_t count = probe_groups(record->kind, groups);
     for (size_t g = 0; g < count; g++) {
@@ -92,48 +92,48 @@ static void print_once(const struct probe_side *side, const struct glint_probe_r
         const bool shown = strcmp(unit, "m") == 0 || strcmp(unit, "px") == 0 || strcmp(unit, "radiance") == 0;
         probe_group_text(side, record, &groups[g], text, sizeof text);
         if (!is_void(record, &groups[g], text))
-            printf("%s%s%s %s%s%s", g ? ", " : "    ", groups[g].name, strcmp(unit, "end reason") ? "" : ":", text,
-                   shown ? " " : "", shown ? unit : "");
+            fprintf(out, "%s%s%s %s%s%s", g ? ", " : "    ", groups[g].name, strcmp(unit, "end reason") ? "" : ":",
+                    text, shown ? " " : "", shown ? unit : "");
     }
-    putchar('\n');
+    fputc('\n', out);
 }
 
-static void print_records(const struct probe_side *side, const struct glint_pass *pass) {
+static void print_records(FILE *out, const struct probe_side *side, const struct glint_pass *pass) {
     const struct glint_probe_record *records = side->trace.records, *before = NULL;
     size_t steps = 0;
     for (size_t i = 0, end; i < side->trace.count; i = end) {
         end = i + 1;
         if (records[i].pass != pass) continue;
         if (before ? before->ray != records[i].ray : records[i].ray > 0)
-            printf("  ray %u\n", records[i].ray), steps = 0;
+            fprintf(out, "  ray %u\n", records[i].ray), steps = 0;
         before = &records[i];
         const bool step = is_step(records[i].kind);
         while (step && end < side->trace.count && records[end].pass == pass && records[end].kind == records[i].kind &&
                records[end].ray == records[i].ray)
             end++;
-        printf("  %s%s\n", records[i].kind->text, step ? ":" : "");
-        if (ended_on_screen(side, &records[i])) printf("    not traced: the ray ended on screen\n");
-        else if (step) print_steps(side, &records[i], end - i, steps);
-        else print_once(side, &records[i]);
+        fprintf(out, "  %s%s\n", records[i].kind->text, step ? ":" : "");
+        if (ended_on_screen(side, &records[i])) fprintf(out, "    not traced: the ray ended on screen\n");
+        else if (step) print_steps(out, side, &records[i], end - i, steps);
+        else print_once(out, side, &records[i]);
         steps = step ? steps + end - i : 0;
     }
 }
 
-static void print_value(const struct probe_value *value) {
-    printf("  %-28s", value->row->name);
+static void print_value(FILE *out, const struct probe_value *value) {
+    fprintf(out, "  %-28s", value->row->name);
     const struct glint_probe_label word = glint_probe_label(value->row->unit, (float)value->values[0]);
-    if (word.text) printf("  %s", word.text);
+    if (word.text) fprintf(out, "  %s", word.text);
     const char *channel = value->row->kind == GLINT_ROW_CAPTURE ? value->row->source : value->row->channels;
     for (uint32_t c = 0; c < value->count && !word.text; c++) {
         const size_t length = strcspn(channel, " "), part = strcspn(channel, ".") + 1;
         const size_t from = part < length ? part : 0; /* "normal.X" is X */
         if (length != 1 || channel[0] != '-')
-            printf("  %.*s%s%s", value->count > 1 ? (int)(length - from) : 0, channel + from,
-                   value->count > 1 ? " " : "", number_text(value->values[c]));
+            fprintf(out, "  %.*s%s%s", value->count > 1 ? (int)(length - from) : 0, channel + from,
+                    value->count > 1 ? " " : "", number_text(value->values[c]));
         channel += length + (channel[length] == ' ');
     }
     const bool unit = !word.text && strcmp(value->row->unit, "1") != 0;
-    printf("%s%s\n", unit ? " " : "", unit ? value->row->unit : "");
+    fprintf(out, "%s%s\n", unit ? " " : "", unit ? value->row->unit : "");
 }
 
 static bool has_records(const struct probe_side *side, const struct glint_pass *pass) {
@@ -144,17 +144,17 @@ static bool has_records(const struct probe_side *side, const struct glint_pass *
     return false;
 }
 
-static void print_side(const struct probe_side *side) {
-    printf("\ncapture  G-buffer at the pixel\n");
+static void print_side(FILE *out, const struct probe_side *side) {
+    fprintf(out, "\ncapture  G-buffer at the pixel\n");
     for (size_t i = 0; i < side->value_count; i++)
-        if (!side->values[i].pass) print_value(&side->values[i]);
+        if (!side->values[i].pass) print_value(out, &side->values[i]);
     for (size_t p = 0; p < side->pass_count; p++) {
         const struct glint_pass *pass = side->passes[p].pass;
         if (!side->passes[p].shown || !has_records(side, pass)) continue;
-        printf("\n%s/%s  %s\n", pass->slot, pass->variant, pass->title);
-        print_records(side, pass);
+        fprintf(out, "\n%s/%s  %s\n", pass->slot, pass->variant, pass->title);
+        print_records(out, side, pass);
         for (size_t i = 0; i < side->value_count; i++)
-            if (side->values[i].pass == pass) print_value(&side->values[i]);
+            if (side->values[i].pass == pass) print_value(out, &side->values[i]);
     }
 }
 
@@ -182,7 +182,7 @@ static const char *color_text(const struct probe_side *side, const char *name, c
     return text;
 }
 
-static void print_reference(const struct probe *probe) {
+static void print_reference(FILE *out, const struct probe *probe) {
     static const char *const titles[] = {"<", "<this pipeline", "<reference: screen_trace/dda, cubemap_trace/exact",
                                          NULL};
     static const char *const colors[] = {"reflection_half", "reflection", "composed", NULL};
@@ -200,26 +200,27 @@ static void print_reference(const struct probe *probe) {
         table_cell(table, "%s", colors[i]);
         for (int s = 0; s < 2; s++) table_cell(table, "%s", color_text(sides[s], colors[i], text, sizeof text));
     }
-    putchar('\n');
-    table_print(table, stdout);
+    fputc('\n', out);
+    table_print(table, out);
     table_destroy(&table);
 }
 
-void probe_print(const struct probe *probe) {
-    printf("%s, pixel %u,%u of %u x %u, texel %u,%u of %u x %u, preset %s on %s\n", probe->capture, probe->pixel[0],
-           probe->pixel[1], probe->full[0], probe->full[1], probe->texel[0], probe->texel[1], probe->half[0],
-           probe->half[1], probe->preset, probe->device);
+void probe_print(FILE *out, const struct probe *probe) {
+    fprintf(out, "%s, pixel %u,%u of %u x %u, texel %u,%u of %u x %u, preset %s on %s\n", probe->capture,
+            probe->pixel[0], probe->pixel[1], probe->full[0], probe->full[1], probe->texel[0], probe->texel[1],
+            probe->half[0], probe->half[1], probe->preset, probe->device);
     const struct glint_probe_record *ray = probe_last(&probe->own, "screen_trace", "screen_ray");
     if (ray) {
         const double x = floor((double)glint_probe_value(ray, "start_x")),
                      y = floor((double)glint_probe_value(ray, "start_y"));
         if (x != probe->pixel[0] || y != probe->pixel[1])
-            printf("The texel's ray was sampled for pixel %.0f,%.0f of the block.\n", x, y);
+            fprintf(out, "The texel's ray was sampled for pixel %.0f,%.0f of the block.\n", x, y);
     } else if (!probe_last(&probe->own, "cubemap_trace", "cubemap_ray"))
-        printf("The texel has no ray: it is sky, a surface without reflection, or one that the pipeline leaves to a "
-               "coarser level.\n");
-    print_side(&probe->own);
+        fprintf(out,
+                "The texel has no ray: it is sky, a surface without reflection, or one that the pipeline leaves to a "
+                "coarser level.\n");
+    print_side(out, &probe->own);
     if (probe->own.trace.dropped)
-        printf("\n%zu further steps exceeded the recording buffer.\n", probe->own.trace.dropped);
-    if (probe->has_reference) print_reference(probe);
+        fprintf(out, "\n%zu further steps exceeded the recording buffer.\n", probe->own.trace.dropped);
+    if (probe->has_reference) print_reference(out, probe);
 }

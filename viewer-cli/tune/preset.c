@@ -3,35 +3,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "options/pass_names.h"
+#include "options/preset_json.h"
 #include "io/output.h"
 #include "tune/tune.h"
-
-static json_t *value_json(const struct glint_row *row, double value) {
-    if (row->choices) return json_string(row->choices[(size_t)value]);
-    if (row->type == GLINT_VALUE_BOOL) return json_boolean(value != 0);
-    return value == floor(value) && fabs(value) < 1e9 ? json_integer((json_int_t)value) : json_real(value);
-}
-
-/* Variants, and parameters that differ from their declared defaults. */
-static json_t *preset_json(const struct glint_pipeline *pipeline, const char *name, const char *title) {
-    json_t *slots = json_object(), *set = json_object();
-    for (size_t i = 0; i < glint_pipeline_pass_count(pipeline); i++) {
-        const struct glint_pass *pass = glint_pipeline_pass(pipeline, i);
-        json_object_set_new(slots, pass->slot, json_string(pass->variant));
-        for (size_t r = 0; r < pass->row_count; r++) {
-            char key[160];
-            const struct glint_row *row = &pass->rows[r];
-            if (!glint_row_is_parameter(row)) continue;
-            const double value = glint_pipeline_value(pipeline, pass, row);
-            snprintf(key, sizeof key, "%s.%s", pass->slot, row->name);
-            if (value != row->initial) json_object_set_new(set, key, value_json(row, value));
-        }
-    }
-    if (glint_pipeline_rays(pipeline) > 1)
-        json_object_set_new(set, "pipeline.rays", json_integer(glint_pipeline_rays(pipeline)));
-    return json_pack("{s:s, s:s, s:o, s:o}", "name", name, "title", title, "slots", slots, "set", set);
-}
 
 static json_t *limit_json(const struct tune *tune) {
     return json_pack("{s:s, s:f, s:f, s:s, s:o, s:o}", "of", tune->by_error ? "error" : "cost", "value", tune->asked,

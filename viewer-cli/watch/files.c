@@ -8,7 +8,6 @@
 #include <time.h>
 #include <xxhash.h>
 
-#include "io/progress.h"
 #include "watch/watch.h"
 
 static bool append(char ***list, size_t *count, char *text, struct glint_error *err) {
@@ -115,10 +114,10 @@ void watch_files_finish(struct watch_files *files) {
     *files = (struct watch_files){0};
 }
 
-bool watch_files_wait(struct watch_files *files) {
+bool watch_files_wait(struct watch_files *files, bool (*ended)(void *user), void *user) {
     const struct timespec tenth = {.tv_nsec = 100000000};
     const uint64_t known = files->state;
-    for (uint64_t before = known; !progress_interrupted();) {
+    for (uint64_t before = known; !ended(user);) {
         const uint64_t now = state_of(files);
         files->state = now;
         if (now != known && now == before) return true; /* unchanged since the last poll, so completely written */

@@ -98,11 +98,16 @@ static bool next_version(struct session *s, struct glint_error *err) {
     return !s->shown || show_run(s, fault.message, true, err);
 }
 
+static bool interrupted(void *user) {
+    (void)user;
+    return progress_interrupted();
+}
+
 static bool watch_all(struct session *s, struct glint_error *err) {
     bool ok = next_version(s, err);
     if (ok) printf("watching for changes; open %s; stop with Ctrl-C\n", s->page);
     fflush(stdout);
-    while (ok && watch_files_wait(&s->files)) ok = next_version(s, err);
+    while (ok && watch_files_wait(&s->files, interrupted, NULL)) ok = next_version(s, err);
     if (!ok && err->code == GLINT_ERROR_INTERRUPTED) ok = true;
     return ok && (!s->shown || show_run(s, NULL, false, err));
 }

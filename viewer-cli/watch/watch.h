@@ -16,7 +16,7 @@ struct watch_files {
 bool watch_files_init(struct watch_files *files, const struct pipeline_args *args, struct glint_error *err);
 void watch_files_finish(struct watch_files *files);
 /* Waits until a file changes, appears or disappears, and then until changes cease. False after Ctrl-C. */
-bool watch_files_wait(struct watch_files *files);
+bool watch_files_wait(struct watch_files *files, bool (*ended)(void *user), void *user);
 
 /* ---- Versions: run.c ---- */
 

@@ -35,6 +35,8 @@ void glint_passes_mark_needed(bool *marked, size_t count, glint_depends depends,
 bool glint_slot_check(const char *slot, struct glint_error *err);
 bool glint_variant_check(const char *slot, const char *variant, struct glint_error *err);
 bool glint_format_is_uint(enum glint_format format);
+/* Whether an image holds cube maps, whose faces are stacked from top to bottom. */
+bool glint_row_is_cube(const struct glint_row *row);
 
 #ifdef __cplusplus
 }

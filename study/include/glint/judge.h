@@ -56,6 +56,9 @@ const struct glint_pixels *glint_judge_target(struct glint_judge *judge, enum gl
                                               const struct glint_pipeline *pipeline, const float **error,
                                               glint_progress progress, void *user, struct glint_error *err);
 
+/* Slots that evaluations and timings from here on skip or force, as in struct glint_replay_options; the caller keeps the lists. NULL: none. */
+void glint_judge_override(struct glint_judge *judge, const char *const *skip, const char *const *force);
+
 struct glint_verdict_pass {
     const struct glint_pass *pass;
     bool ran, cached_work;

@@ -92,12 +92,6 @@ static void write_bytes(FILE *out, const unsigned char *begin, const unsigned ch
     fwrite(begin, 1, (size_t)(end - begin), out);
 }
 
-static void put_script(FILE *out, const unsigned char *begin, const unsigned char *end) {
-    fputs("<script>", out);
-    write_bytes(out, begin, end);
-    fputs("</script>\n", out);
-}
-
 /* JSON contains '<' only in strings. Without it, no string can close the script element. */
 static int put_json(const char *text, size_t size, void *user) {
     FILE *out = user;
@@ -110,23 +104,34 @@ static int put_json(const char *text, size_t size, void *user) {
     return ferror(out) ? -1 : 0;
 }
 
-static char *html(const json_t *document) {
+struct around {
+    const unsigned char *head, *head_end, *scripts, *scripts_end;
+};
+
+static char *html(const struct around *around, const json_t *document) {
     char *text = NULL;
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
     if (!out) return NULL;
-    write_bytes(out, blob_page_head, blob_page_head_end);
+    write_bytes(out, around->head, around->head_end);
     bool ok = json_dump_callback(document, put_json, out, JSON_COMPACT | JSON_ENSURE_ASCII) == 0;
+    fputs("</script>\n<script>", out);
+    write_bytes(out, blob_echarts, blob_echarts_end);
     fputs("</script>\n", out);
-    put_script(out, blob_echarts, blob_echarts_end);
-    put_script(out, blob_chart, blob_chart_end);
-    put_script(out, blob_stage, blob_stage_end);
-    put_script(out, blob_page, blob_page_end);
-    fputs("</body>\n</html>\n", out);
+    write_bytes(out, around->scripts, around->scripts_end);
     ok = ok && !ferror(out);
     if (fclose(out) == 0 && ok) return text;
     free(text);
     return NULL;
+}
+
+char *page_live(struct glint_error *err) {
+    const struct around around = {blob_live_head, blob_live_head_end, blob_live_scripts, blob_live_scripts_end};
+    json_t *nothing = json_object();
+    char *text = nothing ? html(&around, nothing) : NULL;
+    json_decref(nothing);
+    if (!text) glint_fail(err, GLINT_ERROR_MEMORY, "page: out of memory");
+    return text;
 }
 
 bool page_write(const char *path, const json_t *document, const char *folder, struct glint_error *err) {
@@ -135,7 +140,8 @@ bool page_write(const char *path, const json_t *document, const char *folder, st
     number_files(&files, copy);
     bool ok = load_files(&files, err);
     if (ok) json_object_set(copy, "files", files.uris);
-    char *text = ok && copy ? html(copy) : NULL;
+    const struct around around = {blob_page_head, blob_page_head_end, blob_page_scripts, blob_page_scripts_end};
+    char *text = ok && copy ? html(&around, copy) : NULL;
     ok = ok && (text ? output_text(path, text, err) : glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path));
     free(text);
     json_decref(files.places);

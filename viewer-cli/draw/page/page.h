@@ -62,6 +62,8 @@ enum { PAGE_VALUE_BYTES = 16000000 }; /* limit for all VALUES of a page */
 /* Writes the document as HTML. Files of pictures are read below `folder` only; NULL: there are none. A file that cannot be
    read is an error. */
 bool page_write(const char *path, const json_t *document, const char *folder, struct glint_error *err);
+/* The page of glint live, malloc'd: it has no document and asks its server. */
+char *page_live(struct glint_error *err);
 /* The script that draws charts, loaded by the first one in about 0.4 s. Zero-initialised. */
 struct page_charts {
     struct duk_hthread *js;

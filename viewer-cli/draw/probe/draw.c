@@ -7,7 +7,6 @@
 
 #include "draw/probe/panels.h"
 #include "io/table.h"
-#include "io/output.h"
 
 enum { HEAD = 62, LEGEND = 62 };
 
@@ -84,28 +83,24 @@ static char *draw_panels(struct drawing *d) {
     return body;
 }
 
-bool probe_draw(const char *path, const struct probe *probe, struct glint_error *err) {
+char *probe_draw(const struct probe *probe, struct glint_error *err) {
     struct drawing d = {.probe = probe};
     char *text = NULL;
     size_t size;
-    if (probe->own.picture.texels && !(d.uri = draw_encode_picture(probe, err))) return false;
+    if (probe->own.picture.texels && !(d.uri = draw_encode_picture(probe, err))) return NULL;
     d.points = calloc(DRAW_POINTS, sizeof *d.points);
     char *body = d.points ? draw_panels(&d) : NULL;
-    const bool empty = body && d.top == 0;
-    bool ok = false;
-    if (!body || !(d.out = open_memstream(&text, &size))) glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    if (body && d.top == 0)
+        glint_fail(err, GLINT_ERROR_FORMAT, "pixel %u,%u has no ray to draw", probe->pixel[0], probe->pixel[1]);
+    else if (!body || !(d.out = open_memstream(&text, &size))) glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     else {
         write_svg_head(d.out, probe, HEAD + LEGEND + d.top);
         const double below = draw_legend(&d, HEAD) + LEGEND;
         fprintf(d.out, "<g transform=\"translate(0 %.0f)\">\n%s</g></svg>\n", below, body);
         fclose(d.out);
-        ok = empty ? glint_fail(err, GLINT_ERROR_FORMAT, "%s: pixel %u,%u has no ray to draw", path, probe->pixel[0],
-                                probe->pixel[1])
-                   : output_text(path, text, err);
     }
-    free(text);
     free(body);
     free(d.points);
     json_decref(d.uri);
-    return ok;
+    return text;
 }

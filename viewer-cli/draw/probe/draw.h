@@ -4,7 +4,7 @@
 
 #include "probe/probe.h"
 
-/* Writes an SVG file. A pixel without a ray is an error. */
-bool probe_draw(const char *path, const struct probe *probe, struct glint_error *err);
+/* The text of an SVG file, malloc'd. NULL on failure; a pixel without a ray is one, with GLINT_ERROR_FORMAT. */
+char *probe_draw(const struct probe *probe, struct glint_error *err);
 
 #endif

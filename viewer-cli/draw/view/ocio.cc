@@ -120,7 +120,11 @@ std::string choose_input(const OCIO::ConstConfigRcPtr &config, const char *name)
 
 } // namespace
 
-bool ocio_apply(const struct ocio_options *options, float *rgba, size_t width, size_t height, struct glint_error *err) {
+struct ocio_conversion {
+    OCIO::ConstCPUProcessorRcPtr cpu;
+};
+
+struct ocio_conversion *ocio_prepare(const struct ocio_options *options, struct glint_error *err) {
     try {
         OCIO::ConstConfigRcPtr config = open_config(options->config);
         const std::string display = choose_display(config, options->display);
@@ -129,12 +133,47 @@ bool ocio_apply(const struct ocio_options *options, float *rgba, size_t width, s
         transform->setSrc(choose_input(config, options->input).c_str());
         transform->setDisplay(display.c_str());
         transform->setView(view.c_str());
-        OCIO::ConstCPUProcessorRcPtr cpu = config->getProcessor(transform)->getDefaultCPUProcessor();
-        OCIO::PackedImageDesc image(rgba, long(width), long(height), 4);
-        cpu->apply(image);
-        return true;
+        return new ocio_conversion{config->getProcessor(transform)->getDefaultCPUProcessor()};
     } catch (const std::invalid_argument &e) {
-        return glint_fail(err, GLINT_ERROR_USAGE, "%s", e.what());
+        glint_fail(err, GLINT_ERROR_USAGE, "%s", e.what());
+    } catch (const std::exception &e) {
+        glint_fail(err, GLINT_ERROR_FORMAT, "OpenColorIO: %s", e.what());
+    }
+    return nullptr;
+}
+
+void ocio_release(struct ocio_conversion **conversion) {
+    delete *conversion;
+    *conversion = nullptr;
+}
+
+bool ocio_apply(const struct ocio_options *options, float *rgba, size_t width, size_t height, struct glint_error *err) {
+    struct ocio_conversion *own = options->ready ? nullptr : ocio_prepare(options, err);
+    const struct ocio_conversion *conversion = options->ready ? options->ready : own;
+    bool ok = conversion != nullptr;
+    try {
+        OCIO::PackedImageDesc image(rgba, long(width), long(height), 4);
+        if (ok) conversion->cpu->apply(image);
+    } catch (const std::exception &e) {
+        ok = glint_fail(err, GLINT_ERROR_FORMAT, "OpenColorIO: %s", e.what());
+    }
+    ocio_release(&own);
+    return ok;
+}
+
+bool ocio_list(const char *path, void (*each)(void *user, const char *display, const char *view, bool preferred),
+               void *user, struct glint_error *err) {
+    try {
+        OCIO::ConstConfigRcPtr config = open_config(path);
+        const std::string first = config->getDefaultDisplay();
+        for (int i = 0; i < config->getNumDisplays(); i++) {
+            const std::string display = config->getDisplay(i), view = config->getDefaultView(display.c_str());
+            for (int k = 0; k < config->getNumViews(display.c_str()); k++) {
+                const std::string name = config->getView(display.c_str(), k);
+                each(user, display.c_str(), name.c_str(), display == first && name == view);
+            }
+        }
+        return true;
     } catch (const std::exception &e) {
         return glint_fail(err, GLINT_ERROR_FORMAT, "OpenColorIO: %s", e.what());
     }

@@ -133,6 +133,17 @@ bool png_file_write(const char *path, const struct picture *picture, struct glin
     return write_file(path, &(struct frames){picture, 1, 0}, err);
 }
 
+bool png_encode(const struct picture *picture, uint8_t **bytes, size_t *size, struct glint_error *err) {
+    char *memory = NULL;
+    FILE *file = open_memstream(&memory, size);
+    if (!file) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    bool ok = encode_frames(file, &(struct frames){picture, 1, 0}, "picture", err);
+    if (fclose(file) != 0 && ok) ok = glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    if (ok) *bytes = (uint8_t *)memory;
+    else free(memory);
+    return ok;
+}
+
 bool png_file_animate(const char *path, const struct picture *pictures, size_t count, uint32_t turn_ms,
                       struct glint_error *err) {
     for (size_t i = 1; i < count; i++)

@@ -1,0 +1,95 @@
+/* The page of glint live: what glint probe says of the pixel that was chosen in the picture, for the state that is shown. */
+glintLive.pixel = (function () {
+    'use strict';
+    const {element} = glintParts, {api, fetch} = glintLive;
+    const RETRY_MS = 300;
+
+    function make(store) {
+        const self = {store, asked: null, stop: null, url: null, done: null};
+        self.title = element('h3', {id: 'pixel-title'});
+        self.hint = element('p', {class: 'faint'}, 'Click a pixel of the picture, or press Enter on the one that is pointed at, to see its rays.');
+        self.close = element('button', {type: 'button', 'aria-label': 'close the pixel', click: () => store.setLook({x: null, y: null})}, 'Close');
+        self.image = element('img', {alt: ''});
+        self.why = element('p', {class: 'faint'});
+        self.failure = element('p', {class: 'note', role: 'alert', hidden: ''});
+        self.text = element('pre', {tabindex: 0, 'aria-label': 'what glint probe says'});
+        self.drawing = element('figure', {tabindex: 0, role: 'group', 'aria-label': 'rays of the pixel: arrow keys go to the next pixel, Shift by ten, Escape closes',
+            keydown: event => { if (key(store, event)) event.preventDefault(); }}, self.image, self.why);
+        self.inner = element('div', null, element('div', {class: 'bar'}, self.title, self.close), self.failure, self.drawing, self.text);
+        self.e = element('section', {class: 'live-pixel', 'aria-labelledby': 'pixel-title'}, self.hint, self.inner);
+        self.image.addEventListener('load', () => { if (self.old) URL.revokeObjectURL(self.old); self.old = null; });
+        for (const what of ['look', 'result']) store.on(what, () => refresh(self));
+        refresh(self);
+        return self.e;
+    }
+
+    function key(store, event) {
+        const {look: {x, y}} = store, way = {ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowDown: [0, 1], ArrowUp: [0, -1]}[event.key];
+        const size = store.registry.captures[store.state.capture]?.size, by = event.shiftKey ? 10 : 1;
+        if (event.key === 'Escape') store.setLook({x: null, y: null});
+        else if (way && size && !event.ctrlKey && !event.altKey && !event.metaKey)
+            store.setLook({x: Math.min(size[0] - 1, Math.max(0, x + by * way[0])), y: Math.min(size[1] - 1, Math.max(0, y + by * way[1]))});
+        else return false;
+        return true;
+    }
+
+    const chosen = ({look: {x, y}}) => typeof x === 'number' && typeof y === 'number' ? [x, y] : null;
+
+    /* Asks again once a whole frame of another state is there, or another pixel is chosen. */
+    function refresh(self) {
+        const {store} = self, {result} = store, at = chosen(store);
+        self.inner.hidden = !at;
+        self.hint.hidden = !!at;
+        if (!at) {
+            self.stop?.abort();
+            self.asked = null;
+            return;
+        }
+        self.title.textContent = `Pixel ${at[0]},${at[1]}`;
+        if (!result) return;
+        const wanted = JSON.stringify([at, result.draft ? self.run : result.run]);
+        if (!result.draft) { self.run = result.run; self.state = result.state; }
+        if (wanted === self.asked || !self.state) return;
+        self.asked = wanted;
+        ask(self, at, wanted);
+    }
+
+    async function ask(self, [x, y], wanted) {
+        self.stop?.abort();
+        const stop = self.stop = new AbortController();
+        self.e.setAttribute('aria-busy', 'true');
+        while (self.asked === wanted) {
+            try {
+                const answer = await api.post('/api/v1/probe', {state: self.state, x, y, reference: true, client: self.store.client}, stop.signal);
+                if (self.asked === wanted) show(self, answer);
+                break;
+            } catch (error) {
+                if (stop.signal.aborted || self.asked !== wanted) return;
+                if (!fetch.givenUp(error)) { fail(self, error); break; }
+            }
+            /* a run took the replay away */
+            await new Promise(done => setTimeout(done, RETRY_MS));
+        }
+        if (self.asked === wanted) self.e.setAttribute('aria-busy', 'false');
+    }
+
+    /* The drawing is a picture and never part of the page: it holds texts of strangers. */
+    function show(self, {svg, no_drawing: why, text}) {
+        self.failure.hidden = true;
+        self.old = self.url;
+        self.url = svg ? URL.createObjectURL(new Blob([svg], {type: 'image/svg+xml'})) : null;
+        self.image.hidden = !svg;
+        if (svg) self.image.src = self.url;
+        self.image.alt = svg ? `the rays of ${self.title.textContent}; the text below says the same` : '';
+        self.why.hidden = !!svg;
+        self.why.textContent = glintChart.text(why || '');
+        self.text.textContent = glintChart.text(text);
+    }
+
+    function fail(self, error) {
+        self.failure.hidden = false;
+        self.failure.textContent = glintChart.text(error.message);
+    }
+
+    return make;
+})();

@@ -1,0 +1,208 @@
+/* Sends states to the server and keeps what comes back: at most one replay is under way, and the newest change is the next. Where the
+   last whole frame took long, a draft comes first. Also what is made beside it: pinned runs, the truth. */
+glintLive.runs = (function () {
+    'use strict';
+    const {api, store: {keyOf, copy}} = glintLive;
+    const SLOW_S = 0.3; /* from which on a draft is shown first */
+
+    /* Names of what differs between two states, as in "set": these controls are to blame for a refusal. */
+    function differing(a, b) {
+        const keys = part => [...new Set([...Object.keys(a[part] || {}), ...Object.keys(b[part] || {})])].filter(k => a[part]?.[k] !== b[part]?.[k]);
+        return [...keys('set'), ...keys('use'), ...(a.preset !== b.preset ? ['preset'] : [])];
+    }
+
+    return function (store) {
+        const {registry} = store;
+        let wanted = null, busy = false, refining = null, lastWhole = 0;
+        store.running = null; /* null, 'draft' or 'whole' */
+        store.accepted = null; /* the last state that the server took */
+        store.refusal = null;  /* {names, message} of the last one that it did not take */
+
+
+        const newest = () => wanted === null;
+
+        function takeStructure(answer) {
+            store.slots = answer.slots;
+            store.command = answer.command;
+            store.emit('slots');
+        }
+
+        function take(result) {
+            store.result = result;
+            store.accepted = result.state;
+            if (!result.draft) lastWhole = result.seconds;
+            if (newest()) {
+                if (store.refusal) { store.refusal = null; store.emit('refused'); }
+                if (keyOf(result.state) !== keyOf(store.state)) store.showState(result.state);
+                takeStructure(result);
+                if (store.error) store.setError(null);
+            }
+            store.emit('result');
+        }
+
+        function fail(error, state) {
+            if (error.code === 'superseded') return;
+            if (error.status === 400 && newest()) {
+                const before = store.accepted;
+                store.refusal = {names: before ? differing(before, state) : [], message: error.message};
+                if (before) store.dropStep(before);
+                store.emit('refused');
+                return;
+            }
+            store.setError(error);
+        }
+
+        function setRunning(what) {
+            store.running = what;
+            if (!what) store.progress = null;
+            store.emit('progress');
+        }
+
+        const wantsDraft = state => !!registry.captures[state.capture]?.draft && lastWhole > SLOW_S;
+
+        async function replay(state) {
+            if (wantsDraft(state)) {
+                setRunning('draft');
+                take(await run(state, true, true));
+                if (!newest()) return;
+                setRunning('whole');
+                refining = new AbortController();
+                try {
+                    take(await run(state, false, false, refining.signal));
+                } finally {
+                    refining = null;
+                }
+                return;
+            }
+            setRunning('whole');
+            take(await run(state, false, true));
+        }
+
+        /* What another client's run gave up is asked again, and then waits its turn. */
+        async function run(state, draft, urgent, signal) {
+            const body = {state, draft, urgent, client: api.client};
+            try {
+                return await api.post('/api/v1/run', body, signal);
+            } catch (error) {
+                if (error.code !== 'superseded' || signal?.aborted || !newest()) throw error;
+            }
+            return api.insist('/api/v1/run', {...body, urgent: false}, newest, signal);
+        }
+
+        async function pump() {
+            if (busy) return;
+            busy = true;
+            while (wanted) {
+                const state = wanted;
+                wanted = null;
+                try {
+                    await replay(state);
+                } catch (error) {
+                    fail(error, state);
+                }
+            }
+            busy = false;
+            setRunning(null);
+            store.emit('idle');
+        }
+
+        /* Whether slots come and go, which the pipeline shows before the replay is done. */
+        let structure = null;
+        async function look(state) {
+            const key = keyOf({...state, set: {}, skip: [], force: []});
+            if (key === structure) return;
+            structure = key;
+            try {
+                const answer = await api.post('/api/v1/pipeline', {state});
+                if (keyOf(store.state) === keyOf(state)) takeStructure(answer);
+            } catch { /* the replay says it, too */ }
+        }
+
+        store.request = () => {
+            wanted = copy(store.state);
+            if (refining) refining.abort();
+            look(wanted);
+            pump();
+        };
+        store.busy = () => busy;
+        /* What was refused is not in the state; its control shows it until somebody changes it. */
+        store.clearRefusal = () => {
+            if (!store.refusal) return;
+            store.refusal = null;
+            store.emit('refused');
+        };
+        store.on('changed', store.request);
+
+        others(store);
+    };
+
+    /* ---- B and the truth ---- */
+
+    function others(store) {
+        const {registry} = store;
+        let truthOf = null;
+
+        const titleOf = state => {
+            const changes = [...Object.entries(state.use).map(([k, v]) => `${k}: ${v}`), ...Object.entries(state.set).map(([k, v]) => `${k}=${v}`),
+                ...state.skip.map(s => `without ${s}`), ...state.force.map(s => `always ${s}`)];
+            return [state.preset, ...changes.slice(0, 3), ...(changes.length > 3 ? [`${changes.length - 3} more`] : [])].join(', ');
+        };
+        store.titleOf = titleOf;
+
+        function setPinned(pinned) {
+            store.pinned = pinned;
+            store.emit('pinned');
+        }
+        store.unpin = () => setPinned(null);
+        store.pinResult = (title, result) => setPinned({title, result, of: null});
+
+        /* B is a state; the run of it that is there is taken. */
+        store.pinState = async (state, title = titleOf(state)) => {
+            if (store.result && !store.result.draft && keyOf(store.result.state) === keyOf(state)) return store.pinResult(title, store.result);
+            try {
+                store.pinResult(title, await api.insist('/api/v1/run', {state, client: api.client}));
+            } catch (error) { store.notice(error.message); }
+        };
+
+        const answer = (of, effect) => api.insist('/api/v1/answer', {state: store.state, effect, of, client: api.client});
+
+        store.pinAnswer = async (of, effect, title) => {
+            try {
+                const result = await answer(of, effect);
+                setPinned({title, result, of, effect});
+            } catch (error) { store.notice(error.message); }
+        };
+
+        store.swap = () => {
+            const b = store.pinned, a = store.result;
+            if (!b || b.of || !a || a.draft) return;
+            setPinned({title: titleOf(a.state), result: a, of: null});
+            store.setState(b.result.state);
+        };
+
+        /* B follows to another frame. */
+        async function follow() {
+            const b = store.pinned, capture = store.state.capture;
+            if (!b || store.playing || b.result.state.capture === capture || store.busy()) return;
+            if (b.of) await store.pinAnswer(b.of, b.effect, b.title);
+            else await store.pinState({...b.result.state, capture}, b.title);
+        }
+
+        async function findTruth() {
+            const capture = registry.captures[store.state.capture], effect = store.effect;
+            const known = effect && capture?.truth?.includes(effect), key = `${store.state.capture} ${effect}`;
+            if (truthOf === key || (known && (store.playing || store.busy()))) return;
+            truthOf = key;
+            store.truth = null;
+            try {
+                const found = known ? await answer('truth', effect) : null;
+                if (truthOf !== key) return;
+                store.truth = found && {title: 'truth', result: found};
+            } catch { truthOf = null; }
+            store.emit('truth');
+        }
+
+        store.on('idle', () => { follow(); findTruth(); });
+        store.on('effect', findTruth);
+    }
+})();
