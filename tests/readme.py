@@ -117,7 +117,7 @@ def processor_seconds():
 
 
 def run(line, prints, most):
-    """The seconds, if the result is as expected: comparisons may report differences, and a watch ends with Ctrl-C. Else None."""
+    """The seconds, if the result is as expected: comparisons may report differences, and a watch or a server ends with Ctrl-C. Else None."""
     start, used = time.monotonic(), processor_seconds()
     words = line.split()
     prefix = os.path.join(FOLDER, "installed")
@@ -126,7 +126,7 @@ def run(line, prints, most):
     said = []
     for text in process.stdout:
         said.append(text)
-        if "--watch" in words and "Ctrl-C" in text:
+        if ("--watch" in words or words[1] == "live") and "Ctrl-C" in text:
             process.send_signal(signal.SIGINT)
     said = "".join(said)
     missing = [text for text in prints or [] if text not in said]

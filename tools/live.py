@@ -1,9 +1,12 @@
 #!/usr/bin/env python3
-"""How long a changed parameter takes to reach the page of glint live: live.py record GLINT --as NAME [-o RECORD.json], live.py page
+"""How long a changed parameter takes to reach the page of glint live.
+
+live.py record GLINT --as NAME [-o RECORD.json]   measure this machine
+live.py tables                                    rewrite the table of BENCHMARKS.md from every record in tools/records/live
 
 record needs nothing but the program. For each size it changes one parameter of a late pass and one of an early pass to values that the device
-has not seen, and back to values that it has, and measures from the request to the last byte of the picture, as the page asks for both: the
-whole frame, and on devices that need it the draft. page writes the table of BENCHMARKS.md from every record in tools/records/live."""
+has not seen, to further ones with "quick", and back to values that it has, and measures from the request to the last byte of the picture, as the
+page asks for both: the whole frame, and on devices that need it the draft. `./dev bench` calls both."""
 import argparse
 import http.client
 import json
@@ -16,9 +19,12 @@ import time
 import pages
 
 SIZES = ("960x540", "1920x1080")
-# the last pass, the tracer after the screen's, and the first pass
-PARAMETERS = {"compose.intensity": [1 + i / 64 for i in range(16)], "cubemap_trace.steps_hq": list(range(24, 40)),
-              "downsample.share": [1 - i / 64 for i in range(16)]}
+# Of the last pass, of the tracer after the screen's, and of the first pass: values of which half is for plain requests, half for quick ones.
+PARAMETERS = {"compose.intensity": [1 + i / 64 for i in range(32)], "cubemap_trace.steps_hq": list(range(24, 56)),
+              "downsample.share": [1 - i / 64 for i in range(32)]}
+PLACES = {"compose.intensity": "late: the last pass", "cubemap_trace.steps_hq": "in the middle: the trace through cube maps",
+          "downsample.share": "early: the first pass that depends on parameters"}
+KINDS = {"new": "new", "quick": "new, with `quick`", "seen": "seen before"}
 FOLDER = pages.RECORDS.parent / "live"
 
 
@@ -40,10 +46,10 @@ class Live:
             raise SystemExit(f"{path}: {data[:500]}")
         return data if answer.getheader("Content-Type") == "application/octet-stream" else json.loads(data)
 
-    def change(self, values, draft=False):
+    def change(self, values, draft=False, quick=False):
         """Seconds until the picture of these values is there, and the device time of the passes that ran for it."""
         start = time.monotonic()
-        run = self.ask("POST", "run", {"state": {"set": values}, "draft": draft, "urgent": True})
+        run = self.ask("POST", "run", {"state": {"set": values}, "draft": draft, "quick": quick, "urgent": True})
         self.ask("GET", f"picture?run={run['run']}&image={run['picture']}&format=raw")
         seconds = time.monotonic() - start
         passes = sum(p["ns"] or 0 for p in run["passes"] if p["ran"] and not p["cached"] and not p["host"])
@@ -59,12 +65,15 @@ def figures(pairs):
             "passes_ms": round(1e3 * statistics.median(p for _, p in pairs), 2), "n": len(pairs)}
 
 
-def measure_parameter(live, name, values, drafts):
+def measure_parameter(live, name, values, quick, drafts):
+    """`quick`: values for requests with quick, which are not those that plain requests have had programs compiled for."""
     rows = {}
     for kind in ("whole", *(["draft"] if drafts else [])):
-        live.change({}, kind == "draft")
-        rows[kind] = {"new": figures([live.change({name: value}, kind == "draft") for value in values]),
-                      "seen": figures([live.change({name: value}, kind == "draft") for value in values[-4:] * 2])}
+        draft = kind == "draft"
+        live.change({}, draft)
+        rows[kind] = {"new": figures([live.change({name: value}, draft) for value in values]),
+                      "quick": figures([live.change({name: value}, draft, True) for value in quick]),
+                      "seen": figures([live.change({name: value}, draft) for value in values[-4:] * 2])}
     return rows
 
 
@@ -78,7 +87,7 @@ def record(args):
             first = live.change({})
             rows = {"first": {"ms": round(1e3 * first[0], 1)}}
             for name, values in PARAMETERS.items():
-                rows[name] = measure_parameter(live, name, values[:args.values], found["device"]["cpu"])
+                rows[name] = measure_parameter(live, name, values[:args.values], values[-args.values:], found["device"]["cpu"])
                 print(size, name, json.dumps(rows[name]), flush=True)
             found["sizes"][size] = rows
             live.end()
@@ -86,20 +95,60 @@ def record(args):
     args.output.write_text(json.dumps(found, indent=1) + "\n")
 
 
+# ---- The table ----
+
+
+def cell(row):
+    return f"{row['ms']:.3g} [{row['most_ms']:.3g}], {row['passes_ms']:.3g}" if row else "–"
+
+
+def table(records):
+    """One row for each size, parameter and kind of value, with columns of each record."""
+    kinds = [(r, kind) for r in records for kind in ("whole", "draft") if any(kind in rows for size in r["sizes"].values() for rows in size.values())]
+    heads = ["frame, parameter, value", *(f"{r['as']}: {'whole frame' if kind == 'whole' else 'draft'}" for r, kind in kinds)]
+    rows = []
+    for size in SIZES:
+        for name, place in PLACES.items():
+            for value, words in KINDS.items():
+                cells = [r["sizes"].get(size, {}).get(name, {}).get(kind, {}).get(value) for r, kind in kinds]
+                if any(cells):
+                    rows.append([f"{size.replace('x', '×')}, `{name}` ({place}), {words}", *map(cell, cells)])
+    return pages.table(heads, rows)
+
+
+def devices(records):
+    lines = [f"{r['as']}: {r['device']['name']}, driver {r['device']['driver']}, {n} values of each parameter"
+             for r in records for n in [max(v["n"] for size in r["sizes"].values() for rows in size.values() for v in [rows.get("whole", {}).get("new")] if v)]]
+    return "Devices: " + "; ".join(lines) + ".\n"
+
+
+def tables(args):
+    records = [json.loads(path.read_text()) for path in sorted(FOLDER.glob("*.json"))]
+    page = args.page.read_text(encoding="utf-8")
+    begin, end = "<!-- live -->\n", "<!-- end live -->"
+    head, rest = page.split(begin)
+    args.page.write_text(head + begin + table(records) + "\n" + devices(records) + end + rest.split(end)[1], encoding="utf-8")
+    print(f"{args.page}: the table of glint live rewritten from {len(records)} records")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    commands = parser.add_subparsers(dest="command", required=True)
+    commands = parser.add_subparsers(required=True)
     recording = commands.add_parser("record")
     recording.add_argument("glint")
     recording.add_argument("--as", dest="name", required=True, help="what the page calls this device")
     recording.add_argument("--scene", default="street")
     recording.add_argument("--sizes", default=",".join(SIZES))
     recording.add_argument("--cube", default="256")
-    recording.add_argument("--values", type=int, default=16, help="values of each parameter")
+    recording.add_argument("--values", type=int, default=16, choices=range(1, 17), metavar="N", help="values of each parameter, 1 to 16")
     recording.add_argument("--work", help="folder for temporary files")
     recording.add_argument("-o", "--output", default=FOLDER / "here.json", type=pathlib.Path)
+    recording.set_defaults(act=record)
+    writing = commands.add_parser("tables")
+    writing.add_argument("--page", default=pages.HERE.parent / "BENCHMARKS.md", type=pathlib.Path)
+    writing.set_defaults(act=tables)
     args = parser.parse_args()
-    record(args)
+    args.act(args)
 
 
 if __name__ == "__main__":

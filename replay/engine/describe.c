@@ -56,7 +56,9 @@ void step_record(const struct run *run, struct step *step) {
     VkCommandBuffer commands = gpu->commands;
     for (size_t d = 0; d < step->dispatch_count; d++) {
         const struct dispatch *dispatch = &step->dispatches[d];
-        const VkDescriptorSet sets[] = {dispatch->set, run->frame_set};
+        const VkDescriptorSet sets[] = {dispatch->set, run->frame_set, run->values_set};
+        const bool generic = dispatch->program->generic;
+        const uint32_t own_values = (uint32_t)(step - run->steps) * VALUES_BYTES;
         const VkPipelineLayout layout = dispatch->program->layout;
         uint32_t *push = step->constants.push;
         push[0] = dispatch->level; /* the first member of push_begin.glsl */
@@ -68,7 +70,8 @@ void step_record(const struct run *run, struct step *step) {
         probes_access(step, &barriers);
         barriers_record(&barriers, gpu);
         vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, dispatch->program->pipeline);
-        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 2, sets, 0, NULL);
+        vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, generic ? 3 : 2, sets, generic,
+                                &own_values);
         vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_COMPUTE_BIT, 0, step->constants.push_count * 4, push);
         const uint32_t *groups = dispatch->groups;
         for (uint32_t i = 0; i < dispatch->layer_runs; i++)

@@ -13,6 +13,7 @@ void engine_finish(struct engine *engine) {
     if (!engine->gpu) return;
     host_buffer_finish(&engine->frame, engine->gpu);
     host_buffer_finish(&engine->probes, engine->gpu);
+    host_buffer_finish(&engine->values, engine->gpu);
     free(engine->probed);
 }
 

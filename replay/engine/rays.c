@@ -93,7 +93,8 @@ bool rays_prepare(struct run *run, uint32_t sums, struct glint_error *err) {
     struct spirv spirv;
     const struct pipeline_pass entry = {.pass = &accumulate};
     if (!spirv_find(&spirv, &run->engine->device->shaders, &entry, err)) return false;
-    run->rays->program = programs_get(&run->engine->device->programs, run->gpu, &accumulate, &spirv, &constants, err);
+    run->rays->program =
+        programs_get(&run->engine->device->programs, run->gpu, &accumulate, &spirv, &constants, false, err);
     bool ok = run->rays->program != NULL;
     for (uint32_t k = 0, level; ok && k < sums; k++) {
         struct image *of = accumulated_level(run, k, &level);

@@ -14,7 +14,7 @@ struct engine {
     struct gpu *gpu;
     struct pool *pool;
     struct frame_source *source;
-    struct host_buffer frame, probes;
+    struct host_buffer frame, probes, values;
     uint32_t (*probed)[2]; /* the probes of the last run */
     size_t probe_count;
     uint32_t probe_reduction; /* width in full-resolution pixels of a texel of the pipeline's resolution */
@@ -48,6 +48,7 @@ struct step {
     uint64_t key;
     char cache_key[CACHE_KEY_SIZE]; /* key of its file in the cache folder; "": none */
     bool execute;
+    bool quick;        /* a dispatch has a generic program */
     uint32_t stamp;    /* query of the timestamp at its end; 0: it is not in the current command buffer */
     uint64_t round_ns; /* time in the current round */
     uint64_t *ns;      /* time of each timed round */
@@ -71,6 +72,7 @@ struct run {
     struct step *steps;     /* one for each pass of the graph */
     VkDescriptorPool descriptors;
     VkDescriptorSet frame_set;
+    VkDescriptorSet values_set; /* the constants of all steps; VK_NULL_HANDLE if no step has a generic program */
     VkQueryPool queries;
     uint32_t stamps;   /* timestamps in the current command buffer */
     struct rays *rays; /* NULL with a single ray */

@@ -3,7 +3,7 @@
 
 #include <stdio.h>
 
-bool descriptors_create(struct gpu *gpu, uint32_t sets, uint32_t images, VkDescriptorPool *pool,
+bool descriptors_create(struct gpu *gpu, uint32_t sets, uint32_t images, bool values, VkDescriptorPool *pool,
                         struct glint_error *err) {
     const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, images},
                                           {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, images},
@@ -11,10 +11,11 @@ bool descriptors_create(struct gpu *gpu, uint32_t sets, uint32_t images, VkDescr
                                           {VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER, images},
                                           {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 1},
                                           {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1},
-                                          {VK_DESCRIPTOR_TYPE_SAMPLER, 2}};
+                                          {VK_DESCRIPTOR_TYPE_SAMPLER, 2},
+                                          {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, 1}};
     const VkDescriptorPoolCreateInfo info = {.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO,
                                              .maxSets = sets,
-                                             .poolSizeCount = sizeof sizes / sizeof sizes[0],
+                                             .poolSizeCount = sizeof sizes / sizeof sizes[0] - !values,
                                              .pPoolSizes = sizes};
     return gpu_ok(gpu, vkCreateDescriptorPool(gpu->device, &info, NULL, pool), "creating the descriptor pool", err);
 }

@@ -95,9 +95,9 @@ bool host_buffer_init(struct host_buffer *buffer, struct gpu *gpu, enum host_buf
                       const char *name, struct glint_error *err);
 void host_buffer_finish(struct host_buffer *buffer, struct gpu *gpu);
 
-/* descriptors.c: creates a pool for `sets` sets with at most `images` images of each kind and the buffers of the frame; allocates a set; binds
-   an image or texel buffer; binds a buffer. */
-bool descriptors_create(struct gpu *gpu, uint32_t sets, uint32_t images, VkDescriptorPool *pool,
+/* descriptors.c: creates a pool for `sets` sets with at most `images` images of each kind and the buffers of the frame, with `values` also one
+   with a dynamic offset; allocates a set; binds an image or texel buffer; binds a buffer. */
+bool descriptors_create(struct gpu *gpu, uint32_t sets, uint32_t images, bool values, VkDescriptorPool *pool,
                         struct glint_error *err);
 bool descriptors_allocate(struct gpu *gpu, VkDescriptorPool pool, const VkDescriptorSetLayout *layout, const char *name,
                           VkDescriptorSet *set, struct glint_error *err);

@@ -33,6 +33,7 @@ static void store_pass(const struct run *run, size_t p, struct results *results)
         return;
     }
     result->cached = !step->execute;
+    result->quick = step->quick;
     result->key = step->key;
     if (!run->options->outputs) /* only a file with all images of the pass is cached */
         memcpy(results->cache_keys[p], step->cache_key, CACHE_KEY_SIZE);

@@ -50,9 +50,10 @@ bool constants_init(struct constants *constants, const struct graph *graph, cons
                 add_constant(constants, CONSTANT_FILTER, by_hand);
     for (size_t i = 0; i < pass->row_count && fits; i++) {
         uint32_t bits = glint_row_is_parameter(&pass->rows[i]) ? value_bits(&pass->rows[i], values[i]) : 0;
-        if (pass->rows[i].kind == GLINT_ROW_SPEC || pass->rows[i].kind == GLINT_ROW_CHOICE)
+        if (pass->rows[i].kind == GLINT_ROW_SPEC || pass->rows[i].kind == GLINT_ROW_CHOICE) {
             fits = add_constant(constants, pass->rows[i].id, bits);
-        else if (pass->rows[i].kind == GLINT_ROW_FACT)
+            if (fits) constants->parameters |= UINT64_C(1) << (constants->count - 1);
+        } else if (pass->rows[i].kind == GLINT_ROW_FACT)
             fits = add_constant(constants, pass->rows[i].id, !(graph_pass->false_facts >> facts++ & 1));
         else if (pass->rows[i].kind == GLINT_ROW_BLOCKS) fits = add_constant(constants, pass->rows[i].id, block);
         else if (pass->rows[i].optional) /* has_NAME, of OPTIONAL_READ and DISPATCH_LIST */
@@ -88,17 +89,42 @@ static void program_destroy(struct program *program, struct gpu *gpu) {
     free(program);
 }
 
+/* A module that reads parameters from memory. */
+struct generic {
+    const struct glint_pass *pass;
+    const uint32_t *from;
+    uint32_t *words;
+    size_t bytes;
+    uint64_t turned; /* bits of the indices of the constants that it reads */
+    struct generic *next;
+};
+
 void programs_finish(struct programs *programs, struct gpu *gpu) {
     for (struct program *program = programs->first, *next; program; program = next) {
         next = program->next;
         program_destroy(program, gpu);
     }
+    for (struct generic *next, *one = programs->generic; one; one = next) {
+        next = one->next;
+        free(one->words);
+        free(one);
+    }
     if (gpu->device) {
         vkDestroyDescriptorSetLayout(gpu->device, programs->frame, NULL);
+        vkDestroyDescriptorSetLayout(gpu->device, programs->values, NULL);
         vkDestroySampler(gpu->device, programs->linear, NULL);
         vkDestroySampler(gpu->device, programs->nearest, NULL);
     }
     *programs = (struct programs){0};
+}
+
+static bool create_set_layout(struct gpu *gpu, const VkDescriptorSetLayoutBinding *bindings, uint32_t count,
+                              const char *name, VkDescriptorSetLayout *layout, struct glint_error *err) {
+    const VkDescriptorSetLayoutCreateInfo info = {
+        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, .bindingCount = count, .pBindings = bindings};
+    if (!gpu_ok(gpu, vkCreateDescriptorSetLayout(gpu->device, &info, NULL, layout), name, err)) return false;
+    device_set_name(gpu, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, (uint64_t)(uintptr_t)*layout, name);
+    return true;
 }
 
 bool programs_init(struct programs *programs, struct gpu *gpu, struct glint_error *err) {
@@ -111,13 +137,10 @@ bool programs_init(struct programs *programs, struct gpu *gpu, struct glint_erro
         {2, VK_DESCRIPTOR_TYPE_SAMPLER, 1, VK_SHADER_STAGE_COMPUTE_BIT, &programs->nearest},
         {3, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1, VK_SHADER_STAGE_COMPUTE_BIT, NULL},
     };
-    const VkDescriptorSetLayoutCreateInfo info = {
-        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, .bindingCount = 4, .pBindings = bindings};
-    if (!gpu_ok(gpu, vkCreateDescriptorSetLayout(gpu->device, &info, NULL, &programs->frame),
-                "creating the layout of the frame", err))
-        return false;
-    device_set_name(gpu, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, (uint64_t)(uintptr_t)programs->frame, "frame");
-    return true;
+    const VkDescriptorSetLayoutBinding values = {0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, 1,
+                                                 VK_SHADER_STAGE_COMPUTE_BIT, NULL};
+    return create_set_layout(gpu, bindings, 4, "frame", &programs->frame, err) &&
+           create_set_layout(gpu, &values, 1, "values", &programs->values, err);
 }
 
 VkDescriptorType row_descriptor(const struct glint_row *row) {
@@ -126,7 +149,7 @@ VkDescriptorType row_descriptor(const struct glint_row *row) {
     return row_is_sampled(row) ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
 }
 
-static bool create_layouts(struct program *program, struct gpu *gpu, VkDescriptorSetLayout frame,
+static bool create_layouts(struct program *program, struct gpu *gpu, const struct programs *programs,
                            const struct glint_pass *pass, const struct constants *constants, const char *name,
                            struct glint_error *err) {
     VkDescriptorSetLayoutBinding bindings[PASS_IMAGES_MAX];
@@ -137,14 +160,11 @@ static bool create_layouts(struct program *program, struct gpu *gpu, VkDescripto
         bindings[count++] =
             (VkDescriptorSetLayoutBinding){row->id, row_descriptor(row), 1, VK_SHADER_STAGE_COMPUTE_BIT, NULL};
     }
-    const VkDescriptorSetLayoutCreateInfo set = {
-        .sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO, .bindingCount = count, .pBindings = bindings};
-    if (!gpu_ok(gpu, vkCreateDescriptorSetLayout(gpu->device, &set, NULL, &program->images), name, err)) return false;
-    device_set_name(gpu, VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, (uint64_t)(uintptr_t)program->images, name);
-    const VkDescriptorSetLayout sets[] = {program->images, frame};
+    if (!create_set_layout(gpu, bindings, count, name, &program->images, err)) return false;
+    const VkDescriptorSetLayout sets[] = {program->images, programs->frame, programs->values};
     const VkPushConstantRange push = {VK_SHADER_STAGE_COMPUTE_BIT, 0, constants->push_count * 4};
     const VkPipelineLayoutCreateInfo layout = {.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
-                                               .setLayoutCount = 2,
+                                               .setLayoutCount = program->generic ? 3 : 2,
                                                .pSetLayouts = sets,
                                                .pushConstantRangeCount = 1,
                                                .pPushConstantRanges = &push};
@@ -153,14 +173,23 @@ static bool create_layouts(struct program *program, struct gpu *gpu, VkDescripto
     return true;
 }
 
-static bool create_pipeline(struct program *program, struct gpu *gpu, const struct spirv *spirv,
+struct module {
+    const uint32_t *words;
+    size_t bytes;
+};
+
+/* A CPU device compiles the shader without the code of probes in a third of the time; a GPU runs some passes up to a tenth slower from it. */
+static struct module module_of(const struct gpu *gpu, const struct spirv *spirv, const struct constants *constants) {
+    const bool whole = constants->probed || !gpu->info.is_cpu;
+    return whole ? (struct module){spirv->words, spirv->bytes}
+                 : (struct module){spirv->unprobed, spirv->unprobed_bytes};
+}
+
+static bool create_pipeline(struct program *program, struct gpu *gpu, struct module from,
                             const struct constants *constants, bool some_layers, const char *name,
                             struct glint_error *err) {
-    /* A CPU device compiles the shader without the code of probes in a third of the time; a GPU runs some passes up to a tenth slower from it. */
-    const bool whole = constants->probed || !gpu->info.is_cpu;
     VkShaderModuleCreateInfo module_info = {.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
-    uint32_t *words = whole ? spirv_exact(spirv->words, spirv->bytes, &module_info.codeSize)
-                            : spirv_exact(spirv->unprobed, spirv->unprobed_bytes, &module_info.codeSize);
+    uint32_t *words = spirv_exact(from.words, from.bytes, &module_info.codeSize);
     if (!words) return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", name);
     module_info.pCode = words;
     VkShaderModule module;
@@ -185,17 +214,29 @@ static bool create_pipeline(struct program *program, struct gpu *gpu, const stru
     return ok;
 }
 
-struct program *programs_get(struct programs *programs, struct gpu *gpu, const struct glint_pass *pass,
-                             const struct spirv *spirv, const struct constants *constants, struct glint_error *err) {
+/* The pass's module that reads parameters from memory, made once; NULL: out of memory. */
+static const struct generic *find_generic(struct programs *programs, const struct glint_pass *pass, struct module from,
+                                          const struct constants *constants) {
+    struct generic *found = programs->generic;
+    while (found && (found->pass != pass || found->from != from.words)) found = found->next;
+    if (found) return found;
+    uint32_t ids[SPIRV_PLACES] = {0};
+    for (uint32_t i = 0; i < constants->count; i++) ids[i] = constants->entries[i].constantID;
+    if (!(found = calloc(1, sizeof *found))) return NULL;
+    *found = (struct generic){.pass = pass, .from = from.words, .next = programs->generic};
+    found->words = spirv_generic(from.words, from.bytes, ids, constants->parameters, &found->turned, &found->bytes);
+    if (found->words) return programs->generic = found;
+    free(found);
+    return NULL;
+}
+
+/* Finds a program and moves it to the front of the list, which is in order of last use; drops what was not used for long. */
+static struct program *find_program(struct programs *programs, struct gpu *gpu, uint64_t key) {
     enum { KEPT = 256 };
-    char name[128];
-    snprintf(name, sizeof name, "%s/%s", pass->slot, pass->variant);
-    uint64_t key = XXH3_64bits_withSeed(constants->data, constants->count * sizeof(uint32_t), spirv->hash);
-    key ^= XXH3_64bits(name, strlen(name));
     size_t count = 0;
     for (struct program **at = &programs->first; *at; at = &(*at)->next, count++) {
         struct program *found = *at;
-        if (found->key == key) { /* moved to the front, so that the list is in order of last use */
+        if (found->key == key) {
             *at = found->next;
             found->next = programs->first;
             return programs->first = found;
@@ -208,17 +249,55 @@ struct program *programs_get(struct programs *programs, struct gpu *gpu, const s
             found->next = NULL;
         }
     }
+    return NULL;
+}
+
+static uint64_t program_key(const struct glint_pass *pass, const struct constants *constants, uint64_t module) {
+    char name[128];
+    snprintf(name, sizeof name, "%s/%s", pass->slot, pass->variant);
+    return XXH3_64bits_withSeed(constants->data, constants->count * sizeof(uint32_t), module) ^
+           XXH3_64bits(name, strlen(name));
+}
+
+static struct program *add_program(struct programs *programs, struct gpu *gpu, const struct glint_pass *pass,
+                                   struct module from, const struct constants *constants, uint64_t key, bool generic,
+                                   struct glint_error *err) {
+    char name[128];
+    snprintf(name, sizeof name, "%s/%s", pass->slot, pass->variant);
     struct program *program = calloc(1, sizeof *program);
     if (!program) {
         glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", name);
         return NULL;
     }
     program->key = key;
-    if (!create_layouts(program, gpu, programs->frame, pass, constants, name, err) ||
-        !create_pipeline(program, gpu, spirv, constants, glint_pass_row(pass, GLINT_ROW_RAY_MARGIN, NULL), name, err)) {
+    program->generic = generic;
+    programs->compiled++;
+    if (!create_layouts(program, gpu, programs, pass, constants, name, err) ||
+        !create_pipeline(program, gpu, from, constants, glint_pass_row(pass, GLINT_ROW_RAY_MARGIN, NULL), name, err)) {
         program_destroy(program, gpu);
         return NULL;
     }
     program->next = programs->first;
     return programs->first = program;
+}
+
+struct program *programs_get(struct programs *programs, struct gpu *gpu, const struct glint_pass *pass,
+                             const struct spirv *spirv, const struct constants *constants, bool quick,
+                             struct glint_error *err) {
+    const uint64_t key = program_key(pass, constants, spirv->hash);
+    const struct module from = module_of(gpu, spirv, constants);
+    struct program *program = find_program(programs, gpu, key);
+    if (program) return program;
+    const struct generic *generic = quick ? find_generic(programs, pass, from, constants) : NULL;
+    if (quick && !generic) {
+        glint_fail(err, GLINT_ERROR_MEMORY, "%s/%s: out of memory", pass->slot, pass->variant);
+        return NULL;
+    }
+    if (!generic || !generic->turned) return add_program(programs, gpu, pass, from, constants, key, false, err);
+    struct constants left = *constants;
+    for (uint32_t i = 0; i < left.count; i++)
+        if (generic->turned >> i & 1) left.data[i] = 0;
+    const uint64_t shared = program_key(pass, &left, ~spirv->hash);
+    if ((program = find_program(programs, gpu, shared))) return program;
+    return add_program(programs, gpu, pass, (struct module){generic->words, generic->bytes}, &left, shared, true, err);
 }

@@ -14,7 +14,7 @@ struct workgroup pass_workgroup(const struct glint_pass *pass);
 
 enum {
     PUSH_BYTES_MAX = 128,
-    CONSTANTS_MAX = 64,
+    CONSTANTS_MAX = SPIRV_PLACES,
     CONSTANT_PHASE = 4 /* both the id and the index among the constants */,
     CONSTANT_FILTER = 995,
     CONSTANT_PROBE = 999
@@ -22,12 +22,15 @@ enum {
 /* Constants for DISPATCH_LIST: their ids, and their indices among the constants. */
 enum { CONSTANT_TILES = 997, CONSTANT_WORKS = 998, PLACE_TILES = 6, PLACE_WORKS = 7 };
 #define ALL_TILES UINT32_MAX
+/* Bytes of the constants' data in memory. No device asks for a larger alignment of uniform buffers. */
+enum { VALUES_BYTES = CONSTANTS_MAX * sizeof(uint32_t) };
 
 /* A pass's parameters as specialization constants and push constants. */
 struct constants {
     VkSpecializationMapEntry entries[CONSTANTS_MAX];
     uint32_t data[CONSTANTS_MAX];
     uint32_t count;
+    uint64_t parameters;               /* bits of the indices of those that are values of parameters */
     uint32_t push[PUSH_BYTES_MAX / 4]; /* the first one is the MIP level of the dispatch */
     uint32_t push_count;
     bool probed; /* the shader records probed pixels */
@@ -41,6 +44,7 @@ struct program {
     VkDescriptorSetLayout images;
     VkPipelineLayout layout;
     VkPipeline pipeline;
+    bool generic; /* reads parameters from memory: set 2 */
     struct program *next;
 };
 
@@ -48,13 +52,19 @@ VkDescriptorType row_descriptor(const struct glint_row *row);
 
 struct programs {
     struct program *first;
+    struct generic *generic;     /* modules that read parameters from memory */
     VkDescriptorSetLayout frame; /* set 1 */
+    VkDescriptorSetLayout
+        values; /* set 2 of generic programs: a uniform buffer with a dynamic offset, VALUES_BYTES for each pass */
+    uint64_t compiled; /* pipelines created so far */
     VkSampler linear, nearest;
 };
 bool programs_init(struct programs *programs, struct gpu *gpu, struct glint_error *err);
 void programs_finish(struct programs *programs, struct gpu *gpu);
-/* Finds or creates the program of a pass with these constants, which differ between its phases. */
+/* Finds or creates the program of a pass with these constants, which differ between its phases. With `quick` it is a generic one unless there
+   is one for the values of the parameters already. */
 struct program *programs_get(struct programs *programs, struct gpu *gpu, const struct glint_pass *pass,
-                             const struct spirv *spirv, const struct constants *constants, struct glint_error *err);
+                             const struct spirv *spirv, const struct constants *constants, bool quick,
+                             struct glint_error *err);
 
 #endif

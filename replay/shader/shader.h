@@ -43,6 +43,13 @@ void spirv_find_uses(struct spirv *spirv);
 /* exact.c: a copy of a module in which each operation on floats is rounded by itself. The caller frees it; NULL: out of memory. */
 uint32_t *spirv_exact(const uint32_t *words, size_t bytes, size_t *exact_bytes);
 
+/* generic.c: a copy of a module that reads parameters from memory: member i of the uniform block in set SPIRV_VALUES_SET, 32 bits at 4 i bytes,
+   takes the place of the specialization constant ids[i], for each bit i of `parameters`. *turned receives the bits of those that it replaced:
+   the others stay specialization constants. The caller frees it; NULL: out of memory. */
+enum { SPIRV_PLACES = 64, SPIRV_VALUES_SET = 2 };
+uint32_t *spirv_generic(const uint32_t *words, size_t bytes, const uint32_t ids[SPIRV_PLACES], uint64_t parameters,
+                        uint64_t *turned, size_t *generic_bytes);
+
 /* flatten.c: the text of a user's shader with includes inlined and #line directives that preserve files and line numbers. Includes are looked
    up beside the file, then in `folder` (may be NULL), then among the built-in files. The caller frees the text. */
 char *shader_flatten(const char *path, const struct glint_pass *pass, const char *folder, struct glint_error *err);

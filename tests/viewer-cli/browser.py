@@ -156,8 +156,10 @@ class Browser:
         self.call("Emulation.setEmulatedMedia",
                   features=[{"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
 
-    def screenshot(self, path, whole=False):
-        data = self.call("Page.captureScreenshot", captureBeyondViewport=whole)["data"]
+    def screenshot(self, path, whole=False, scale=1):
+        """Of the window; a smaller one by `scale`. A press that is held stays one unless the whole page is asked for."""
+        clip = {} if scale == 1 else {"clip": {"x": 0, "y": 0, "width": self.evaluate("innerWidth"), "height": self.evaluate("innerHeight"), "scale": scale}}
+        data = self.call("Page.captureScreenshot", captureBeyondViewport=whole, **clip)["data"]
         with open(path, "wb") as file:
             file.write(base64.b64decode(data))
 

@@ -49,6 +49,8 @@ class Tests(live_tab.Tests):
         wanted = self.ask("""(window.wanted = [...document.querySelectorAll('button, input, select, summary, [tabindex="0"]')].filter(e =>
             e.checkVisibility({visibilityProperty: true, contentVisibilityAuto: true}) && !e.disabled && e.tabIndex >= 0)).length""")
         assert wanted > 60
+        skipped = self.ask("[...document.querySelectorAll('button, input, select, summary')].filter(e => e.tabIndex < 0 && !e.disabled && !e.matches('.slot .title')).map(e => e.outerHTML.slice(0, 120))")
+        assert not skipped, skipped  # a slot's title does what the button before it does
         self.ask("window.reached = new Set(), window.unseen = [], document.addEventListener('focusin', e => { reached.add(e.target); if (getComputedStyle(e.target).outlineStyle === 'none') unseen.push(e.target.outerHTML.slice(0, 120)); }); 1")
         for _ in range(wanted + 10):
             self.tab.press("Tab", 9)

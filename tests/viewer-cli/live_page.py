@@ -333,6 +333,24 @@ class Tests(live_tab.Tests):
         assert tab.state() == before and not self.ask(f"{STORE}.canUndo()")
         tab.quiet()
 
+    def test_a_run_that_fails_is_said_and_the_picture_stays(self):
+        tab, number = self.reset(), self.integer()
+        self.until("document.querySelector('.tried svg')")
+        before = tab.state()
+        self.ask("""window.post = glintLive.api.post; glintLive.api.post = (path, ...rest) => path.endsWith('/run')
+            ? Promise.reject(glintLive.api.failure('the device is lost', 'device', 500)) : post(path, ...rest); 1""")
+        tab.write(row(number["name"]) + ".querySelector('.exact')", str(int(number["lowest"])))
+        self.until("[...document.querySelectorAll('[role=alert]')].some(e => e.offsetParent && e.textContent.includes('the device is lost'))")
+        time.sleep(0.5)  # until what follows a run begins
+        assert tab.shown() == before and self.ask("document.querySelector('.live-picture canvas').width") == SIZE[0]
+        assert tab.state()["set"] == {number["name"]: number["lowest"]}
+        self.ask("glintLive.api.post = post; 1")
+        tab.press("z", 90, modifiers=2)
+        self.until(f"!{STORE}.error")
+        self.idle()
+        assert tab.shown() == before
+        tab.quiet()
+
     def test_a_link_brings_state_and_look_and_no_token(self):
         tab, number = self.reset(), self.integer()
         tab.write(row(number["name"]) + ".querySelector('.exact')", str(int(number["lowest"]) + 5))

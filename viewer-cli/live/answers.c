@@ -22,12 +22,35 @@ const struct http_route live_routes[] = {
 };
 /* clang-format on */
 
+/* A member of another type is a mistake of the caller's, and would otherwise count as one that is missing. */
+static bool check_types(const json_t *body, struct glint_error *err) {
+    enum { FLAG, TEXT, TEXT_OR_NULL, LIST };
+    static const char *const expected[] = {"true or false", "a text", "a text or null", "an array"};
+    static const struct {
+        const char *name;
+        int type;
+    } members[] = {{"draft", FLAG},  {"quick", FLAG}, {"urgent", FLAG}, {"reference", FLAG},       {"client", TEXT},
+                   {"effect", TEXT}, {"name", TEXT},  {"of", TEXT},     {"against", TEXT_OR_NULL}, {"metrics", LIST}};
+    for (size_t i = 0; i < sizeof members / sizeof *members; i++) {
+        const json_t *json = json_object_get(body, members[i].name);
+        const int type = members[i].type;
+        const bool fits = type == FLAG   ? json_is_boolean(json)
+                          : type == LIST ? json_is_array(json)
+                                         : json_is_string(json) || (type == TEXT_OR_NULL && json_is_null(json));
+        if (json && !fits)
+            return glint_fail(err, GLINT_ERROR_USAGE, "%s: expected %s", members[i].name, expected[type]);
+    }
+    return true;
+}
+
 bool answer_state(struct live *live, const struct http_request *request, const char *name, struct state *state,
                   struct http_answer *answer) {
     struct glint_error err = {0};
-    const json_t *json = json_object_get(request->body, name);
-    const bool ok = json ? state_read(state, live, json, &err)
-                         : glint_fail(&err, GLINT_ERROR_USAGE, "the body has no member \"%s\" with a state", name);
+    const bool typed = check_types(request->body, &err);
+    const json_t *json = typed ? json_object_get(request->body, name) : NULL;
+    const bool ok =
+        json ? state_read(state, live, json, &err)
+             : typed && glint_fail(&err, GLINT_ERROR_USAGE, "the body has no member \"%s\" with a state", name);
     if (ok) return true;
     if (json) state_finish(state);
     http_error(answer, &err);

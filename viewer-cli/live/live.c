@@ -6,26 +6,44 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "command.h"
+#include "glint/exr.h"
 #include "live/live.h"
 #include "options/args.h"
 
+/* The file beside the captures of a shot that holds the cube maps which they share: a pattern for all files of a folder names it, too. */
+static bool holds_cubemaps_alone(const char *path) {
+    struct glint_exr *exr = glint_exr_open(path, NULL, NULL);
+    bool alone = exr && glint_exr_part_count(exr) > 0;
+    for (size_t i = 0; alone && i < glint_exr_part_count(exr); i++)
+        alone = !strncmp(glint_exr_part(exr, i)->name, "cubemap.", strlen("cubemap."));
+    if (exr) glint_exr_close(&exr);
+    return alone;
+}
+
+static bool read_frame(struct live_frame *frame, const char *path, struct glint_error *err) {
+    struct glint_capture *capture = glint_capture_open(path, NULL, err);
+    const struct glint_part_info *gbuffer = capture ? glint_capture_find(capture, "gbuffer") : NULL;
+    if (capture && !gbuffer) glint_fail(err, GLINT_ERROR_FORMAT, "%s: part gbuffer: missing", path);
+    if (gbuffer)
+        *frame = (struct live_frame){.path = path,
+                                     .number = glint_capture_frame(capture)->number,
+                                     .cut = glint_capture_frame(capture)->cut,
+                                     .width = gbuffer->width,
+                                     .height = gbuffer->height};
+    glint_capture_close(&capture);
+    return gbuffer != NULL;
+}
+
 static bool read_frames(struct live *live, struct glint_error *err) {
-    if (!(live->frames = calloc(live->captures->count, sizeof *live->frames))) return fail_memory(err);
-    for (size_t i = 0; i < live->captures->count; i++) {
-        const char *path = live->captures->items[i];
-        struct glint_capture *capture = glint_capture_open(path, NULL, err);
-        const struct glint_part_info *gbuffer = capture ? glint_capture_find(capture, "gbuffer") : NULL;
-        if (capture && !gbuffer) glint_fail(err, GLINT_ERROR_FORMAT, "%s: part gbuffer: missing", path);
-        if (gbuffer)
-            live->frames[i] = (struct live_frame){.path = path,
-                                                  .number = glint_capture_frame(capture)->number,
-                                                  .cut = glint_capture_frame(capture)->cut,
-                                                  .width = gbuffer->width,
-                                                  .height = gbuffer->height};
-        glint_capture_close(&capture);
-        if (!gbuffer) return false;
+    const struct list *captures = live->captures;
+    if (!(live->frames = calloc(captures->count, sizeof *live->frames))) return fail_memory(err);
+    for (size_t i = 0; i < captures->count; i++) {
+        if (captures->count > 1 && holds_cubemaps_alone(captures->items[i]))
+            command_note(live->command, "%s: cube maps that captures share; left out", captures->items[i]);
+        else if (!read_frame(&live->frames[live->count++], captures->items[i], err)) return false;
     }
-    return true;
+    return live->count || glint_fail(err, GLINT_ERROR_USAGE, "expected a capture, found files of cube maps alone");
 }
 
 /* The preset of the command line first, then the built-in ones. */

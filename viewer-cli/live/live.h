@@ -76,6 +76,7 @@ struct live {
     const char *reference, *out; /* folders, or NULL */
     char *cache, *folder;        /* a cache folder or NULL; a private folder for drafts and pages */
     struct live_frame *frames;
+    size_t count; /* of frames */
     const char **presets; /* names that states may have, NULL-terminated */
     json_t *registry;
 
@@ -174,8 +175,9 @@ bool live_open_device(struct live *live, struct glint_error *err);
 void live_close(struct live *live);
 /* The options for a state's replay. */
 struct glint_replay_options live_options(const struct live *live, const struct state *state);
-/* Opens the device if it is not, and replays the frames that the state needs up to and with its own. */
-bool live_replay(struct live *live, const struct state *state, bool draft, struct glint_error *err);
+/* Opens the device if it is not, and replays the frames that the state needs up to and with its own. `quick`: the own one without compiling
+   programs for new values. */
+bool live_replay(struct live *live, const struct state *state, bool draft, bool quick, struct glint_error *err);
 /* The same up to the frame itself, which is loaded and not run. */
 bool live_load(struct live *live, const struct state *state, bool draft, struct glint_error *err);
 /* Notes how the run of the loaded frame ended. After a fault of the device everything on it is released. */

@@ -60,7 +60,8 @@ static char *folder_of(const struct live *live, const struct state *state, const
 
 static bool write_state(struct live *live, const struct state *state, const char *folder, struct glint_error *err) {
     char *path = folder_of(live, state, folder, state->capture);
-    const bool ok = path ? live_replay(live, state, false, err) && write_loaded(live, path, err) : fail_memory(err);
+    const bool ok =
+        path ? live_replay(live, state, false, false, err) && write_loaded(live, path, err) : fail_memory(err);
     free(path);
     return ok;
 }
@@ -130,7 +131,7 @@ static bool write_page(struct live *live, struct reporting *r, const char *folde
     for (int k = 0; ok && k < 2; k++) {
         const struct state *state = &r->sides[k];
         snprintf(paths[k], sizeof paths[k], "%.4000s/%c", folder, k ? 'B' : 'A');
-        ok = live_replay(live, state, false, err) && write_loaded(live, paths[k], err);
+        ok = live_replay(live, state, false, false, err) && write_loaded(live, paths[k], err);
     }
     const char *const runs[2] = {paths[0], paths[1]};
     snprintf(page, sizeof page, "%.4000s/page.html", folder);

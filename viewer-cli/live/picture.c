@@ -379,8 +379,9 @@ void live_answer_values(void *user, const struct http_request *request, struct h
         http_error(answer, &err);
         return;
     }
-    if (width < 1 || height < 1 || x >= width || y >= height || json_array_size(of) > MOST) {
-        http_refuse(answer, 400, "usage", "expected size: [width, height], x and y inside of it, and at most 8 images");
+    if (width < 1 || height < 1 || x >= width || y >= height || !json_is_array(of) || json_array_size(of) > MOST) {
+        http_refuse(answer, 400, "usage",
+                    "expected size: [width, height], x and y inside of it, and of: an array of at most 8 images");
         return;
     }
     json_t *list = json_array(), *which;

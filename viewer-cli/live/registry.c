@@ -9,7 +9,7 @@
 
 static json_t *captures_json(const struct live *live) {
     json_t *list = json_array();
-    for (size_t i = 0; i < live->captures->count; i++) {
+    for (size_t i = 0; i < live->count; i++) {
         const struct live_frame *frame = &live->frames[i];
         json_t *truths = json_array();
         size_t count;

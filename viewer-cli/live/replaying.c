@@ -81,8 +81,9 @@ bool live_ran(struct live *live, const struct state *state, bool ok, struct glin
     return false;
 }
 
-static bool run_loaded(struct live *live, const struct state *state, struct glint_error *err) {
-    const struct glint_replay_options options = live_options(live, state);
+static bool run_loaded(struct live *live, const struct state *state, bool quick, struct glint_error *err) {
+    struct glint_replay_options options = live_options(live, state);
+    options.quick = quick;
     return live_ran(live, state, glint_replay_run(live->replay, state->pipeline, &options, live_progress, live, err),
                     err);
 }
@@ -97,10 +98,10 @@ bool live_load(struct live *live, const struct state *state, bool draft, struct 
         return follow_frame(live, frame, draft, err);
     if (!open_frame(live, first, draft, err)) return false;
     for (size_t i = first + 1; i <= frame; i++)
-        if (!run_loaded(live, state, err) || !follow_frame(live, i, draft, err)) return false;
+        if (!run_loaded(live, state, false, err) || !follow_frame(live, i, draft, err)) return false;
     return true;
 }
 
-bool live_replay(struct live *live, const struct state *state, bool draft, struct glint_error *err) {
-    return live_load(live, state, draft, err) && run_loaded(live, state, err);
+bool live_replay(struct live *live, const struct state *state, bool draft, bool quick, struct glint_error *err) {
+    return live_load(live, state, draft, err) && run_loaded(live, state, quick, err);
 }

@@ -30,16 +30,21 @@ void live_answer_pipeline(void *user, const struct http_request *request, struct
 
 /* ---- Results ---- */
 
-/* The time of a pass when it last ran with what it depends on now; NULL: it was never measured. */
-static json_t *time_of(struct live *live, const struct glint_pass_result *result) {
+/* The time of a pass when it last ran with what it depends on now, from its own program if that was ever used; NULL: it was never
+   measured. */
+static json_t *time_of(struct live *live, const struct glint_pass_result *result, bool *quick) {
     enum { TIMES_KEPT = 100000 };
-    char key[24];
-    snprintf(key, sizeof key, "%016llx", (unsigned long long)result->key);
+    char own[24], generic[32];
+    snprintf(own, sizeof own, "%016llx", (unsigned long long)result->key);
+    snprintf(generic, sizeof generic, "%sq", own);
     if (result->time.n) {
         if (json_object_size(live->times) > TIMES_KEPT) json_object_clear(live->times);
-        json_object_set_new(live->times, key, json_integer((json_int_t)result->time.median_ns));
+        json_object_set_new(live->times, result->quick ? generic : own,
+                            json_integer((json_int_t)result->time.median_ns));
     }
-    return result->key ? json_object_get(live->times, key) : NULL;
+    json_t *ns = result->key ? json_object_get(live->times, own) : NULL;
+    *quick = result->key && !ns && json_object_get(live->times, generic);
+    return *quick ? json_object_get(live->times, generic) : ns;
 }
 
 static json_t *passes_json(struct live *live, json_int_t *frame_ns) {
@@ -48,12 +53,13 @@ static json_t *passes_json(struct live *live, json_int_t *frame_ns) {
     const struct glint_pass_result *results = glint_replay_results(live->replay, &count);
     for (size_t i = 0; i < count; i++) {
         const struct glint_pass_result *r = &results[i];
-        json_t *ns = r->ran ? time_of(live, r) : NULL;
+        bool quick = false;
+        json_t *ns = r->ran ? time_of(live, r, &quick) : NULL;
         if (ns && !r->cached_work) *frame_ns += json_integer_value(ns);
-        json_array_append_new(list, json_pack("{s:s, s:s, s:b, s:b, s:b, s:b, s:s, s:O}", "slot", r->pass->slot,
+        json_array_append_new(list, json_pack("{s:s, s:s, s:b, s:b, s:b, s:b, s:s, s:O, s:b}", "slot", r->pass->slot,
                                               "variant", r->pass->variant, "ran", r->ran, "cached", r->cached,
                                               "cached_work", r->cached_work, "host", r->pass->host != NULL, "reason",
-                                              r->reason, "ns", ns ? ns : json_null()));
+                                              r->reason, "ns", ns ? ns : json_null(), "quick", quick));
     }
     return list;
 }
@@ -110,7 +116,7 @@ static const char *picture_of(const struct live *live) {
 
 struct running {
     struct state state;
-    bool draft;
+    bool draft, quick;
     json_t *result;
 };
 
@@ -119,7 +125,7 @@ static bool work_run(struct live *live, void *user, struct glint_error *err) {
     const struct state *state = &running->state;
     const double start = glint_now_seconds();
     char id[RUN_ID];
-    if (!live_replay(live, state, running->draft, err)) return false;
+    if (!live_replay(live, state, running->draft, running->quick, err)) return false;
     const double seconds = glint_now_seconds() - start;
     json_int_t frame_ns = 0;
     runs_note(live, state, running->draft, id);
@@ -140,7 +146,7 @@ static bool work_run(struct live *live, void *user, struct glint_error *err) {
 void live_answer_run(void *user, const struct http_request *request, struct http_answer *answer) {
     struct live *live = user;
     struct glint_error err = {0};
-    struct running running = {.draft = answer_flag(request, "draft")};
+    struct running running = {.draft = answer_flag(request, "draft"), .quick = answer_flag(request, "quick")};
     if (!answer_state(live, request, "state", &running.state, answer)) return;
     const unsigned flags = answer_flag(request, "urgent") ? JOB_URGENT : 0;
     const bool ok = live_do(live, flags, answer_text(request, "client"), work_run, &running, &err);

@@ -255,7 +255,7 @@ static bool work_read(struct live *live, void *user, struct glint_error *err) {
         ok = glint_fail(err, GLINT_ERROR_USAGE,
                         "run %s: the files of its shaders or preset have changed, so that it cannot be replayed again",
                         reading->id);
-    ok = ok && live_replay(live, &state, draft, err) &&
+    ok = ok && live_replay(live, &state, draft, false, err) &&
          read_image(live, &state, reading->id, reading->image, &reading->held, err);
     state_finish(&state);
     json_decref(json);

@@ -32,9 +32,9 @@ static bool check_members(const json_t *json, struct glint_error *err) {
 static bool read_capture(struct state *state, const struct live *live, const json_t *json, struct glint_error *err) {
     const json_t *capture = json_object_get(json, "capture");
     const json_int_t number = json_integer_value(capture);
-    if (capture && (!json_is_integer(capture) || number < 0 || number >= (json_int_t)live->captures->count))
+    if (capture && (!json_is_integer(capture) || number < 0 || number >= (json_int_t)live->count))
         return glint_fail(err, GLINT_ERROR_USAGE, "capture: expected the place of a capture, 0 to %zu",
-                          live->captures->count - 1);
+                          live->count - 1);
     state->capture = (size_t)number;
     return true;
 }

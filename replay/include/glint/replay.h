@@ -217,6 +217,9 @@ struct glint_replay_options {
     uint32_t repeat; /* timed rounds after the warm-up; 0: a single round without warm-up, which includes first use */
     uint32_t warmup; /* rounds before the timed ones; 0: one */
     bool no_cache;   /* executes every pass, also those whose images are up to date */
+    /* Passes run from programs that read parameters from memory where there is no program specialized for the values yet, so that a new value
+       compiles nothing. Images have the same bits; such passes are slower. */
+    bool quick;
     /* If not 0, a pass whose images are up to date executes all the same, unless it already executed in a run of this round. So
        pipelines that are measured in turns share work within a round, and each round measures that work again. */
     uint32_t round;
@@ -246,6 +249,7 @@ struct glint_pass_result {
     bool cached;      /* its images were still up to date, so that it did not execute */
     bool cached_work; /* it depends on cube maps alone: its cost arises when a cube map changes, not every frame */
     char reason[400];
+    bool quick;             /* its time is that of a program that reads parameters from memory */
     struct glint_time time; /* n = 0 when not timed */
     uint64_t texels;        /* as in struct glint_plan_entry */
     uint64_t

@@ -131,7 +131,7 @@ glintLive.figures = (function () {
             }
             automatic.checked = meter.isAutomatic();
             automatic.disabled = meter.against === 'reference';
-            run.disabled = !store.effect || !meter.measurable();
+            run.disabled = !store.effect;
             metric.value = meter.metric;
         }
         return {update, row: element('div', {class: 'tools'}, effect, against, metric, run,
@@ -148,7 +148,6 @@ glintLive.figures = (function () {
             if (own.error) return own.error.message;
             if (own.running) return 'measuring \u2026';
             if (!store.effect) return store.result ? 'Nothing that this pipeline makes can be judged.' : '';
-            if (!own.measurable()) return 'Figures are not measured while passes are skipped or forced.';
             if (!own.isCurrent()) return own.isAutomatic() ? 'waiting to measure \u2026' : own.figures ? 'These are of an earlier state: measure again.' : 'Not measured yet.';
             const {why, against} = own.figures;
             return [why || (against ? '' : 'There is nothing to compare with.'), store.pinned?.of ? 'B is what the result should be, and has no figures.' : ''].filter(t => t).join(' ');

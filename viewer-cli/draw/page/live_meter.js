@@ -21,6 +21,9 @@ glintLive.meter = (function () {
         const keyFor = (state, against) => JSON.stringify([keyOf(state), store.effect, against, self.metric]);
         const against = () => self.against !== 'truth' || hasTruth(store) ? self.against : null;
 
+        /* After a run that failed the result is not of the state. */
+        const isShown = state => keyOf(state) === keyOf(store.state);
+
         /* Times once measured are not lost to a measurement without them. */
         async function measure(state, rounds, wanted) {
             const of = against(), key = keyFor(state, of), known = cache.get(key);
@@ -47,9 +50,9 @@ glintLive.meter = (function () {
 
         self.measure = async (rounds, asked) => {
             const {result} = store;
-            if (!result || result.draft || !store.effect || !self.measurable() || (self.running && !asked)) return;
+            if (!result || result.draft || !store.effect || (self.running && !asked)) return;
             const state = copy(result.state), mine = self.running = {key: keyFor(state, against())};
-            const wanted = () => self.running === mine && keyOf(store.state) === keyOf(state);
+            const wanted = () => self.running === mine && isShown(state);
             self.error = null;
             store.emit('figures');
             try {
@@ -68,18 +71,17 @@ glintLive.meter = (function () {
             } finally {
                 if (self.running === mine) self.running = null;
                 store.emit('figures');
-                if (!self.running && keyOf(store.state) !== keyOf(state)) self.follow();
+                if (!self.running && !isShown(state)) self.follow();
             }
         };
         /* Never against the reference, whose rays take minutes. */
         self.isAutomatic = () => self.against !== 'reference' && (self.automatic === null ? !!store.result && store.result.seconds < QUICK_S : self.automatic);
         /* Figures are of pipelines as the plan runs them. */
-        self.measurable = () => !store.state.skip.length && !store.state.force.length;
         self.isCurrent = () => !!self.figures && !!store.result && self.figures.key === keyFor(store.result.state, against());
         /* After a whole frame: what is known already costs nothing, the rest is measured where that was asked for. */
         self.follow = () => {
             const {result} = store;
-            if (!result || result.draft || store.busy() || store.playing || !self.measurable()) return;
+            if (!result || result.draft || store.busy() || store.playing || !isShown(result.state)) return;
             const known = cache.get(keyFor(result.state, against()));
             if (known || self.isAutomatic()) self.measure(0, false);
         };

@@ -140,8 +140,9 @@ glintLive.pipeline = (function () {
             head.force.hidden = !forced && (!pass || pass.ran || pass.cached || !head.on.checked);
             head.force.setAttribute('aria-pressed', String(forced));
             const ns = pass?.ns, known = Number.isFinite(counted);
-            bar(head.time, Number.isFinite(ns) ? milliseconds(ns) : '', Number.isFinite(ns) ? ns / scale.ns : 0,
-                pass?.cached_work ? 'runs when a cube map changes only, not in every frame' : 'time on the device when it last ran');
+            bar(head.time, Number.isFinite(ns) ? `${pass.quick ? '\u2264 ' : ''}${milliseconds(ns)}` : '', Number.isFinite(ns) ? ns / scale.ns : 0,
+                (pass?.cached_work ? 'runs when a cube map changes only, not in every frame' : 'time on the device when it last ran') +
+                (pass?.quick ? '; from a program that reads parameters from memory, which is slower than the pass\u2019s own: Measure times that' : ''));
             bar(head.fetches, known ? `${count(counted)} fetches` : pass?.cached ? KEPT : '', known ? counted / scale.fetches : 0,
                 known ? 'texture fetches of all rays of a frame' : 'nothing that it depends on has changed, so it was not run again');
             head.fetches.classList.toggle('kept', !known);

@@ -80,7 +80,8 @@ glintLive.runs = (function () {
 
         /* What another client's run gave up is asked again, and then waits its turn. */
         async function run(state, draft, urgent, signal) {
-            const body = {state, draft, urgent, client: api.client};
+            /* Where passes are fast, the compiling of programs for a new value is what takes long. */
+            const body = {state, draft, urgent, quick: draft || !registry.device.cpu, client: api.client};
             try {
                 return await api.post('/api/v1/run', body, signal);
             } catch (error) {
@@ -183,7 +184,8 @@ glintLive.runs = (function () {
         /* B follows to another frame. */
         async function follow() {
             const b = store.pinned, capture = store.state.capture;
-            if (!b || store.playing || b.result.state.capture === capture || store.busy()) return;
+            if (!b || store.playing || b.result.state.capture === capture || store.busy() || b.tried === capture) return;
+            b.tried = capture; /* there may be no answer for it */
             if (b.of) await store.pinAnswer(b.of, b.effect, b.title);
             else await store.pinState({...b.result.state, capture}, b.title);
         }
