@@ -22,8 +22,7 @@ SIZES = ("960x540", "1920x1080")
 # Of the last pass, of the tracer after the screen's, and of the first pass: values of which half is for plain requests, half for quick ones.
 PARAMETERS = {"compose.intensity": [1 + i / 64 for i in range(32)], "cubemap_trace.steps_hq": list(range(24, 56)),
               "downsample.share": [1 - i / 64 for i in range(32)]}
-PLACES = {"compose.intensity": "late: the last pass", "cubemap_trace.steps_hq": "in the middle: the trace through cube maps",
-          "downsample.share": "early: the first pass that depends on parameters"}
+PLACES = {"compose.intensity": "late", "cubemap_trace.steps_hq": "middle", "downsample.share": "early"}
 KINDS = {"new": "new", "quick": "new, with `quick`", "seen": "seen before"}
 FOLDER = pages.RECORDS.parent / "live"
 
@@ -99,7 +98,8 @@ def record(args):
 
 
 def cell(row):
-    return f"{row['ms']:.3g} [{row['most_ms']:.3g}], {row['passes_ms']:.3g}" if row else "–"
+    values = [f"{float(f'{row[name]:.3g}'):g}" for name in ("ms", "most_ms", "passes_ms")] if row else None
+    return "{} [{}], {}".format(*values) if row else "–"
 
 
 def table(records):
