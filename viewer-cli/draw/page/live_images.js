@@ -23,6 +23,13 @@ glintLive.images = (function () {
         return result.images.find(i => i.name === name) || result.images.find(i => i.name === result.picture) || result.images[0] || null;
     }
 
+    /* The image of B that A's image is compared with, or null: what an effect should result in stands beside its results only, and the
+       picture of a pipeline beside that of another one. */
+    function counterpart({result, of}, a, image) {
+        if (of && result.compares && !result.compares.includes(image.name)) return null;
+        return result.images.find(i => i.name === image.name) || (of || image.name === a.picture ? chosen(result, null) : null);
+    }
+
     function describe(image) {
         const size = image.cube ? `cube map, faces of ${image.width} \u00d7 ${image.width}` : `${image.width} \u00d7 ${image.height}`;
         return [image.meaning, image.unit && image.unit !== '1' ? image.unit : null, image.channels.join(' '), size].filter(t => t).join(' \u00b7 ');
@@ -80,5 +87,5 @@ glintLive.images = (function () {
         return e;
     }
 
-    return Object.assign(make, {chosen});
+    return Object.assign(make, {chosen, counterpart});
 })();

@@ -55,7 +55,7 @@ glintLive.keys = (function () {
                 go('pipeline');
                 return;
             }
-            if (help.open || !isMeant(event)) return;
+            if (document.querySelector('dialog[open]') || !isMeant(event)) return;
             const key = keys.find(([, , meant]) => meant(event));
             if (!key) return;
             event.preventDefault();

@@ -83,6 +83,7 @@ glintLive.picture = (function () {
         const self = {store, shown: {A: null, B: null, D: null}, sizes: new Map(), wrong: {}, look: null};
         self.over = overlay();
         self.warning = element('p', {class: 'note', role: 'status'});
+        self.lacks = element('p', {class: 'note', role: 'status', hidden: ''});
         self.view = view(store);
         self.want = Object.fromEntries(['A', 'B', 'D'].map(k =>
             [k, fetch.pictures((wish, picture) => take(self, k, wish, picture), (_, error) => fail(self, k, error))]));
@@ -93,7 +94,7 @@ glintLive.picture = (function () {
             state: {mode: store.look.mode || 'slider', zoom: store.look.zoom || 0},
         });
         self.look = {mode: store.look.mode || 'slider', zoom: store.look.zoom || 0};
-        const e = element('section', {class: 'live-picture', 'aria-label': 'picture'}, images(store), self.view, self.warning, self.stage);
+        const e = element('section', {class: 'live-picture', 'aria-label': 'picture'}, images(store), self.view, self.warning, self.lacks, self.stage);
         for (const what of ['result', 'pinned', 'look', 'state']) store.on(what, () => refresh(self));
         for (const what of ['error', 'progress']) store.on(what, () => self.over.draw(store, self.wrong));
         store.on('truth', () => self.stage.read());
@@ -145,7 +146,8 @@ glintLive.picture = (function () {
         if (!image) return;
         request(self, 'A', {path: path('picture', {run: result.run, image: image.name, ...few(self, image)}, look), what: image.name, run: result.run, image,
             draft: result.draft, capture: result.state.capture});
-        const other = pinned && images.chosen(pinned.result, image.name);
+        const other = pinned && images.counterpart(pinned, result, image);
+        lacking(self, pinned && !other ? image : null);
         if (!other) {
             const had = self.shown.B || self.shown.D;
             for (const k of ['B', 'D']) { request(self, k, null); self.shown[k] = null; }
@@ -161,6 +163,17 @@ glintLive.picture = (function () {
         const named = other.name === A.image.name ? {} : {other_image: other.name};
         request(self, 'D', {path: path('difference', {run: A.run, other: pinned.result.run, image: A.image.name, ...named}),
             what: `${pinned.result.run} ${A.image.name}`});
+    }
+
+    /* B has nothing to stand beside A's image, and what it could stand beside is a click away. */
+    function lacking(self, image) {
+        const {store: {pinned, result}, lacks} = self, name = image && glintParts.list(pinned.result.compares).find(n => result.images.some(i => i.name === n));
+        const said = image ? `B, ${pinned.title}, ${pinned.of ? 'is not comparable with' : 'has no image'} ${image.name}.` : '';
+        lacks.hidden = !said;
+        if (lacks.dataset.said === said) return;
+        lacks.dataset.said = said;
+        lacks.replaceChildren(glintChart.text(said), ' ',
+            name ? element('button', {type: 'button', click: () => self.store.setLook({image: name})}, `Show ${name}`) : '');
     }
 
     /* What is shown already, and what is wanted no more, is not wrong. */
@@ -200,7 +213,7 @@ glintLive.picture = (function () {
     function pictures(self) {
         const {A, B, D} = self.shown, {pinned} = self.store, size = sizeOf(self);
         const shown = (k, p) => ({caption: k, pixels: p ? p.pixels : null, key: p?.head.key || null, size});
-        return [shown('A', A), ...(pinned ? [shown(`B: ${pinned.title}`, B), {...shown('Heat map', D), alone: true}] : [])];
+        return [shown('A', A), ...(pinned && self.lacks.hidden ? [shown(`B: ${pinned.title}`, B), {...shown('Heat map', D), alone: true}] : [])];
     }
 
     function draw(self) {

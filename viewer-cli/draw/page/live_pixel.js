@@ -9,15 +9,24 @@ glintLive.pixel = (function () {
         self.title = element('h3', {id: 'pixel-title'});
         self.hint = element('p', {class: 'faint'}, 'Click a pixel of the picture, or press Enter on the one that is pointed at, to see its rays.');
         self.close = element('button', {type: 'button', 'aria-label': 'close the pixel', click: () => store.setLook({x: null, y: null})}, 'Close');
-        self.image = element('img', {alt: ''});
+        self.large = element('img', {alt: ''});
+        const shut = element('button', {type: 'button', click: () => self.dialog.close()}, 'Close');
+        self.dialog = element('dialog', {class: 'drawing', 'aria-label': 'rays of the pixel, enlarged'}, element('div', {class: 'bar'}, element('h3'), shut), self.large);
+        const enlarge = () => { self.dialog.querySelector('h3').textContent = self.title.textContent; self.dialog.showModal(); };
+        self.enlarge = element('button', {type: 'button', hidden: '', title: 'the drawing as large as the window', click: enlarge}, 'Enlarge');
+        self.image = element('img', {alt: '', title: 'a click enlarges the drawing', click: enlarge});
+        self.wait = element('p', {class: 'faint', role: 'status'});
+        self.outcome = element('div', {class: 'scroll'});
         self.why = element('p', {class: 'faint'});
         self.failure = element('p', {class: 'note', role: 'alert', hidden: ''});
         self.text = element('pre', {tabindex: 0, 'aria-label': 'what glint probe says'});
         self.drawing = element('figure', {tabindex: 0, role: 'group', 'aria-label': 'rays of the pixel: arrow keys go to the next pixel, Shift by ten, Escape closes',
             keydown: event => { if (key(store, event)) event.preventDefault(); }}, self.image, self.why);
-        self.inner = element('div', null, element('div', {class: 'bar'}, self.title, self.close), self.failure, self.drawing, self.text);
+        self.inner = element('div', null, element('div', {class: 'bar'}, self.title, element('span', {class: 'together'}, self.enlarge, self.close)), self.wait, self.failure, self.outcome,
+            self.drawing, self.text, self.dialog);
         self.e = element('section', {class: 'live-pixel', 'aria-labelledby': 'pixel-title'}, self.hint, self.inner);
         self.image.addEventListener('load', () => { if (self.old) URL.revokeObjectURL(self.old); self.old = null; });
+        for (const e of [self.drawing, self.text]) e.hidden = true;
         for (const what of ['look', 'result']) store.on(what, () => refresh(self));
         refresh(self);
         return self.e;
@@ -54,33 +63,63 @@ glintLive.pixel = (function () {
         ask(self, at, wanted);
     }
 
-    async function ask(self, [x, y], wanted) {
+    /* The pipeline's own ray comes first, and the rays of the reference, which take longer, follow. */
+    async function ask(self, at, wanted) {
         self.stop?.abort();
         const stop = self.stop = new AbortController();
         self.e.setAttribute('aria-busy', 'true');
+        self.drawing.classList.add('stale');
+        self.wait.textContent = 'Tracing the rays of this pixel \u2026';
+        for (const reference of [false, true]) {
+            const answer = await probe(self, at, wanted, reference, stop.signal);
+            if (self.asked !== wanted) return;
+            if (answer) show(self, answer, reference);
+            self.wait.textContent = answer && !reference ? 'Tracing the rays of the reference to compare with \u2026' : '';
+            if (!answer) break;
+        }
+        self.e.setAttribute('aria-busy', 'false');
+    }
+
+    /* The answer, or null. A run may take the replay away: then it is asked again. */
+    async function probe(self, [x, y], wanted, reference, signal) {
         while (self.asked === wanted) {
             try {
-                const answer = await api.post('/api/v1/probe', {state: self.state, x, y, reference: true, client: self.store.client}, stop.signal);
-                if (self.asked === wanted) show(self, answer);
-                break;
+                return await api.post('/api/v1/probe', {state: self.state, x, y, reference, client: self.store.client}, signal);
             } catch (error) {
-                if (stop.signal.aborted || self.asked !== wanted) return;
-                if (!fetch.givenUp(error)) { fail(self, error); break; }
+                if (signal.aborted || self.asked !== wanted) return null;
+                if (!fetch.givenUp(error)) { fail(self, error); return null; }
             }
-            /* a run took the replay away */
             await new Promise(done => setTimeout(done, RETRY_MS));
         }
-        if (self.asked === wanted) self.e.setAttribute('aria-busy', 'false');
+        return null;
+    }
+
+    /* The comparison with the reference that the text ends with, as cells; null if there is none. */
+    function comparisonOf(text) {
+        const lines = text.trimEnd().split('\n\n').at(-1).split('\n').map(line => line.trimEnd().split(/ {2,}/));
+        return lines.length > 1 && lines[0][0] === '' && lines.every(cells => cells.length === 3) ? lines : null;
+    }
+
+    function drawOutcome(self, text) {
+        const [heads, ...rows] = comparisonOf(glintChart.text(text)) || [[]];
+        self.outcome.hidden = !rows.length;
+        const cells = (tag, texts) => texts.map((t, i) => element(i ? tag : 'th', null, t));
+        self.outcome.replaceChildren(element('table', {class: 'outcome'}, element('thead', null, element('tr', null, ...cells('th', heads))),
+            element('tbody', null, ...rows.map(row => element('tr', null, ...cells('td', row))))));
     }
 
     /* The drawing is a picture and never part of the page: it holds texts of strangers. */
-    function show(self, {svg, no_drawing: why, text}) {
+    function show(self, {svg, no_drawing: why, text}, reference) {
         self.failure.hidden = true;
+        self.drawing.hidden = self.text.hidden = false;
+        self.drawing.classList.remove('stale');
+        drawOutcome(self, reference ? text : '');
         self.old = self.url;
         self.url = svg ? URL.createObjectURL(new Blob([svg], {type: 'image/svg+xml'})) : null;
         self.image.hidden = !svg;
-        if (svg) self.image.src = self.url;
-        self.image.alt = svg ? `the rays of ${self.title.textContent}; the text below says the same` : '';
+        self.enlarge.hidden = !svg;
+        if (svg) self.image.src = self.large.src = self.url;
+        self.image.alt = self.large.alt = svg ? `the rays of ${self.title.textContent}; the text below says the same` : '';
         self.why.hidden = !!svg;
         self.why.textContent = glintChart.text(why || '');
         self.text.textContent = glintChart.text(text);

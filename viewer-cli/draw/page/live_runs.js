@@ -169,10 +169,18 @@ glintLive.runs = (function () {
 
         store.pinAnswer = async (of, effect, title) => {
             try {
-                const result = await answer(of, effect);
+                const result = await answer(of, effect), again = store.pinned?.of === of && store.pinned.effect === effect;
                 setPinned({title, result, of, effect});
+                if (!again) lookAtCompared(result);
             } catch (error) { store.notice(error.message); }
         };
+
+        /* What the result of an effect should be says nothing beside another image. */
+        function lookAtCompared({compares}) {
+            const {result} = store, shown = result && glintLive.images.chosen(result, store.look.image)?.name;
+            const fits = glintParts.list(compares).find(name => result?.images.some(i => i.name === name));
+            if (fits && !compares.includes(shown)) store.setLook({image: fits});
+        }
 
         store.swap = () => {
             const b = store.pinned, a = store.result;
