@@ -113,7 +113,7 @@ var glintChart = (function () {
         var axis = data[key], lying = key === 'y' && axis.scale === 'category';
         var option = {
             name: label(axis), nameLocation: lying ? 'end' : 'middle', nameTextStyle: {color: look.faint, fontSize: 12},
-            nameMoveOverlap: false, nameGap: key === 'x' ? 28 : 44,
+            nameMoveOverlap: false, nameGap: key === 'x' ? 28 : 50,
             axisLine: {show: key === 'x' || lying, onZero: false, lineStyle: {color: look.muted}},
             axisTick: {show: false}, axisLabel: {color: look.faint, fontSize: 11},
             splitLine: {show: axis.scale !== 'category', lineStyle: {color: look.line}}

@@ -63,7 +63,7 @@ glintLive.picture = (function () {
         const progress = progressBar(), draft = element('span', {class: 'draft', role: 'status'}), failure = element('p', {class: 'note', role: 'alert'});
         return {e: element('div', {class: 'live-over'}, progress.e, draft, failure), draw(store, wrong) {
             const message = store.error ? store.error.message || store.error : wrong.A || wrong.B || wrong.D;
-            progress.draw(store.progress);
+            progress.draw(store.running || !store.besides.length ? store.progress : null); /* what is done beside it changes no picture */
             draft.textContent = store.result?.draft ? 'Draft: half the resolution, the whole frame follows' : '';
             draft.hidden = !draft.textContent;
             failure.hidden = !message;
@@ -263,5 +263,5 @@ glintLive.picture = (function () {
         else self.stage.mark(between(x, frame[0], size[0]), between(y, frame[1], size[1]));
     }
 
-    return make;
+    return Object.assign(make, {HEAT});
 })();

@@ -52,6 +52,7 @@ glintLive.pixel = (function () {
         if (!at) {
             self.stop?.abort();
             self.asked = null;
+            store.setBesides('pixel', false);
             return;
         }
         self.title.textContent = `Pixel ${at[0]},${at[1]}`;
@@ -69,6 +70,7 @@ glintLive.pixel = (function () {
         const stop = self.stop = new AbortController();
         self.e.setAttribute('aria-busy', 'true');
         self.drawing.classList.add('stale');
+        self.store.setBesides('pixel', true);
         self.wait.textContent = 'Tracing the rays of this pixel \u2026';
         for (const reference of [false, true]) {
             const answer = await probe(self, at, wanted, reference, stop.signal);
@@ -78,6 +80,7 @@ glintLive.pixel = (function () {
             if (!answer) break;
         }
         self.e.setAttribute('aria-busy', 'false');
+        self.store.setBesides('pixel', false);
     }
 
     /* The answer, or null. A run may take the replay away: then it is asked again. */

@@ -360,6 +360,11 @@ const glintStage = (function () {
             place(self, event);
             if (state.x >= 0) hooks.pick(state.x, state.y);
         });
+        frame.addEventListener('pointerleave', () => {
+            if (self.picked[0] < 0 || press.what || frame.contains(document.activeElement)) return;
+            [state.x, state.y] = self.picked;
+            point(self);
+        });
         frame.addEventListener('pointercancel', () => { press.what = null; frame.classList.remove('moving'); });
         frame.addEventListener('mousedown', event => { if (event.button === 1) event.preventDefault(); }); /* no scrolling by the browser */
         frame.addEventListener('blur', () => { press.space = false; });
