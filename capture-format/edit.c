@@ -218,7 +218,8 @@ static bool adopt(struct glint_edit *edit, struct glint_edit_part *part, const s
 }
 
 bool glint_edit_resolve(struct glint_edit *edit, struct glint_edit_part *part, struct glint_error *err) {
-    const char *name = glint_edit_string(part, GLINT_SIBLING_ATTRIBUTE), *hash = glint_edit_string(part, GLINT_SIBLING_HASH_ATTRIBUTE);
+    const char *name = glint_edit_string(part, GLINT_SIBLING_ATTRIBUTE),
+               *hash = glint_edit_string(part, GLINT_SIBLING_HASH_ATTRIBUTE);
     if (!name) return true;
     if (!*name || strpbrk(name, "/\\") || !strcmp(name, ".") || !strcmp(name, ".."))
         return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part %s: %s: expected a plain file name, found \"%.80s\"",

@@ -20,7 +20,8 @@ bool glint_edit_map_open(struct glint_edit_map *map, struct glint_edit *edit, st
     if (!map->capture) return false;
     if (!gbuffer) {
         glint_edit_map_close(map);
-        return glint_fail(err, GLINT_ERROR_USAGE, "%s: part gbuffer is left out; its frame cannot change", edit->exr->path);
+        return glint_fail(err, GLINT_ERROR_USAGE, "%s: part gbuffer is left out; its frame cannot change",
+                          edit->exr->path);
     }
     map->size[0] = gbuffer->width;
     map->size[1] = gbuffer->height;
@@ -97,8 +98,7 @@ static bool has_channel(const struct glint_exr_part_info *part, const char *name
 
 /* Floats do not add to the precision that the engine had, so a channel that was stored as half says so. */
 static bool keep_storage(const struct glint_edit_map *map, size_t p, const char *channel, enum glint_stored stored) {
-    const struct glint_exr_attribute *old =
-        glint_exr_attribute(glint_edit_part(map->edit, p), GLINT_STORAGE_ATTRIBUTE);
+    const struct glint_exr_attribute *old = glint_exr_attribute(glint_edit_part(map->edit, p), GLINT_STORAGE_ATTRIBUTE);
     char entry[64];
     const bool listed = old && old->type == GLINT_EXR_STRINGS;
     for (size_t i = 0; listed && i < old->count; i++)
@@ -214,9 +214,9 @@ static bool mirror_hit(const struct view *v, double down, const double uv[2], co
 struct mirror {
     struct view view;
     double down;
-    uint32_t size[2];          /* of the file's frame */
+    uint32_t size[2];            /* of the file's frame */
     double begin[2], covered[2]; /* of the new picture, in pixels of the file's */
-    float *surface, *truth;    /* depth and normal; distance and visible; of the file's frame */
+    float *surface, *truth;      /* depth and normal; distance and visible; of the file's frame */
 };
 
 static bool is_visible(const struct mirror *m, uint32_t x, uint32_t y) {
@@ -255,7 +255,8 @@ static bool change_visible(const struct glint_edit_map *map, size_t p) {
                        .begin = {part->x + 0.5 - half, part->y + 0.5 - half},
                        .covered = {(double)part->step * part->info.width, (double)part->step * part->info.height}};
     struct glint_edit_pixels visible = {0};
-    const bool ok = read_mirror(map, part->info.name, &m) && glint_edit_pixels(map->edit, p, "visible", &visible, map->err);
+    const bool ok =
+        read_mirror(map, part->info.name, &m) && glint_edit_pixels(map->edit, p, "visible", &visible, map->err);
     size_t hidden = 0;
     for (uint32_t y = 0; ok && y < visible.height; y++)
         for (uint32_t x = 0; x < visible.width; x++) {

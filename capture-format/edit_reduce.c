@@ -66,7 +66,8 @@ static const char *refuse(const struct glint_edit_map *map, size_t p) {
     const struct glint_role *role = glint_edit_role(part);
     if (!role || !strcmp(role->name, "engine."))
         return reduce_other(map, p) ? NULL : "its texels are larger than what is left of the frame";
-    if (!strcmp(role->name, "stipple") && map->step % 2 == 0) return "of a checkerboard every second pixel is no pattern";
+    if (!strcmp(role->name, "stipple") && map->step % 2 == 0)
+        return "of a checkerboard every second pixel is no pattern";
     if (!strcmp(role->name, "froxels") && !froxels_stay(map, &part->info))
         return "their cells are of the whole view frustum, and the picture's borders have moved";
     return NULL;
@@ -88,8 +89,9 @@ bool glint_edit_reduce(struct glint_edit *edit, uint32_t factor, struct glint_er
     const uint32_t least = map.size[0] < map.size[1] ? map.size[0] : map.size[1];
     bool ok = factor >= 1 && factor <= least;
     if (!ok)
-        glint_fail(err, GLINT_ERROR_USAGE, "%s: expected every n-th pixel of a frame of %u x %u, n from 1 to %u; found %u",
-                   edit->exr->path, map.size[0], map.size[1], least, factor);
+        glint_fail(err, GLINT_ERROR_USAGE,
+                   "%s: expected every n-th pixel of a frame of %u x %u, n from 1 to %u; found %u", edit->exr->path,
+                   map.size[0], map.size[1], least, factor);
     for (int i = 0; ok && i < 2; i++) {
         map.step = factor;
         map.first[i] = (factor - 1) / 2; /* the one nearest to the middle of its block */

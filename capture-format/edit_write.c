@@ -75,7 +75,8 @@ static bool renew_standard(struct glint_edit *edit, const char *path, struct gli
     struct glint_frame frame = {0};
     struct glint_check check = {.file = path, .err = err};
     if (!glint_attributes_decode(&check, &part->info, GLINT_SCOPE_FRAME, &frame)) return false;
-    if (!glint_attributes_set_standard(&edit->arena, &part->attributes, &frame)) return glint_edit_fail_memory(edit, err);
+    if (!glint_attributes_set_standard(&edit->arena, &part->attributes, &frame))
+        return glint_edit_fail_memory(edit, err);
     part->info.attributes = part->attributes.all;
     part->info.attribute_count = part->attributes.count;
     return true;

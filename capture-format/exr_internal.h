@@ -56,9 +56,11 @@ struct glint_exr_kept {
 /* Whether glint_exr_write_file can keep a part's chunks: it is of flat scanlines compressed with ZIP. */
 bool glint_exr_can_keep(const struct glint_exr *exr, size_t part);
 struct glint_exr_write_options {
-    const struct glint_exr_kept *kept; /* one for each part, or NULL; the pixels of parts that are kept are not read, and the rest is as in that part */
-    uint32_t threads;                  /* 0: all cores */
-    bool durable; /* the file is on the disk before it gets its name, so that a machine that stops leaves no empty one */
+    const struct glint_exr_kept *
+        kept; /* one for each part, or NULL; the pixels of parts that are kept are not read, and the rest is as in that part */
+    uint32_t threads; /* 0: all cores */
+    bool
+        durable; /* the file is on the disk before it gets its name, so that a machine that stops leaves no empty one */
 };
 bool glint_exr_write_file(const char *path, const struct glint_exr_part *parts, size_t count,
                           const struct glint_exr_write_options *options, struct glint_error *err);

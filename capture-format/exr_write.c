@@ -339,7 +339,8 @@ bool glint_exr_write_file(const char *path, const struct glint_exr_part *parts, 
     if (!count) return glint_fail(err, GLINT_ERROR_USAGE, "%s: expected at least one part, found none", path);
     glint_mutex_init(&job.lock);
     glint_condition_init(&job.turn);
-    bool ok = plan_chunks(&job, parts, count, options->kept, &arena, &chunk_bytes, err) && complete_open(&out, path, err);
+    bool ok =
+        plan_chunks(&job, parts, count, options->kept, &arena, &chunk_bytes, err) && complete_open(&out, path, err);
     if (ok) {
         job.stream.file = out.file;
         ok = write_file(&job, chunk_bytes, options->threads);

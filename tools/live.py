@@ -19,11 +19,12 @@ import time
 import pages
 
 SIZES = ("960x540", "1920x1080")
-# Of the last pass, of the tracer after the screen's, and of the first pass: values of which half is for plain requests, half for quick ones.
-PARAMETERS = {"compose.intensity": [1 + i / 64 for i in range(32)], "cubemap_trace.steps_hq": list(range(24, 56)),
-              "downsample.share": [1 - i / 64 for i in range(32)]}
-PLACES = {"compose.intensity": "late: the last pass", "cubemap_trace.steps_hq": "in the middle: the trace through cube maps",
-          "downsample.share": "early: the first pass that depends on parameters"}
+# Of the last pass, of the tracer after the screen's, and of the first pass: values of which half is for plain requests, half for quick ones. Each
+# size has values of its own, since drivers keep compiled programs in files.
+PARAMETERS = {"compose.intensity": [1 + i / 64 for i in range(64)], "cubemap_trace.steps_hq": list(range(24, 88)),
+              "downsample.share": [1 - i / 80 for i in range(64)]}
+ROOM_PX = 960  # what the page has for a picture in a window 1920 pixels wide; it asks for no more texels than that
+PLACES = {"compose.intensity": "late", "cubemap_trace.steps_hq": "middle", "downsample.share": "early"}
 KINDS = {"new": "new", "quick": "new, with `quick`", "seen": "seen before"}
 FOLDER = pages.RECORDS.parent / "live"
 
@@ -31,7 +32,8 @@ FOLDER = pages.RECORDS.parent / "live"
 class Live:
     """A server and one connection to it."""
 
-    def __init__(self, glint, *arguments):
+    def __init__(self, glint, *arguments, every=1):
+        self.every = every
         self.process = subprocess.Popen([glint, "live", *map(str, arguments)], stdout=subprocess.PIPE, text=True)
         address, self.token = self.process.stdout.readline().strip().split("/#")
         self.host = address.removeprefix("http://")
@@ -50,7 +52,7 @@ class Live:
         """Seconds until the picture of these values is there, and the device time of the passes that ran for it."""
         start = time.monotonic()
         run = self.ask("POST", "run", {"state": {"set": values}, "draft": draft, "quick": quick, "urgent": True})
-        self.ask("GET", f"picture?run={run['run']}&image={run['picture']}&format=raw")
+        self.ask("GET", f"picture?run={run['run']}&image={run['picture']}&format=raw&every={self.every}")
         seconds = time.monotonic() - start
         passes = sum(p["ns"] or 0 for p in run["passes"] if p["ran"] and not p["cached"] and not p["host"])
         return seconds, passes / 1e9
@@ -80,13 +82,14 @@ def measure_parameter(live, name, values, quick, drafts):
 def record(args):
     found = {"as": args.name, "scene": args.scene, "preset": "mafia3", "sizes": {}}
     with tempfile.TemporaryDirectory(dir=args.work) as folder:
-        for size in args.sizes.split(","):
+        for place, size in enumerate(args.sizes.split(",")):
             capture = pages.sample(args.glint, args.scene, folder, size, args.cube)
-            live = Live(args.glint, capture)
+            live = Live(args.glint, capture, every=max(1, int(size.split("x")[0]) // ROOM_PX))
             found["device"] = live.ask("GET", "registry")["device"]
             first = live.change({})
             rows = {"first": {"ms": round(1e3 * first[0], 1)}}
-            for name, values in PARAMETERS.items():
+            for name, all_values in PARAMETERS.items():
+                values = all_values[place::len(SIZES)]
                 rows[name] = measure_parameter(live, name, values[:args.values], values[-args.values:], found["device"]["cpu"])
                 print(size, name, json.dumps(rows[name]), flush=True)
             found["sizes"][size] = rows
@@ -99,7 +102,8 @@ def record(args):
 
 
 def cell(row):
-    return f"{row['ms']:.3g} [{row['most_ms']:.3g}], {row['passes_ms']:.3g}" if row else "–"
+    values = [f"{float(f'{row[name]:.3g}'):g}" for name in ("ms", "most_ms", "passes_ms")] if row else None
+    return "{} [{}], {}".format(*values) if row else "–"
 
 
 def table(records):

@@ -14,7 +14,7 @@ sys.path.insert(0, os.path.join(HERE, "../tests/viewer-cli"))
 from browser import Browser  # noqa: E402
 from live import Live  # noqa: E402
 
-WIDTH, HEIGHT, SCALE = 1280, 800, 0.75
+WIDTH, HEIGHT, SCALE = 1400, 860, 0.68
 STEP_MS = 60  # of a moved pointer
 PARAMETER, PLACES = "screen_trace.cells", 8  # what is dragged, and where the drag stops on its way to the left
 PIXEL = (0.745, 0.72)  # of the picture: a reflection that the cells decide about
@@ -49,11 +49,13 @@ class Film:
 
     def quiet(self):
         """Until nothing replays or is measured any more, and the page stays as it is."""
-        text, since = None, 0
+        text, since, end = None, 0, time.monotonic() + 300
         while time.monotonic() - since < 0.9 or not self.ask("!glintLive.shown.busy() && !glintLive.shown.result.draft"):
             now = self.ask("document.body.innerText + [...document.querySelectorAll('[aria-busy]')].map(e => e.getAttribute('aria-busy'))")
             if now != text or "true" in now[-40:]:
                 text, since = now, time.monotonic()
+            if time.monotonic() > end:
+                sys.exit("live_picture: the page does not come to rest")
             time.sleep(0.05)
 
     def say(self, text):
@@ -113,7 +115,7 @@ def open_page(film, address):
 
 
 def drag_parameter(film):
-    film.say("A slider is dragged: the frame replays, passes before it do not run again")
+    film.say("A slider is dragged: the frame replays, from the pass that it belongs to")
     slider = f"document.querySelector('[data-name=\"{PARAMETER}\"] input[type=range]')"
     part = film.ask(f"(s => s.value / s.max)({slider})")
     film.move(*film.place(slider, 0.04 + 0.92 * part))
@@ -126,47 +128,63 @@ def drag_parameter(film):
     film.shot(700)
 
 
+def pin_preset(film):
+    film.say("B: the preset as it was")
+    chooser = "document.getElementById('pin')"
+    film.click(*film.place(chooser))
+    # a list that a browser opens stands outside of the page, and in no picture of it
+    film.ask(f"(s => {{ s.value = [...s.options].find(o => o.textContent === glintLive.shown.state.preset).value; s.dispatchEvent(new Event('change')); }})({chooser})")
+    film.until("!!glintLive.shown.pinned?.result")
+    film.quiet()
+    film.shot(700)
+
+
 def compare(film):
-    film.say("A, now, and B, pinned before, under a slider")
-    edge = "document.querySelector('.frame')"
-    film.move(*film.place(edge, 0.5, 0.75))
+    film.say("A and B under a slider")
+    frame = "document.querySelector('.frame')"
+    film.move(*film.place(frame, 0.5, 0.75))
     film.press()
-    for part in (0.5, 0.56, 0.64, 0.74, 0.86, 0.96, 0.86, 0.7, 0.54, 0.4, 0.26, 0.12, 0.04):
-        film.drag(*film.place(edge, part, 0.75))
+    for part in (0.5, 0.54, 0.62, 0.74, 0.86, 0.96, 0.88, 0.76, 0.62, 0.5, 0.4, 0.26, 0.12, 0.04, 0.2, 0.6):
+        film.drag(*film.place(frame, part, 0.75))
         film.browser.settle()
-        film.shot(100, pressed=True)
+        film.shot(110, pressed=True)
     film.press("mouseReleased")
     film.quiet()
-    film.shot(300)
+    film.shot(500)
+
+
+def click_pixel(film):
+    film.say("A click on a pixel: its ray on screen and through cube maps, and why it ended")
+    film.click(*film.place("document.querySelector('.frame')", *PIXEL))
+    film.until("!!document.querySelector('.live-pixel[aria-busy=false] img')?.naturalWidth")
+    film.quiet()
+    film.shot(2200)
+
+
+def show_points(film):
+    film.say("Error and time of all that was tried; a click on a point goes back to it")
+    film.ask("document.querySelector('.tried').scrollIntoView({block: 'center'})")
+    film.browser.settle()
+    film.shot(700)
+    x, y, width, height = film.ask("(r => [r.x, r.y, r.width, r.height])(document.querySelector('.tried svg').getBoundingClientRect())")
+    film.move(x + width * 0.4, y + height * 0.5)
+    film.shot(1800)
 
 
 def story(film):
     film.say("glint live street.exr")
     film.shot(1300)
-    film.say("The key p pins this state as B")
-    film.browser.key("p", 80)
-    film.quiet()
-    film.shot(800)
     film.say("Which parameter? The search knows their names and help")
     film.click(*film.place("document.getElementById('search')"))
     for letter in PARAMETER.split(".")[1]:
         film.browser.call("Input.insertText", text=letter)
         film.shot(90)
-    film.shot(500)
+    film.shot(400)
     drag_parameter(film)
+    click_pixel(film)
+    pin_preset(film)
     compare(film)
-    film.say("A click on a pixel: its rays on screen and through cube maps, and why they ended")
-    film.click(*film.place("document.querySelector('.frame')", *PIXEL))
-    film.until("!!document.querySelector('.live-pixel[aria-busy=false] img')?.naturalWidth")
-    film.quiet()
-    film.shot(2200)
-    film.say("Error and time of all that was tried; a click on a point goes back to it")
-    film.ask("document.querySelector('.tried').scrollIntoView({block: 'center'})")
-    film.browser.settle()
-    film.shot(900)
-    points = film.ask("(r => [r.x, r.y, r.width, r.height])(document.querySelector('.tried svg').getBoundingClientRect())")
-    film.move(points[0] + points[2] * 0.4, points[1] + points[3] * 0.5)
-    film.shot(1800)
+    show_points(film)
 
 
 def main():

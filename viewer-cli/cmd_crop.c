@@ -55,7 +55,8 @@ static error_t cmd_crop_parse(int key, char *arg, struct argp_state *state) {
     case ARGP_KEY_END:
         if (!a->path) argp_error(state, "no capture given");
         if (!a->rectangle && !a->every)
-            argp_error(state, "no rectangle given; expected x,y,width,height, or --every for pixels of the whole frame");
+            argp_error(state,
+                       "no rectangle given; expected x,y,width,height, or --every for pixels of the whole frame");
         if (!a->out) argp_error(state, "no output given; -o names the copy");
         return 0;
     }
@@ -79,18 +80,19 @@ const struct command cmd_crop = {
     .name = "crop",
     .arguments = "F [X,Y,W,H] [--every N] -o G",
     .summary = "copy a rectangle of a capture, or every n-th pixel, with its camera",
-    .description = "Copies W × H pixels of a capture from column X and row Y on, counted from the top left. The "
-                   "projections of this and the previous frame change with the picture, so that every pixel keeps its "
-                   "ray and its jitter; motion is corrected in its encoding. All images of the frame's size are "
-                   "cropped, and so are images of the engine's that are a whole number of times smaller; where a texel "
-                   "of these covers pixels on both sides of the rectangle's border, the command names a rectangle that "
-                   "fits. Cube maps and planar maps stay whole. What a ray would have hit outside the rectangle is off "
-                   "screen in the copy, and the truth's mirror rays say so. All other pixels keep every bit.\n\n"
-                   "--every N keeps every N-th pixel in both directions, of the rectangle or of the whole frame: a "
-                   "draft of which a replay takes a fraction of the time. Pixels are not mixed, so that depth, normals "
-                   "and classes stay those of surfaces, and each keeps its ray; jitter and motion are corrected. An "
-                   "image of the engine's comes along if it still is a whole number of times smaller than the frame, and a "
-                   "stippled frame loses its pattern by an even N.",
+    .description =
+        "Copies W × H pixels of a capture from column X and row Y on, counted from the top left. The "
+        "projections of this and the previous frame change with the picture, so that every pixel keeps its "
+        "ray and its jitter; motion is corrected in its encoding. All images of the frame's size are "
+        "cropped, and so are images of the engine's that are a whole number of times smaller; where a texel "
+        "of these covers pixels on both sides of the rectangle's border, the command names a rectangle that "
+        "fits. Cube maps and planar maps stay whole. What a ray would have hit outside the rectangle is off "
+        "screen in the copy, and the truth's mirror rays say so. All other pixels keep every bit.\n\n"
+        "--every N keeps every N-th pixel in both directions, of the rectangle or of the whole frame: a "
+        "draft of which a replay takes a fraction of the time. Pixels are not mixed, so that depth, normals "
+        "and classes stay those of surfaces, and each keeps its ray; jitter and motion are corrected. An "
+        "image of the engine's comes along if it still is a whole number of times smaller than the frame, and a "
+        "stippled frame loses its pattern by an even N.",
     .options = options,
     .targets = targets,
     .numbers = true,

@@ -156,9 +156,10 @@ static enum status report(const struct arguments *a, const struct explain *e, st
 /* The same ray, traced by the reference tracers. */
 static bool probe_both(struct explain *e, struct glint_error *err) {
     struct glint_pipeline *reference = probe_reference(e->opened->pipeline, err);
-    const bool ok = reference &&
-                    probe_run(&e->probe, &e->probe.own, e->opened->replay, e->opened->pipeline, &e->options, NULL, NULL, err) &&
-                    probe_run(&e->probe, &e->probe.reference, e->opened->replay, reference, &e->options, NULL, NULL, err);
+    const bool ok =
+        reference &&
+        probe_run(&e->probe, &e->probe.own, e->opened->replay, e->opened->pipeline, &e->options, NULL, NULL, err) &&
+        probe_run(&e->probe, &e->probe.reference, e->opened->replay, reference, &e->options, NULL, NULL, err);
     if (reference) glint_pipeline_destroy(&reference);
     e->probe.has_reference = ok;
     return ok;

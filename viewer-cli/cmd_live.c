@@ -34,10 +34,12 @@ static const struct argp_option options[] = {
 };
 /* clang-format on */
 static const struct example examples[] = {
-    {"glint live street.exr", "prints the address of a page for the capture"},
+    {"glint live street.exr", "prints the address of a page for the capture: open it in a browser"},
     {"glint live shot/*.exr --preset mafia_de_display", "plays a shot"},
     {"glint live street.exr --reference ref -o runs", "measures against a reference, and may write runs/NAME"},
     {"glint live street.exr --shader resolve=my.comp", "replays again when the shader changes"},
+    {"glint live street.exr --port 8000",
+     "on a machine that ssh -L 8000:127.0.0.1:8000 MACHINE reaches: open the printed address here"},
     {0},
 };
 
@@ -162,7 +164,9 @@ const struct command cmd_live = {
     .summary = "change a pipeline in a browser while the frame replays",
     .description =
         "Serves a page in which every variant and every parameter can be changed while the frame replays: pictures of "
-        "all images, the drawing of a pixel, errors, times and fetches, side by side with another state. The page is "
+        "all images, the drawing of a pixel, errors, times and fetches, side by side with another state. Everything "
+        "has "
+        "keys, which the page lists when ? is pressed; Ctrl-C here ends the server. The page is "
         "served to this machine alone, and only to those who have the token in the printed address. Passes that a "
         "change does not reach are not run again; on slow devices a draft of half the width and height comes first. "
         "Several captures are a shot, whose frames carry their history as glint replay does. Scripts can do what the "

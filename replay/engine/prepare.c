@@ -40,7 +40,8 @@ static bool prepare_queries(struct run *run, struct glint_error *err) {
     const VkQueryPoolCreateInfo info = {.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
                                         .queryType = VK_QUERY_TYPE_TIMESTAMP,
                                         .queryCount = (uint32_t)run->graph->pass_count + 1};
-    return gpu_ok(run->gpu, vkCreateQueryPool(run->gpu->device, &info, NULL, &run->queries), "creating timestamp queries", err);
+    return gpu_ok(run->gpu, vkCreateQueryPool(run->gpu->device, &info, NULL, &run->queries),
+                  "creating timestamp queries", err);
 }
 
 static bool find_programs(const struct run *run, struct step *step, struct glint_error *err) {

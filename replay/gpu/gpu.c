@@ -67,7 +67,8 @@ static bool create_commands(struct gpu *gpu, struct glint_error *err) {
                                                   .commandPool = gpu->pool,
                                                   .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
                                                   .commandBufferCount = 1};
-    if (!gpu_ok(gpu, vkAllocateCommandBuffers(gpu->device, &commands, &gpu->commands), "allocating the command buffer", err))
+    if (!gpu_ok(gpu, vkAllocateCommandBuffers(gpu->device, &commands, &gpu->commands), "allocating the command buffer",
+                err))
         return false;
     const VkFenceCreateInfo fence = {.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
     if (!gpu_ok(gpu, vkCreateFence(gpu->device, &fence, NULL, &gpu->fence), "creating the fence", err)) return false;
@@ -216,7 +217,8 @@ bool host_buffer_init(struct host_buffer *buffer, struct gpu *gpu, enum host_buf
                                                                         : VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
     if (device_allocate(gpu, &need, coherent, preferred, name, &buffer->memory, err) &&
         gpu_ok(gpu, vkBindBufferMemory(gpu->device, buffer->buffer, buffer->memory, 0), "binding a buffer", err) &&
-        gpu_ok(gpu, vkMapMemory(gpu->device, buffer->memory, 0, VK_WHOLE_SIZE, 0, &buffer->map), "mapping a buffer", err))
+        gpu_ok(gpu, vkMapMemory(gpu->device, buffer->memory, 0, VK_WHOLE_SIZE, 0, &buffer->map), "mapping a buffer",
+               err))
         return true;
     host_buffer_finish(buffer, gpu);
     return false;

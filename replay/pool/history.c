@@ -24,7 +24,8 @@ void pool_age(struct pool *pool, const struct glint_frame *next) {
 void pool_end_run(struct pool *pool, uint32_t lineage, bool ok) {
     pool->ran |= ok;
     for (struct pooled *image = pool->images; image && !ok && pool->begun; image = image->next)
-        if (image->lineage == lineage) image->kept = false; /* of this run or of an earlier one: of neither there are all */
+        if (image->lineage == lineage)
+            image->kept = false; /* of this run or of an earlier one: of neither there are all */
     pool->begun = false;
     pool_drop(pool, false);
 }

@@ -98,8 +98,8 @@ bool pool_stage(struct pool *pool, VkDeviceSize size, struct glint_error *err) {
 /* Whether the image can be used for `name`. History that another lineage needs for its next frame cannot. */
 static bool is_reusable(const struct pooled *image, const struct frame_plan *plan, const char *name,
                         const struct image_desc *desc) {
-    return !image->used && !image->transient && strcmp(image->image.name, name) == 0 && image_desc_equal(&image->image.desc, desc) &&
-           !(image->kept && image->lineage != plan->options->lineage);
+    return !image->used && !image->transient && strcmp(image->image.name, name) == 0 &&
+           image_desc_equal(&image->image.desc, desc) && !(image->kept && image->lineage != plan->options->lineage);
 }
 
 static void unlink_image(struct pool *pool, const struct pooled *image) {

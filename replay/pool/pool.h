@@ -36,10 +36,10 @@ struct pool {
     struct pooled *images;
     struct host_buffer staging;
     struct host_buffer readback; /* of single images */
-    uint64_t runs;    /* number of runs so far */
-    uint32_t number;  /* frame number of the last loaded frame */
-    bool loaded, ran; /* a frame was loaded; a run of it succeeded */
-    bool begun;       /* a run has taken images */
+    uint64_t runs;               /* number of runs so far */
+    uint32_t number;             /* frame number of the last loaded frame */
+    bool loaded, ran;            /* a frame was loaded; a run of it succeeded */
+    bool begun;                  /* a run has taken images */
 };
 void pool_finish(struct pool *pool);
 /* Makes pool->staging, a mapped buffer for uploads, at least this large. */

@@ -37,7 +37,8 @@ bool pool_readback(struct pool *pool, const struct image_part *parts, size_t cou
         image_record_readback(&parts[i].image->image, pool->gpu, buffer, offsets[i], parts[i].info->level);
     record_host_barrier(pool->gpu);
     char what[192];
-    snprintf(what, sizeof what, "reading back %s%s", count ? parts[0].info->name : "nothing", count > 1 ? " and others" : "");
+    snprintf(what, sizeof what, "reading back %s%s", count ? parts[0].info->name : "nothing",
+             count > 1 ? " and others" : "");
     bool ok = device_submit(pool->gpu, what, err);
     for (size_t i = 0; ok && i < count; i++)
         if (parts[i].image->image.desc.buffer)

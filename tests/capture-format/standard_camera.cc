@@ -118,7 +118,8 @@ bool check(const char *path, double left, double above, double width, double hei
 bool copy(const char *from, const char *to, const glint_edit_rectangle *r, std::uint32_t every) {
     glint_error err{};
     glint_edit *edit = glint_edit_open(from, nullptr, nullptr, nullptr, &err);
-    const bool ok = edit && (r ? glint_edit_crop(edit, r, &err) : glint_edit_reduce(edit, every, &err)) && glint_edit_write(edit, to, &err);
+    const bool ok = edit && (r ? glint_edit_crop(edit, r, &err) : glint_edit_reduce(edit, every, &err)) &&
+                    glint_edit_write(edit, to, &err);
     glint_edit_close(&edit);
     if (!ok) std::printf("# %s\n", err.message);
     return ok;
@@ -143,8 +144,8 @@ int main() {
                         copy(whole.c_str(), part.c_str(), nullptr, 3) &&
                         check(part.c_str(), 0, 0, (W + 1) / 3 * 3, (H + 1) / 3 * 3, 3);
         failed += !ok;
-        std::printf("%sok %d - view axes %+g %+g %+g, NDC y %s; cropped and reduced, too\n", ok ? "" : "not ", ++number, c.x, c.y,
-                    c.z, c.clip_y == GLINT_CLIP_Y_UP ? "up" : "down");
+        std::printf("%sok %d - view axes %+g %+g %+g, NDC y %s; cropped and reduced, too\n", ok ? "" : "not ", ++number,
+                    c.x, c.y, c.z, c.clip_y == GLINT_CLIP_Y_UP ? "up" : "down");
         std::remove(whole.c_str());
         std::remove(part.c_str());
     }

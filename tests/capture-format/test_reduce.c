@@ -181,7 +181,8 @@ static bool on_screen(const struct glint_camera *camera, const double p[3]) {
 }
 
 /* The world position that the copy's camera sees through a pixel at a depth. */
-static void seen_at(const struct glint_frame *frame, const uint32_t size[2], uint32_t x, uint32_t y, double depth, double p[3]) {
+static void seen_at(const struct glint_frame *frame, const uint32_t size[2], uint32_t x, uint32_t y, double depth,
+                    double p[3]) {
     const double *m = frame->camera.view_to_clip, *v = frame->camera.world_to_view, w = m[14] < 0 ? -1 : 1;
     const double up = frame->clip_y == GLINT_CLIP_Y_DOWN ? 1 : -1;
     const double ndc[2] = {(2.0 * x + 1) / size[0] - 1, up * ((2.0 * y + 1) / size[1] - 1)};
@@ -198,13 +199,15 @@ static void hits_stay_visible_if_they_are_on_the_new_screen(UNUSED void **state)
     struct glint_error err = {0};
     size_t counts[2] = {0}, hidden = 0;
     struct glint_capture *from = glint_capture_open(whole, NULL, &err);
-    assert_true(from && glint_capture_read(from, glint_capture_find(from, "truth.mirror"), truth_names, 2, GLINT_F32, before, 0, &err));
+    assert_true(from && glint_capture_read(from, glint_capture_find(from, "truth.mirror"), truth_names, 2, GLINT_F32,
+                                           before, 0, &err));
     for (uint32_t factor = 2; factor < 8; factor++) {
         make(whole, copy, NULL, factor);
         struct glint_capture *to = glint_capture_open(copy, NULL, &err);
         const struct glint_part_info *part = to ? glint_capture_find(to, "gbuffer") : NULL;
-        assert_true(part && glint_capture_read(to, part, surface_names, 4, GLINT_F32, surface, 0, &err) &&
-                    glint_capture_read(to, glint_capture_find(to, "truth.mirror"), truth_names, 2, GLINT_F32, truth, 0, &err));
+        assert_true(
+            part && glint_capture_read(to, part, surface_names, 4, GLINT_F32, surface, 0, &err) &&
+            glint_capture_read(to, glint_capture_find(to, "truth.mirror"), truth_names, 2, GLINT_F32, truth, 0, &err));
         const struct glint_frame *frame = glint_capture_frame(to);
         const uint32_t size[2] = {part->width, part->height}, middle = (factor - 1) / 2;
         double eye[3], p[3];
@@ -215,7 +218,8 @@ static void hits_stay_visible_if_they_are_on_the_new_screen(UNUSED void **state)
             double length = 0, along = 0;
             seen_at(frame, size, x, y, (double)surface[4 * i], p);
             for (int a = 0; a < 3; a++) length += (p[a] - eye[a]) * (p[a] - eye[a]);
-            for (int a = 0; a < 3; a++) along += (p[a] - eye[a]) / sqrt(length) * (double)surface[4 * i + 1 + (uint32_t)a];
+            for (int a = 0; a < 3; a++)
+                along += (p[a] - eye[a]) / sqrt(length) * (double)surface[4 * i + 1 + (uint32_t)a];
             for (int a = 0; a < 3; a++)
                 p[a] += (double)truth[2 * i] *
                         ((p[a] - eye[a]) / sqrt(length) - 2 * along * (double)surface[4 * i + 1 + (uint32_t)a]);

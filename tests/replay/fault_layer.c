@@ -108,7 +108,12 @@ static const char *const call_names[] = {
     DEVICE_CALLS INSTANCE_CALLS
 #undef DEVICE_CALL
 #undef INSTANCE_CALL
-    "vkCreateInstance", "vkCreateDevice", "vkDestroyInstance", "vkDestroyDevice", "vkGetInstanceProcAddr", "vkGetDeviceProcAddr",
+    "vkCreateInstance",
+    "vkCreateDevice",
+    "vkDestroyInstance",
+    "vkDestroyDevice",
+    "vkGetInstanceProcAddr",
+    "vkGetDeviceProcAddr",
 #define DESTROY(made_by, name, type) "vk" #name,
     DESTROYS
 #undef DESTROY
@@ -120,7 +125,7 @@ struct object {
     bool lost, executes; /* executes: something was submitted, and nothing has waited for it */
     VkInstance instance;
     VkDevice device;
-    long made[CALLS]; /* by each call, less those that were destroyed */
+    long made[CALLS];                   /* by each call, less those that were destroyed */
     PFN_vkVoidFunction next[FUNCTIONS]; /* of the layer below, which has to be asked while the object is created */
 };
 static struct object objects[64];
@@ -226,7 +231,8 @@ static void count_made(struct object *object, enum call call, long more) {
 static void note_success(struct object *object, enum call call) {
     count_made(object, call, 1);
     if (call == CALL_QueueSubmit || call == CALL_QueueSubmit2) object->executes = true;
-    if (call == CALL_WaitForFences || call == CALL_QueueWaitIdle || call == CALL_DeviceWaitIdle) object->executes = false;
+    if (call == CALL_WaitForFences || call == CALL_QueueWaitIdle || call == CALL_DeviceWaitIdle)
+        object->executes = false;
 }
 
 static void note_destroyed(struct object *object, enum call made_by, const char *name) {
@@ -238,7 +244,7 @@ static void note_destroyed(struct object *object, enum call made_by, const char 
 
 #define DESTROY(made_by, name, type)                                                                                   \
     static VKAPI_ATTR void VKAPI_CALL fault_##name(VkDevice h, type one, const VkAllocationCallbacks *allocator) {     \
-        struct object *object = object_find(h);                                                                       \
+        struct object *object = object_find(h);                                                                        \
         if (one) note_destroyed(object, CALL_##made_by, #name);                                                        \
         ((PFN_vk##name)object->next[CALL_##name])(h, one, allocator);                                                  \
     }
@@ -255,7 +261,7 @@ static void tell_left(const struct object *object) {
 
 #define DEVICE_CALL(fails, name, parameters, arguments)                                                                \
     static VKAPI_ATTR VkResult VKAPI_CALL fault_##name parameters {                                                    \
-        struct object *object = object_find(h);                                                                       \
+        struct object *object = object_find(h);                                                                        \
         VkResult result = fault_of_device(object, CALL_##name, fails);                                                 \
         if (!result) result = ((PFN_vk##name)object->next[CALL_##name])arguments;                                      \
         if (!result) note_success(object, CALL_##name);                                                                \
@@ -266,9 +272,9 @@ DEVICE_CALLS
 
 #define INSTANCE_CALL(name, parameters, arguments)                                                                     \
     static VKAPI_ATTR VkResult VKAPI_CALL fault_##name parameters {                                                    \
-        struct object *object = object_find(h);                                                                       \
+        struct object *object = object_find(h);                                                                        \
         const VkResult result = fault_of(CALL_##name);                                                                 \
-        return result ? result : ((PFN_vk##name)object->next[CALL_##name])arguments;         \
+        return result ? result : ((PFN_vk##name)object->next[CALL_##name])arguments;                                   \
     }
 INSTANCE_CALLS
 #undef INSTANCE_CALL
@@ -286,7 +292,8 @@ static VKAPI_ATTR VkResult VKAPI_CALL fault_CreateDevice(VkPhysicalDevice physic
                                                          const VkAllocationCallbacks *allocator, VkDevice *device) {
     const struct object *instance = object_find(physical);
     VkLayerDeviceCreateInfo *link = (VkLayerDeviceCreateInfo *)info->pNext;
-    while (link && !(link->sType == VK_STRUCTURE_TYPE_LOADER_DEVICE_CREATE_INFO && link->function == VK_LAYER_LINK_INFO))
+    while (link &&
+           !(link->sType == VK_STRUCTURE_TYPE_LOADER_DEVICE_CREATE_INFO && link->function == VK_LAYER_LINK_INFO))
         link = (VkLayerDeviceCreateInfo *)link->pNext;
     VkResult result = fault_of(CALL_CreateDevice);
     if (!result && file_is_there()) result = VK_ERROR_DEVICE_LOST;
@@ -324,7 +331,8 @@ static VKAPI_ATTR void VKAPI_CALL fault_DestroyInstance(VkInstance instance, con
 }
 
 static VKAPI_ATTR VkResult VKAPI_CALL fault_CreateInstance(const VkInstanceCreateInfo *info,
-                                                           const VkAllocationCallbacks *allocator, VkInstance *instance) {
+                                                           const VkAllocationCallbacks *allocator,
+                                                           VkInstance *instance) {
     VkLayerInstanceCreateInfo *link = (VkLayerInstanceCreateInfo *)info->pNext;
     while (link &&
            !(link->sType == VK_STRUCTURE_TYPE_LOADER_INSTANCE_CREATE_INFO && link->function == VK_LAYER_LINK_INFO))

@@ -29,9 +29,11 @@ static struct glint_pipeline *make_pipeline(size_t i) {
 }
 
 static const char *const few[] = {"composed", "depth_half", NULL}, *const half[] = {"depth_half", NULL};
-static const struct glint_replay_options all_options[OPTIONS] = {
-    {.keep_bytes = PLENTY}, {.diagnostics = true, .keep_bytes = PLENTY}, {.outputs = few}, {.keep_bytes = 0},
-    {.outputs = half, .repeat = 2}};
+static const struct glint_replay_options all_options[OPTIONS] = {{.keep_bytes = PLENTY},
+                                                                 {.diagnostics = true, .keep_bytes = PLENTY},
+                                                                 {.outputs = few},
+                                                                 {.keep_bytes = 0},
+                                                                 {.outputs = half, .repeat = 2}};
 
 static uint32_t random_below(uint32_t *state, uint32_t end) {
     *state = *state * 1664525 + 1013904223;
@@ -71,14 +73,16 @@ static bool run_partly(struct glint_replay *replay, const struct glint_pipeline 
 }
 
 static void *read_image(struct glint_replay *replay, const struct glint_image *image, size_t *bytes) {
-    static const enum glint_type types[] = {[GLINT_FORMAT_R8UI] = GLINT_U8,     [GLINT_FORMAT_R32UI] = GLINT_U32,
-                                            [GLINT_FORMAT_R16F] = GLINT_F16,    [GLINT_FORMAT_RG16F] = GLINT_F16,
-                                            [GLINT_FORMAT_RGBA16F] = GLINT_F16, [GLINT_FORMAT_R32F] = GLINT_F32,
-                                            [GLINT_FORMAT_RG32F] = GLINT_F32,   [GLINT_FORMAT_RGBA32F] = GLINT_F32};
+    static const enum glint_type types[] = {
+        [GLINT_FORMAT_R8UI] = GLINT_U8,   [GLINT_FORMAT_R32UI] = GLINT_U32,   [GLINT_FORMAT_R16F] = GLINT_F16,
+        [GLINT_FORMAT_RG16F] = GLINT_F16, [GLINT_FORMAT_RGBA16F] = GLINT_F16, [GLINT_FORMAT_R32F] = GLINT_F32,
+        [GLINT_FORMAT_RG32F] = GLINT_F32, [GLINT_FORMAT_RGBA32F] = GLINT_F32};
     struct glint_error err = {0};
     const enum glint_type type = types[image->format];
     *bytes = (size_t)image->width * image->height * image->components *
-             (type == GLINT_U8 ? 1 : type == GLINT_F16 ? 2 : 4);
+             (type == GLINT_U8    ? 1
+              : type == GLINT_F16 ? 2
+                                  : 4);
     void *data = malloc(*bytes + 1);
     if (!data || !glint_replay_read_image(replay, image, type, data, &err)) fail_msg("%s", err.message);
     return data;
@@ -89,7 +93,8 @@ static size_t expect_same(struct glint_replay *found, struct glint_replay *expec
     const size_t count = glint_replay_image_count(expected);
     assert_int_equal(glint_replay_image_count(found), count);
     for (size_t i = 0; i < count; i++) {
-        const struct glint_image *from = glint_replay_image(expected, i), *to = glint_replay_find_image(found, from->name);
+        const struct glint_image *from = glint_replay_image(expected, i),
+                                 *to = glint_replay_find_image(found, from->name);
         size_t bytes[2];
         if (!to) fail_msg("no image %s", from->name);
         void *a = read_image(expected, from, &bytes[0]), *b = read_image(found, to, &bytes[1]);
@@ -119,8 +124,8 @@ static void what_follows_a_run_that_was_given_up_is_as_new(void **state) {
     for (size_t i = 0; i < PIPELINES; i++) made[i] = make_pipeline(i);
     for (int turn = 0; turn < 40; turn++) {
         for (uint32_t times = 1 + random_below(&seed, 2); times > 0; times--)
-            stopped += run_partly(replay, made[random_below(&seed, PIPELINES)], &all_options[random_below(&seed, OPTIONS)],
-                                  random_below(&seed, 24));
+            stopped += run_partly(replay, made[random_below(&seed, PIPELINES)],
+                                  &all_options[random_below(&seed, OPTIONS)], random_below(&seed, 24));
         const uint32_t p = random_below(&seed, PIPELINES), o = random_below(&seed, OPTIONS);
         if (!fresh[p][o]) {
             fresh[p][o] = loaded(fixture, fixture->capture);
@@ -201,7 +206,8 @@ static void play_shot(struct fixture *fixture, size_t shot, uint64_t keep, uint3
         glint_capture_close(&captures[0]);
         glint_capture_close(&captures[1]);
     }
-    print_message("# %s%s: the pass temporal ran: %d\n", pipelines[shot][0], pipelines[shot][1] ? ", changed" : "", remembered);
+    print_message("# %s%s: the pass temporal ran: %d\n", pipelines[shot][0], pipelines[shot][1] ? ", changed" : "",
+                  remembered);
     assert_true(remembered || !strcmp(pipelines[shot][0], "kf2") || !strcmp(pipelines[shot][0], "gtav"));
     for (size_t i = 0; i < PIPELINES; i++) glint_pipeline_destroy(&made[i]);
     glint_replay_destroy(&replay);

@@ -86,13 +86,29 @@ static bool try_fault(const struct fixture *fixture, const struct snapshot *whol
 }
 
 static void a_replay_goes_on_after_a_call_that_failed(void **state) {
-    static const char *const calls[] = {
-        "vkAllocateMemory",       "vkMapMemory",          "vkBindBufferMemory",       "vkBindImageMemory",
-        "vkCreateBuffer",         "vkCreateBufferView",   "vkCreateImage",            "vkCreateImageView",
-        "vkCreateShaderModule",   "vkCreatePipelineLayout", "vkCreateComputePipelines", "vkCreateDescriptorSetLayout",
-        "vkCreateDescriptorPool", "vkAllocateDescriptorSets", "vkResetCommandPool",   "vkBeginCommandBuffer",
-        "vkEndCommandBuffer",     "vkCreateQueryPool",    "vkResetFences",            "vkWaitForFences",
-        "vkGetQueryPoolResults",  "vkQueueSubmit2",       "vkGetPhysicalDeviceImageFormatProperties"};
+    static const char *const calls[] = {"vkAllocateMemory",
+                                        "vkMapMemory",
+                                        "vkBindBufferMemory",
+                                        "vkBindImageMemory",
+                                        "vkCreateBuffer",
+                                        "vkCreateBufferView",
+                                        "vkCreateImage",
+                                        "vkCreateImageView",
+                                        "vkCreateShaderModule",
+                                        "vkCreatePipelineLayout",
+                                        "vkCreateComputePipelines",
+                                        "vkCreateDescriptorSetLayout",
+                                        "vkCreateDescriptorPool",
+                                        "vkAllocateDescriptorSets",
+                                        "vkResetCommandPool",
+                                        "vkBeginCommandBuffer",
+                                        "vkEndCommandBuffer",
+                                        "vkCreateQueryPool",
+                                        "vkResetFences",
+                                        "vkWaitForFences",
+                                        "vkGetQueryPoolResults",
+                                        "vkQueueSubmit2",
+                                        "vkGetPhysicalDeviceImageFormatProperties"};
     static const char *const results[] = {"VK_ERROR_OUT_OF_DEVICE_MEMORY", "VK_TIMEOUT", "VK_ERROR_OUT_OF_HOST_MEMORY",
                                           "VK_ERROR_DEVICE_LOST"};
     const struct fixture *fixture = fixture_need_device(state);
@@ -109,7 +125,8 @@ static void a_replay_goes_on_after_a_call_that_failed(void **state) {
             any = false;
             for (size_t r = 0; r < 4; r++) {
                 if (!everything && r != (c + number) % 4) continue;
-                if (!strcmp(calls[c], "vkGetPhysicalDeviceImageFormatProperties") && r == 3) continue; /* no call of a device */
+                if (!strcmp(calls[c], "vkGetPhysicalDeviceImageFormatProperties") && r == 3)
+                    continue; /* no call of a device */
                 any |= try_fault(fixture, &whole, calls[c], number, results[r]);
                 tried++;
             }

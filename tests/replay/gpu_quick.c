@@ -193,20 +193,21 @@ static double other_value(const struct glint_row *row, double value) {
     return value > row->lowest ? value - 1 : value + 1;
 }
 
-/* Changes every third parameter. */
-static void change_values(struct both *both, size_t round) {
+/* Changes every third parameter of a pass. */
+static void change_values_of(struct both *both, const struct glint_pass *pass, size_t round) {
     struct glint_error err = {0};
     size_t place = 0;
-    for (size_t p = 0; p < glint_pipeline_pass_count(both->pipeline); p++) {
-        const struct glint_pass *pass = glint_pipeline_pass(both->pipeline, p);
-        for (size_t r = 0; r < pass->row_count; r++) {
-            const struct glint_row *row = &pass->rows[r];
-            if (!is_constant(row) || place++ % ROUNDS != round) continue;
-            const double value = glint_pipeline_value(both->pipeline, pass, row);
-            if (!glint_pipeline_set_value(both->pipeline, pass, row, other_value(row, value), &err))
-                print_message("%s.%s stays: %s\n", pass->slot, row->name, err.message);
-        }
+    for (size_t r = 0; r < pass->row_count; r++) {
+        const struct glint_row *row = &pass->rows[r];
+        if (!is_constant(row) || place++ % ROUNDS != round) continue;
+        const double value = glint_pipeline_value(both->pipeline, pass, row);
+        check(glint_pipeline_set_value(both->pipeline, pass, row, other_value(row, value), &err), &err);
     }
+}
+
+static void change_values(struct both *both, size_t round) {
+    for (size_t p = 0; p < glint_pipeline_pass_count(both->pipeline); p++)
+        change_values_of(both, glint_pipeline_pass(both->pipeline, p), round);
 }
 
 /* ---- Tests ---- */
@@ -240,6 +241,51 @@ static void images_have_the_same_bits(void **state) {
                   sum.records);
     assert_int_equal(sum.differ, 0);
     assert_true(sum.images > 100 && 2 * sum.quick > sum.executed && sum.records > 0);
+    check_messages(both);
+}
+
+/* Runs a variant with its defaults and with other values. False if it does not fit the preset's other variants. */
+static bool compare_variant(struct both *both, const char *preset, const struct glint_pass *pass,
+                            struct compared *sum) {
+    struct glint_error err = {0};
+    const struct glint_plan_entry *entries;
+    size_t count;
+    char what[160];
+    snprintf(what, sizeof what, "%s=%s", pass->slot, pass->variant);
+    use(both, preset);
+    check(glint_pipeline_use(both->pipeline, what, &err), &err);
+    if (!glint_replay_plan(both->plain, both->pipeline, NULL, &entries, &count, &err)) return false;
+    for (size_t round = 0; round <= ROUNDS; round++) {
+        snprintf(what, sizeof what, "%s, %s=%s, round %zu", preset, pass->slot, pass->variant, round);
+        if (round) change_values_of(both, pass, round - 1);
+        run(both, (struct glint_replay_options){.diagnostics = true});
+        compare(both, what, false, sum);
+    }
+    return true;
+}
+
+/* As above, of variants that no preset has. */
+static void every_variant_has_the_same_bits(void **state) {
+    struct both *both = need_device(state);
+    static const char *const presets[] = {"mafia3", "mafia_de_display"};
+    struct compared sum = {0};
+    size_t count, tried = 0;
+    const struct glint_pass *passes = glint_passes(&count);
+    struct glint_capture *capture = frame_of(both, "courtyard", 1);
+    if (!every_preset) skip();
+    load(both, capture);
+    for (size_t p = 0; p < sizeof presets / sizeof *presets; p++)
+        for (size_t i = 0; i < count; i++) {
+            use(both, presets[p]);
+            const struct glint_pass *now = glint_pipeline_find(both->pipeline, passes[i].slot);
+            if (!now || now == &passes[i] || passes[i].host) continue;
+            tried += compare_variant(both, presets[p], &passes[i], &sum);
+        }
+    load(both, NULL);
+    glint_capture_close(&capture);
+    print_message("%zu variants\n", tried);
+    assert_int_equal(sum.differ, 0);
+    assert_true(tried > 30);
     check_messages(both);
 }
 
@@ -333,6 +379,7 @@ int main(int argc, UNUSED char **argv) {
         cmocka_unit_test(a_new_value_compiles_nothing),
         cmocka_unit_test(constants_that_stay_have_their_values),
         cmocka_unit_test(images_have_the_same_bits),
+        cmocka_unit_test(every_variant_has_the_same_bits),
     };
     return cmocka_run_group_tests(tests, set_up, tear_down);
 }

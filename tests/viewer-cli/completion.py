@@ -33,6 +33,8 @@ CASES = [
     ("replay s.exr --shader resolve=my_s", "resolve=my_shader.comp"),
     ("replay s.exr --precision hal", "half"),
     ("replay s.exr --inputs=ru", "--inputs=run"),
+    ("live s.exr --token-f", "--token-file="),
+    ("live s.exr --use=screen_trace=dd", "--use=screen_trace=dda"),
     ("sample deser", "desert_night"),
     ("sample room --normal=octa", "--normal=octahedral"),
     ("passes screen_trace/hi", "screen_trace/hiz"),

@@ -232,6 +232,17 @@ class Tests:
         shape = live_contract.raw_head()
         assert few == [row[::3] for row in whole[::3]] and list(head) == list(shape), (head, shape)
 
+    def test_drafts_and_quick_runs_are_those_of_replay(self):
+        half, out = str(self.folder / "half.exr"), self.folder / "view.png"
+        glint("crop", str(self.capture), "--every", "2", "-o", half)
+        for name, members, capture, size in (("quick", {"quick": True}, str(self.capture), SIZE), ("draft", {"draft": True}, half, (32, 18))):
+            run = self.post("run", state={"set": {"cubemap_trace.steps_hq": 9}}, **members)
+            assert run["size"] == list(size) and run["draft"] == (name == "draft") and any(p["quick"] for p in run["passes"]) == (name == "quick"), (name, run["passes"])
+            folder = str(self.folder / f"run {name}")
+            glint("replay", capture, "-o", folder, "--set", "cubemap_trace.steps_hq=9")
+            glint("view", folder, "--image", "composed", "--no-legend", "-o", str(out))
+            assert self.picture("composed", run["run"]) == out.read_bytes(), name
+
     def test_values_are_those_of_the_files(self):
         out = str(self.folder / "part.exr")
         files = {"composed": ("19-compose.exr", 0), "travelled": ("12-cubemap_trace.exr", 0), "cubemap_index": ("12-cubemap_trace.exr", 1)}
@@ -302,8 +313,11 @@ class Tests:
     # ---- What leaves the server ----
 
     def test_a_preset_replays_to_the_state(self):
-        state = {"preset": "kf2", "set": {"compose.intensity": 0.08}, "use": {"blur": "none"}}
+        state = {"preset": "mafia3", "set": {"compose.intensity": 0.123456789}, "use": {"blur": "none", "upscale": "bilinear"}}
         answer = self.post("preset", state=state, name="mine")
+        # what is the preset's own is left out of a canonical state
+        own = {**state, "set": {**state["set"], "cubemap_trace.skip_volume": False}, "use": {**state["use"], "resolve": "hit"}}
+        assert self.post("pipeline", state=own)["state"] == {"capture": 0, **state, "skip": [], "force": []}
         file = self.folder / "mine.json"
         file.write_text(answer["preset"], encoding="utf-8")
         assert answer["name"] == json.loads(answer["preset"])["name"] == "mine"
@@ -352,7 +366,7 @@ class Tests:
         for thread in others:
             thread.start()
         started.wait()
-        time.sleep(0.5)
+        time.sleep(1)
         state = {"set": {"cubemap_trace.steps_hq": 6}}
         start = time.monotonic()
         run = self.post("run", state=state, urgent=True)

@@ -97,9 +97,10 @@ static void every_nth_pixel_keeps_its_ray(void **state) {
                 const uint32_t size[2] = {cropped ? 20 : 40, cropped ? 12 : 24};
                 char every[16];
                 snprintf(every, sizeof every, "%u", steps[i]);
-                free(cropped ? glint_ok("crop", in_folder("jittered.exr"), "4,2,20,12", "--every", every, "-o",
-                                        in_folder("crop.exr"))
-                             : glint_ok("crop", in_folder("jittered.exr"), "--every", every, "-o", in_folder("crop.exr")));
+                free(cropped
+                         ? glint_ok("crop", in_folder("jittered.exr"), "4,2,20,12", "--every", every, "-o",
+                                    in_folder("crop.exr"))
+                         : glint_ok("crop", in_folder("jittered.exr"), "--every", every, "-o", in_folder("crop.exr")));
                 free(glint_ok("validate", in_folder("crop.exr")));
                 struct glint_exr *exr = edited_open(in_folder("crop.exr"));
                 const struct glint_exr_part_info *lit = glint_exr_part(exr, edited_part(exr, "lit"));
@@ -107,8 +108,9 @@ static void every_nth_pixel_keeps_its_ray(void **state) {
                 assert_int_equal(lit->height, blocks(size[1], steps[i]));
                 glint_exr_close(&exr);
                 expect_grid_rays(in_folder("jittered.exr"), in_folder("crop.exr"), grid);
-                edited_expect_grid(in_folder("jittered.exr"), in_folder("crop.exr"), grid,
-                                   "glint.viewToClip glint.previousViewToClip glint.jitter motion.X motion.Y glint.storage visible");
+                edited_expect_grid(
+                    in_folder("jittered.exr"), in_folder("crop.exr"), grid,
+                    "glint.viewToClip glint.previousViewToClip glint.jitter motion.X motion.Y glint.storage visible");
             }
     }
 }
@@ -131,7 +133,8 @@ static void expect_motion(const char *from, const char *to, struct edited_grid g
             for (uint32_t i = 0; i < 2; i++) {
                 const size_t at = (grid.y0 + middle + y * grid.step) * p->width + grid.x0 + middle + x * grid.step;
                 const double before = (double)u[2 * at + i] * (i ? p->height : p->width);
-                const double after = (double)v[2 * ((size_t)y * q->width + x) + i] * (i ? q->height : q->width) * grid.step;
+                const double after =
+                    (double)v[2 * ((size_t)y * q->width + x) + i] * (i ? q->height : q->width) * grid.step;
                 most = fmax(most, fabs(before));
                 assert_true(fabs(before - after) <= 4 * 0x1p-24 * fabs(before) + 1e-6); /* floats, added up */
             }
@@ -146,18 +149,21 @@ static void motion_stays(void **state) {
     (void)state;
     static const char *const names[] = {"uv", "ndc", "pixels", "packed16"};
     static const char *const rectangles[] = {"16,8,48,32", "6,4,50,26"}; /* the same factor on both axes, and not */
-    static const char *const every[] = {"2", "3", "5"}; /* 96 x 64 pixels: three are no whole number of blocks in y, five in both */
+    static const char *const every[] = {
+        "2", "3", "5"}; /* 96 x 64 pixels: three are no whole number of blocks in y, five in both */
     for (int e = 0; e < 4; e++) {
         free(glint_ok("sample", "room", "--light=4", "-o", in_folder("moving.exr"), "--size", "96x64", "--cube-size",
                       "8", "--motion", names[e], "--travel", "0.1,0,0.05"));
         for (int i = 0; i < 2; i++) {
             free(glint_ok("crop", in_folder("moving.exr"), rectangles[i], "-o", in_folder("crop.exr")));
-            expect_motion(in_folder("moving.exr"), in_folder("crop.exr"), (struct edited_grid){i ? 6 : 16, i ? 4 : 8, 1});
+            expect_motion(in_folder("moving.exr"), in_folder("crop.exr"),
+                          (struct edited_grid){i ? 6 : 16, i ? 4 : 8, 1});
         }
         for (int i = 0; i < 3; i++) {
             free(glint_ok("crop", in_folder("moving.exr"), "--every", every[i], "-o", in_folder("crop.exr")));
             free(glint_ok("validate", in_folder("crop.exr")));
-            expect_motion(in_folder("moving.exr"), in_folder("crop.exr"), (struct edited_grid){0, 0, (uint32_t)atoi(every[i])});
+            expect_motion(in_folder("moving.exr"), in_folder("crop.exr"),
+                          (struct edited_grid){0, 0, (uint32_t)atoi(every[i])});
         }
     }
 }
@@ -185,7 +191,8 @@ static void other_sizes_are_reduced_by_their_ratio(void **state) {
         const char *every;
         uint32_t half[2];
         bool froxels;
-    } cases[] = {{"2", {10, 6}, true}, {"3", {7, 4}, true}, {"4", {5, 3}, true}, {"16", {1, 1}, false}, {"24", {1, 1}, false}};
+    } cases[] = {
+        {"2", {10, 6}, true}, {"3", {7, 4}, true}, {"4", {5, 3}, true}, {"16", {1, 1}, false}, {"24", {1, 1}, false}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct outcome said = glint("crop", made, "--every", cases[i].every, "-o", in_folder("crop.exr"), NULL);
         assert_int_equal(said.status, 0);
@@ -198,7 +205,8 @@ static void other_sizes_are_reduced_by_their_ratio(void **state) {
         if (!cases[i].froxels) assert_contains(said.err, "froxels: left out");
         assert_contains(said.err, "engine.a.list: kept whole");
         assert_int_equal(glint_exr_part(exr, edited_part(exr, "engine.a.cube"))->height, 6 * FIX_CUBE);
-        assert_int_equal(glint_exr_part(exr, edited_part(exr, "editor.overlay"))->width, blocks(40, (uint32_t)atoi(cases[i].every)));
+        assert_int_equal(glint_exr_part(exr, edited_part(exr, "editor.overlay"))->width,
+                         blocks(40, (uint32_t)atoi(cases[i].every)));
         glint_exr_close(&exr);
         outcome_free(&said);
     }

@@ -76,7 +76,7 @@ struct live {
     const char *reference, *out; /* folders, or NULL */
     char *cache, *folder;        /* a cache folder or NULL; a private folder for drafts and pages */
     struct live_frame *frames;
-    size_t count; /* of frames */
+    size_t count;         /* of frames */
     const char **presets; /* names that states may have, NULL-terminated */
     json_t *registry;
 

@@ -5,7 +5,7 @@
 #include <stdbool.h>
 #include <unistd.h>
 
-enum { PARTS_MAX = 16, LEAST_ROWS = 64 };
+enum { PARTS_MAX = 16, LEAST_ROWS = 16 };
 
 struct part {
     void (*work)(void *user, uint32_t first, uint32_t end);

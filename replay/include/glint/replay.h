@@ -271,7 +271,8 @@ struct glint_replay *glint_replay_create(struct glint_device *device, struct gli
 void glint_replay_destroy(struct glint_replay **replay);
 struct glint_device *glint_replay_device(const struct glint_replay *replay); /* NULL if it was created without one */
 /* The caller keeps the capture, which must stay open while it is loaded; NULL unloads. If the frame directly follows the one that
-   was run last and is no camera cut, the images of that run become its history. */
+   was loaded before and is no camera cut, the images of that one's last run become its history, of each lineage by itself; a lineage whose last run
+   failed or was given up has none. Loading any other frame, or the same one again, ends all history. */
 bool glint_replay_load(struct glint_replay *replay, struct glint_capture *capture, struct glint_error *err);
 /* The survey of the loaded capture, counted on the replay's device if it has one, else on the host. *time (may be NULL) receives
    the time on the device. */
@@ -308,6 +309,8 @@ bool glint_capture_lacks(const struct glint_capture *capture, const struct glint
 const struct glint_absence *glint_replay_missing(const struct glint_replay *replay, size_t i);
 /* The i-th of the "warnings" of the last run's run.json, valid until the next run; NULL past the last. */
 const char *glint_replay_warning(const struct glint_replay *replay, size_t i);
+/* A frame may be run as often as the caller likes: each run has the history of its lineage, whatever ran in between. A run that fails or that `progress` gives up leaves no
+   results, and the next one gives what it would give on a new replay. */
 bool glint_replay_run(struct glint_replay *replay, const struct glint_pipeline *pipeline,
                       const struct glint_replay_options *options, glint_progress progress, void *user,
                       struct glint_error *err);
