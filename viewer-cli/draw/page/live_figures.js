@@ -16,7 +16,7 @@ glintLive.figures = (function () {
     /* Of shares: the difference in hundredths. */
     function points(a, b) {
         const d = Number.isFinite(a) ? 100 * (a - (Number.isFinite(b) ? b : 0)) : NaN;
-        return Number.isFinite(d) ? `${d < 0 ? '\u2212' : '+'}${numberText(Math.abs(d), 1)}` : '';
+        return Number.isFinite(d) ? Math.abs(d) < 0.005 ? '0' : `${d < 0 ? '\u2212' : '+'}${Math.abs(d).toFixed(2)}` : '';
     }
 
     /* Values, and where there is a B its values and the difference. rows: [[name, a, b, unit, title], …] */
@@ -30,7 +30,7 @@ glintLive.figures = (function () {
 
     function nameCell(name, unit) { return element('th', {scope: 'row'}, name, unit ? element('span', {class: 'unit'}, ` ${unit}`) : null); }
 
-    function changeCell(text) { return element('td', {class: 'number change'}, text); }
+    function changeCell(text, title) { return element('td', {class: 'number change', title}, text); }
 
     function table(caption, heads, rows) {
         const head = (text, number) => element('th', {scope: 'col', class: number ? 'number' : null}, text);
@@ -69,7 +69,7 @@ glintLive.figures = (function () {
         const number = text => element('td', {class: 'number'}, text), share = v => Number.isFinite(v) ? `${(100 * v).toFixed(1)} %` : '\u2013';
         const row = e => element('tr', {title: `${numberText(e.rays, 0)} rays`}, nameCell(e.text, several ? `(${e.tracer})` : ''),
             ...(pinned ? [] : [number(numberText(e.rays, 0))]), number(share(e.share)),
-            ...(pinned ? [number(share(other(e))), changeCell(meter.other ? points(e.share, other(e)) : '')] : []),
+            ...(pinned ? [number(share(other(e))), changeCell(meter.other ? points(e.share, other(e)) : '', 'in hundredths of all rays')] : []),
             ...(errors ? [number(Number.isFinite(e.error) ? glintChart.number(+e.error.toPrecision(3)) : '\u2013')] : []));
         return table('Why rays ended', [...(pinned ? [] : ['rays']), 'A', ...(pinned ? ['B', 'vs. B'] : []), ...(errors ? ['error'] : [])], ends.map(row));
     }

@@ -95,7 +95,7 @@ glintLive.pipeline = (function () {
         const words = [];
         if (pass && !pass.ran && !pass.cached) words.push(`left out: ${pass.reason || 'nothing needs it'}`);
         if (pass?.cached && counted) words.push(KEPT);
-        if (said?.shader) words.push(`shader ${said.shader}`);
+        if (said?.shader) words.push(`shader ${said.shader}${store.error?.message?.includes(said.shader) ? ': does not compile' : ''}`);
         if (state.force.includes(slot)) words.push('forced');
         return words.join(' \u00b7 ');
     }
@@ -273,7 +273,7 @@ glintLive.pipeline = (function () {
             due = true;
             requestAnimationFrame(() => { due = false; update(); });
         };
-        for (const name of ['state', 'slots', 'result', 'refused', 'figures']) store.on(name, later);
+        for (const name of ['state', 'slots', 'result', 'refused', 'figures', 'error']) store.on(name, later);
         update();
         return element('section', {class: 'panel pipeline', id: 'pipeline', 'aria-label': 'Pipeline', tabindex: -1, focusin: explain, pointerover: explain},
             ...bars.bars, element('div', {class: 'list'}, whole, slots, none, add), help);
