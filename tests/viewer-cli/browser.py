@@ -1,5 +1,6 @@
 """A headless Chromium, driven over a pipe by the DevTools protocol."""
 import base64
+import contextlib
 import json
 import os
 import re
@@ -89,6 +90,21 @@ class Browser:
                     raise RuntimeError(f"{method}: {answer['error']['message']}")
                 return answer["result"]
             self.notice(answer)
+
+    @contextlib.contextmanager
+    def another_page(self):
+        """A second page of the same browser, which is spoken to until the end of the block."""
+        first, self.session = self.session, None
+        page = self.call("Target.createTarget", url="about:blank")["targetId"]
+        self.session = self.call("Target.attachToTarget", targetId=page, flatten=True)["sessionId"]
+        for domain in ("Page", "Runtime"):
+            self.call(f"{domain}.enable")
+        try:
+            yield
+        finally:
+            self.session = None
+            self.call("Target.closeTarget", targetId=page)
+            self.session = first
 
     def open(self, path):
         for said in (self.messages, self.requests, self.dialogs):

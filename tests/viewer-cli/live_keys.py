@@ -39,7 +39,20 @@ class Tests(live_tab.Tests):
         assert not self.ask("document.querySelector('dialog.help-keys').open")
         for key, panel in zip("12345", ("pipeline", "picture", "pixel", "figures", "out")):
             tab.letter(key)
-            assert self.ask("document.activeElement.id") == panel, (key, self.ask("document.activeElement.id"))
+            assert self.ask("document.activeElement.closest('.panel').id") == panel, (key, self.ask("document.activeElement.outerHTML.slice(0, 80)"))
+        # in the picture arrow keys and Enter choose a pixel at once; the heat map is a key away where there is a B
+        tab.letter("2")
+        tab.press("ArrowRight", 39)
+        tab.press("Enter", 13)
+        self.until(f"{STORE}.look.x !== null")
+        tab.letter("h")
+        assert self.ask(f"{STORE}.look.mode") != "alone0"
+        tab.letter("p")
+        self.until(f"{STORE}.pinned")
+        tab.letter("h")
+        self.until("[...document.querySelectorAll('.stage .bar button')].some(b => b.textContent === 'Heat map' && b.getAttribute('aria-pressed') === 'true')")
+        tab.letter("h")
+        self.until("[...document.querySelectorAll('.stage .bar button')].some(b => b.dataset.mode === 'slider' && b.getAttribute('aria-pressed') === 'true')")
         tab.quiet()
 
     def test_tab_reaches_everything_and_its_focus_is_seen(self):

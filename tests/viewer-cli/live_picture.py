@@ -270,6 +270,21 @@ class Tests:
         assert self.ask("$('.live-pixel h3').textContent === 'Pixel 20,25' && all('.live-pixel svg').length === 0 && !$('.cross.picked').hidden")
         expected = glint("probe", self.capture, "20,25").stdout
         assert self.ask("$('.live-pixel pre').textContent").split("\n\n")[1] == expected.split("\n\n")[1]
+        # the pipeline's own ray came first; what probe ends with, the comparison, stands above the drawing
+        assert self.ask("posted.filter(p => p.path.endsWith('/probe')).map(p => p.body.reference)") == [False, True]
+        cells = self.ask("all('.live-pixel .outcome tbody tr').map(r => [...r.cells].map(c => c.textContent))")
+        assert len(cells) > 3 and all(" ".join(row[1:]) in " ".join(expected.split("\n\n")[-1].split()) for row in cells), cells
+        # the drawing as large as the window
+        self.ask("all('.live-pixel button').find(b => b.textContent === 'Enlarge').click()")
+        self.until("$('dialog.drawing').open && $('dialog.drawing img').naturalWidth > 100")
+        assert self.ask("$('dialog.drawing img').offsetWidth > 1.5 * $('.live-pixel figure img').offsetWidth")
+        self.browser.key("Escape", 27)
+        self.until("!$('dialog.drawing').open")
+        # where nothing is pointed at, the values are those of the chosen pixel
+        self.browser.point_at(*self.at(3, 4))
+        self.readout("3,4")
+        self.browser.point_at(2, 2)
+        self.readout("20,25")
         # arrow keys go on; sliders change what is drawn
         self.ask("$('.live-pixel figure').focus()")
         self.browser.key("ArrowDown", 40)
@@ -288,6 +303,25 @@ class Tests:
         self.ask("$('.live-pixel figure').focus()")
         self.browser.key("Escape", 27)
         assert self.ask(f"{STORE}.look.x === null && $('.live-pixel h3').closest('[hidden]') !== null")
+        self.quiet()
+
+    def test_a_truth_stands_beside_what_it_is_the_truth_of(self):
+        self.show()
+        self.ask(f"{STORE}.pinAnswer('truth', {STORE}.effect, 'truth')")
+        self.until("layers().length === 2")
+        image, compares = self.ask(f"[{STORE}.look.image, {STORE}.pinned.result.compares]")
+        assert image in compares and image != "composed", (image, compares)
+        # beside another image it says nothing, and is not shown
+        self.look(image="composed")
+        self.until("layers().length === 1 && all('.live-picture > .note').some(e => !e.hidden && e.textContent.includes('not comparable with composed'))")
+        assert self.ask("!all('.stage .bar button').some(b => b.textContent === 'Heat map')")
+        self.ask(f"all('.live-picture > .note button').find(b => b.textContent === 'Show {image}').click()")
+        self.until(f"layers().length === 2 && {STORE}.look.image === '{image}'")
+        # the picture of another pipeline beside the picture; an image that it lacks beside nothing
+        self.ask(f"{STORE}.pinState({{...{STORE}.state, use: {{resolve_sharp: 'none'}}}}, 'less')")
+        self.until("all('.live-picture > .note').some(e => !e.hidden && e.textContent.includes('has no image'))")
+        self.look(image="composed")
+        self.until("layers().length === 2 && all('.live-picture > .note').every(e => e.hidden)")
         self.quiet()
 
     def test_a_failure_keeps_the_picture(self):

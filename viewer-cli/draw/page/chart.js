@@ -31,13 +31,13 @@ var glintChart = (function () {
 
     function label(axis) { return text(axis.name) + (axis.unit ? ', ' + text(axis.unit) : ''); }
 
-    /* As few digits as a number needs, at most four. */
-    function number(v) {
+    /* As few digits as a number needs, at most four, or as many as are given. */
+    function number(v, digits) {
         if (!isNumber(v)) return '\u2013';
         if (v === 0) return '0';
         var size = Math.abs(v);
         if (size >= 1e6 || size < 1e-4) return v.toExponential(2).replace(/\.?0+e/, 'e').replace('e+', 'e').replace('-', '\u2212');
-        return String(+v.toPrecision(4)).replace('-', '\u2212');
+        return String(+v.toPrecision(digits || 4)).replace('-', '\u2212');
     }
 
     /* [x, y] or {…} as one kind of object; null when an axis cannot show it. */
@@ -109,6 +109,12 @@ var glintChart = (function () {
         option.nameGap = 18 + longest;
     }
 
+    /* Digits that tell the ticks of a narrow range apart. */
+    function digitsOf(range) {
+        var size = Math.max(Math.abs(range[0]), Math.abs(range[1])), span = range[1] - range[0];
+        return size > 0 && span > 0 ? Math.min(10, Math.max(4, Math.ceil(Math.log10(size / span)) + 2)) : 4;
+    }
+
     function axisOption(data, key, look, width) {
         var axis = data[key], lying = key === 'y' && axis.scale === 'category';
         var option = {
@@ -130,7 +136,9 @@ var glintChart = (function () {
         }
         var range = extent(data, key), bars = data.series.some(function (s) { return s.kind === 'bar'; });
         option.type = axis.scale === 'log' ? 'log' : 'value';
-        option.axisLabel.formatter = number;
+        var digits = option.type === 'log' ? 4 : digitsOf(range);
+        option.axisLabel.formatter = function (v) { return number(v, digits); };
+        if (key === 'y' && option.type !== 'log' && range[1] - range[0] < 0.05 * Math.abs(range[1])) option.nameGap += 7 * (digits - 3);
         option.scale = !bars;
         if (option.type === 'log') {
             var pad = Math.max(Math.pow(range[1] / range[0], 0.04), 1.02);

@@ -60,6 +60,17 @@
         document.title = `glint live: ${glintChart.text(store.registry.captures[0]?.name)}`;
     }
 
+    /* B of a link, once there is an A. */
+    function pinLinked(store) {
+        const {b} = glintLive.store.linked();
+        if (!b || typeof b !== 'object') return;
+        const off = store.on('idle', () => {
+            off();
+            if (b.state) store.pinState(b.state, typeof b.title === 'string' ? b.title : undefined);
+            else if (b.of && b.effect) store.pinAnswer(b.of, b.effect, typeof b.title === 'string' ? b.title : String(b.of));
+        });
+    }
+
     async function start() {
         let registry;
         try {
@@ -78,6 +89,7 @@
             }
         }
         build(store);
+        if (linked && !store.lost) pinLinked(store);
         if (store.lost) store.notice(`The link's state cannot be shown here: ${store.lost}`);
         addEventListener('hashchange', () => {
             const given = glintLive.store.linked();
@@ -96,5 +108,5 @@
         if (document.documentElement.dataset.ready === 'yes') askToken('The server does not know this token any more: it may have been started again.');
     });
     document.documentElement.dataset.look = matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light';
-    if (api.begin()) start(); else askToken('');
+    if (api.begin()) start(); else api.askTabs().then(known => { if (known) start(); else askToken(''); });
 })();

@@ -2,7 +2,7 @@
 const glintLive = {};
 glintLive.api = (function () {
     'use strict';
-    const KEPT = 'glint token', RETRY_MS = 1500;
+    const KEPT = 'glint token', RETRY_MS = 1500, TABS_MS = 250;
     const TOKEN = /^[0-9A-Za-z_-]{8,256}$/;
     const client = Array.from(crypto.getRandomValues(new Uint8Array(8)), b => b.toString(16).padStart(2, '0')).join('');
     let token = null;
@@ -28,6 +28,22 @@ glintLive.api = (function () {
             history.replaceState(null, '', location.pathname + location.search + (rest ? `#${rest}` : ''));
         } else if (!token) setToken(recall() || '');
         return token !== null;
+    }
+
+    /* Tabs of one origin have one server: a tab that was opened by a link gets the token from another one. No other origin hears of it. */
+    const tabs = typeof BroadcastChannel === 'function' ? new BroadcastChannel(KEPT) : null;
+    tabs?.addEventListener('message', ({data}) => { if (data === 'ask' && token) tabs.postMessage({token}); });
+
+    /* Whether another tab knew a token. */
+    function askTabs() {
+        return new Promise(done => {
+            if (!tabs) return done(false);
+            const answer = ({data}) => { if (data?.token && !token && setToken(data.token)) end(); };
+            const end = () => { tabs.removeEventListener('message', answer); clearTimeout(timer); done(token !== null); };
+            const timer = setTimeout(end, TABS_MS);
+            tabs.addEventListener('message', answer);
+            tabs.postMessage('ask');
+        });
     }
 
     function failure(message, code, status) {
@@ -106,5 +122,5 @@ glintLive.api = (function () {
         }
     }
 
-    return {client, begin, setToken, get, post, bytes, file, insist, stream, failure, onRefused: f => refused.push(f)};
+    return {client, begin, askTabs, setToken, get, post, bytes, file, insist, stream, failure, onRefused: f => refused.push(f)};
 })();

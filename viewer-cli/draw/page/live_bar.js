@@ -51,6 +51,12 @@ glintLive.bar = (function () {
         return [element('label', null, 'B ', select), swap];
     }
 
+    /* How long it took says little without how much was to be done. */
+    function replayed({size, seconds, passes}) {
+        const all = list(passes).filter(p => p.ran), run = all.filter(p => !p.cached).length;
+        return `${size.join(' \u00d7 ')}: ${run} of ${all.length} passes run in ${glintChart.number(+(1000 * seconds).toPrecision(3))} ms`;
+    }
+
     function status(store) {
         const meter = element('progress', {max: 1, value: 0, 'aria-label': 'progress of the replay'}), text = element('span', {role: 'status'});
         const update = () => {
@@ -58,8 +64,9 @@ glintLive.bar = (function () {
             meter.classList.toggle('idle', !running && !progress);
             if (progress && Number.isFinite(progress.done)) meter.value = progress.done; else if (running) meter.removeAttribute('value'); else meter.value = 0;
             const what = progress?.what ? glintChart.text(progress.what) : running === 'draft' ? 'draft' : 'replaying';
-            text.textContent = running || progress ? `${what} \u2026`
-                : result ? `${result.size.join(' \u00d7 ')}, replayed in ${glintChart.number(+(1000 * result.seconds).toPrecision(3))} ms` : '';
+            const besides = running ? [] : store.besides;
+            text.textContent = running || progress ? `${besides.length ? `${besides.join(', ')}: ` : ''}${what} \u2026`
+                : besides.length ? `${besides.join(', ')} \u2026` : result ? replayed(result) : '';
             document.documentElement.dataset.busy = running || 'no';
         };
         for (const on of ['progress', 'result', 'idle']) store.on(on, update);

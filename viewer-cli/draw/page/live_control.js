@@ -161,7 +161,7 @@ glintLive.control = (function () {
         const revert = element('button', {type: 'button', class: 'revert', click: () => { act.revert(); inner.focus.focus(); }}, '\u21ba');
         const refusal = element('p', {class: 'refusal', role: 'alert', hidden: ''});
         const row = element('div', {class: `parameter ${p.choices ? 'choice' : p.type}`, 'data-name': p.name}, name,
-            element('span', {class: 'value'}, ...inner.parts), element('span', {class: 'unit'}, unitOf(p)), revert, refusal, help);
+            element('span', {class: 'value'}, ...inner.parts), element('span', {class: 'unit', title: unitOf(p) || null}, unitOf(p)), revert, refusal, help);
         inner.focus.setAttribute('aria-describedby', help.id);
         return {row, parameter: p, show({value, preset, refused}) {
             inner.show(value, preset, refused);

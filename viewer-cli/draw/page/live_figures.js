@@ -16,12 +16,13 @@ glintLive.figures = (function () {
     /* Of shares: the difference in hundredths. */
     function points(a, b) {
         const d = Number.isFinite(a) ? 100 * (a - (Number.isFinite(b) ? b : 0)) : NaN;
-        return Number.isFinite(d) ? `${d < 0 ? '\u2212' : '+'}${numberText(Math.abs(d), 1)}` : '';
+        return Number.isFinite(d) ? Math.abs(d) < 0.005 ? '0' : `${d < 0 ? '\u2212' : '+'}${Math.abs(d).toFixed(2)}` : '';
     }
 
     /* Values, and where there is a B its values and the difference. rows: [[name, a, b, unit, title], …] */
     function comparison(rows, pinned, caption) {
-        const number = v => element('td', {class: 'number'}, Number.isFinite(v) ? glintChart.number(+v.toPrecision(4)) : '\u2013');
+        const words = v => Number.isInteger(v) && v >= 1000 ? numberText(v, 0) : glintChart.number(+v.toPrecision(4));
+        const number = v => element('td', {class: 'number'}, Number.isFinite(v) ? words(v) : '\u2013');
         const cells = ([name, a, b, unit, title]) => element('tr', {title: title ? glintChart.text(title) : null}, nameCell(name, unit), number(a),
             ...(pinned ? [number(b), changeCell(percent(a, b))] : []));
         return table(caption, ['A', ...(pinned ? ['B', 'vs. B'] : [])], rows.map(cells));
@@ -29,7 +30,7 @@ glintLive.figures = (function () {
 
     function nameCell(name, unit) { return element('th', {scope: 'row'}, name, unit ? element('span', {class: 'unit'}, ` ${unit}`) : null); }
 
-    function changeCell(text) { return element('td', {class: 'number change'}, text); }
+    function changeCell(text, title) { return element('td', {class: 'number change', title}, text); }
 
     function table(caption, heads, rows) {
         const head = (text, number) => element('th', {scope: 'col', class: number ? 'number' : null}, text);
@@ -39,7 +40,7 @@ glintLive.figures = (function () {
 
     /* ---- What is shown: the last figures, until there are those of the state ---- */
 
-    const RAYS = [['rays', 'rays', ''], ['steps of a ray', 'steps', ''], ['fetches of a ray', 'fetches', ''], ['steps', 'steps_px', '1/pixel'], ['fetches', 'fetches_px', '1/pixel']];
+    const RAYS = [['rays', 'rays', ''], ['steps of a ray', 'steps', ''], ['fetches of a ray', 'fetches', ''], ['steps', 'steps_px', 'a pixel'], ['fetches', 'fetches_px', 'a pixel']];
 
     function headline(store, meter) {
         const {figures: a, other: b} = meter, pinned = store.pinned && !store.pinned.of ? store.pinned : null;
@@ -47,7 +48,7 @@ glintLive.figures = (function () {
         const ms = ns => Number.isFinite(ns) ? ns / 1e6 : null;
         const rounds = meter.isCurrent() && Number.isFinite(a.frame_ns) ? a.rounds : 0;
         if (a?.against) rows.push([metric?.title || meter.metric, meter.total(a)?.value, meter.total(b)?.value, '', metric?.help]);
-        rows.push(['every frame', ms(meter.timeOf(rounds ? a : null, store.result)), ms(meter.timeOf(b, pinned?.result)),
+        rows.push(['time of a frame', ms(meter.timeOf(rounds ? a : null, store.result)), ms(meter.timeOf(b, pinned?.result)),
             rounds ? `ms, median of ${rounds}` : 'ms, one replay', 'sum of the passes that run in every frame']);
         if (Number.isFinite(a?.cubemaps_ns)) rows.push(['when a cube map changes', ms(a.cubemaps_ns), ms(b?.cubemaps_ns), 'ms']);
         for (const [name, key, unit] of a ? RAYS : []) if (Number.isFinite(a[key])) rows.push([name, a[key], b?.[key], unit]);
@@ -66,9 +67,9 @@ glintLive.figures = (function () {
         if (!ends.length) return null;
         const other = e => list(meter.other?.ends).find(o => o.tracer === e.tracer && o.reason === e.reason)?.share;
         const number = text => element('td', {class: 'number'}, text), share = v => Number.isFinite(v) ? `${(100 * v).toFixed(1)} %` : '\u2013';
-        const row = e => element('tr', {title: `${numberText(e.rays, 0)} rays`}, nameCell(e.text, several ? e.tracer : ''),
+        const row = e => element('tr', {title: `${numberText(e.rays, 0)} rays`}, nameCell(e.text, several ? `(${e.tracer})` : ''),
             ...(pinned ? [] : [number(numberText(e.rays, 0))]), number(share(e.share)),
-            ...(pinned ? [number(share(other(e))), changeCell(points(e.share, other(e)))] : []),
+            ...(pinned ? [number(share(other(e))), changeCell(meter.other ? points(e.share, other(e)) : '', 'in hundredths of all rays')] : []),
             ...(errors ? [number(Number.isFinite(e.error) ? glintChart.number(+e.error.toPrecision(3)) : '\u2013')] : []));
         return table('Why rays ended', [...(pinned ? [] : ['rays']), 'A', ...(pinned ? ['B', 'vs. B'] : []), ...(errors ? ['error'] : [])], ends.map(row));
     }
@@ -80,7 +81,7 @@ glintLive.figures = (function () {
         const now = keyOf(store.state), at = t => ({x: t.time / 1e6, y: t.error});
         const marks = fits.flatMap(t => keyOf(t.state) === now ? [{...at(t), label: 'A'}] : keyOf(t.state) === b ? [{...at(t), label: 'B'}] : []);
         const series = [{name: 'states', kind: 'scatter', points: fits.map(t => ({...at(t), name: t.name}))}];
-        return {fits, chart: {title: 'Tried so far', height: 260, x: {name: 'every frame', unit: 'ms'}, y: {name: metric?.title || 'error'}, series, marks}};
+        return {fits, chart: {title: 'Tried so far', height: 260, x: {name: 'time of a frame', unit: 'ms'}, y: {name: metric?.title || 'error'}, series, marks}};
     }
 
     function scatter(store, meter) {
@@ -150,7 +151,7 @@ glintLive.figures = (function () {
             if (!store.effect) return store.result ? 'Nothing that this pipeline makes can be judged.' : '';
             if (!own.isCurrent()) return own.isAutomatic() ? 'waiting to measure \u2026' : own.figures ? 'These are of an earlier state: measure again.' : 'Not measured yet.';
             const {why, against} = own.figures;
-            return [why || (against ? '' : 'There is nothing to compare with.'), store.pinned?.of ? 'B is what the result should be, and has no figures.' : ''].filter(t => t).join(' ');
+            return [why || (against ? '' : 'There is nothing to compare with.'), store.pinned?.of ? `B, ${store.pinned.title}, has no figures of its own.` : ''].filter(t => t).join(' ');
         }
 
         function update() {

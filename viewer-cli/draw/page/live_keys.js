@@ -1,12 +1,12 @@
 /* Keys of the page of glint live, and the list of them that "?" opens. glintLive.keys(store) listens, and is the dialog's element. */
 glintLive.keys = (function () {
     'use strict';
-    const {element} = glintParts;
+    const {element} = glintParts, {HEAT} = glintLive.picture;
 
-    function go(id) {
+    function go(id, inner) {
         const panel = document.getElementById(id);
         panel?.scrollIntoView({block: 'nearest'});
-        panel?.focus();
+        (inner && panel?.querySelector(inner) || panel)?.focus();
     }
 
     /* [keys as they are shown, what they do, whether an event is meant, the deed] */
@@ -19,13 +19,14 @@ glintLive.keys = (function () {
             ['Ctrl+Shift+Z', 'redo', e => control('z', true)(e) || control('y', false)(e), () => store.redo()],
             ['/', 'search passes and parameters', plain('/'), () => document.getElementById('search').focus()],
             ['1', 'go to the pipeline', plain('1'), () => go('pipeline')],
-            ['2', 'go to the picture', plain('2'), () => go('picture')],
+            ['2', 'go to the picture', plain('2'), () => go('picture', '.frame')],
             ['3', 'go to the pixel', plain('3'), () => go('pixel')],
             ['4', 'go to the figures', plain('4'), () => go('figures')],
-            ['5', 'go to what leaves the page', plain('5'), () => go('out')],
+            ['5', 'go to command line, preset, report', plain('5'), () => go('out')],
             ['p', 'pin this state as B', plain('p'), () => store.pinState(store.state)],
             ['u', 'unpin B', plain('u'), () => store.unpin()],
             ['x', 'swap A and B', plain('x'), () => store.swap()],
+            ['h', 'heat map of A and B, and back', plain('h'), () => store.pinned && store.setLook({mode: store.look.mode === HEAT ? 'slider' : HEAT})],
             ['m', 'measure error and times', plain('m'), () => store.measure()],
             ['c', 'copy the command line', plain('c'), () => store.copyCommand()],
             ...(shot ? [['[', 'frame before', plain('['), () => store.seek(-1)], [']', 'next frame', plain(']'), () => store.seek(1)],
@@ -46,7 +47,11 @@ glintLive.keys = (function () {
         const keys = table(store, look, help);
         const entry = (name, what) => [element('dt', null, ...name.split('+').flatMap((k, i) => [i ? '+' : null, element('kbd', null, k)])), element('dd', null, what)];
         help.append(element('h2', null, 'Keys'), element('dl', null, ...keys.flatMap(([name, what]) => entry(name, what)),
-            ...entry('Tab', 'the next control; arrow keys move sliders, Shift and arrow keys in the picture go by ten pixels'),
+            ...entry('Tab', 'the next control; arrow keys move sliders'),
+            ...entry('\u2190 \u2191 \u2192 \u2193', 'in the picture: the pixel that is pointed at, with Shift by ten'),
+            ...entry('Enter', 'in the picture: choose that pixel, as a click does, and trace its rays'),
+            ...entry('Space', 'in the picture: show the other one of A and B; held while dragging: move the picture'),
+            ...entry('Ctrl+Wheel', 'in the picture: zoom, as the keys plus and minus do'),
             ...entry('Esc', 'leaves the search, closes this list')), element('button', {type: 'button', click: () => help.close()}, 'Close'));
         document.addEventListener('keydown', event => {
             if (event.key === 'Escape' && event.target.id === 'search') {

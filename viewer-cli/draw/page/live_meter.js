@@ -13,6 +13,9 @@ glintLive.meter = (function () {
         return store.registry.effects.filter(e => list(e.results).some(r => made.has(r)));
     }
 
+    /* Whether the time of every pass that a frame runs is known: of those that ran in a run that was given up it is not. */
+    const isTimed = result => list(result.passes).every(p => !p.ran || p.host || p.cached_work || Number.isFinite(p.ns));
+
     function make(store) {
         const cache = new Map(), tried = [];
         const {registry} = store;
@@ -38,7 +41,7 @@ glintLive.meter = (function () {
 
         /* The error over all pixels, which comes first among the sets of classes. */
         self.total = figures => list(figures?.errors).find(e => e.metric === self.metric && Number.isFinite(e.value)) || null;
-        self.timeOf = (figures, result) => Number.isFinite(figures?.frame_ns) ? figures.frame_ns : result && !result.draft ? result.frame_ns : null;
+        self.timeOf = (figures, result) => Number.isFinite(figures?.frame_ns) ? figures.frame_ns : result && !result.draft && isTimed(result) ? result.frame_ns : null;
 
         function note(figures, result) {
             const error = self.total(figures)?.value, time = self.timeOf(figures, keyOf(result?.state || {}) === keyOf(figures.state) ? result : null);
@@ -54,6 +57,7 @@ glintLive.meter = (function () {
             const state = copy(result.state), mine = self.running = {key: keyFor(state, against())};
             const wanted = () => self.running === mine && isShown(state);
             self.error = null;
+            store.setBesides('measuring', true);
             store.emit('figures');
             try {
                 const found = await measure(state, rounds, wanted);
@@ -70,12 +74,20 @@ glintLive.meter = (function () {
                 if (error.code !== 'superseded') self.error = error;
             } finally {
                 if (self.running === mine) self.running = null;
+                if (!self.running) store.setBesides('measuring', false);
                 store.emit('figures');
                 if (!self.running && !isShown(state)) self.follow();
             }
         };
+        /* Measuring runs the whole frame, also where the last replay had little to do. */
+        let quick = false;
+        const isQuick = () => {
+            const {result} = store;
+            if (result && !result.draft) quick = result.seconds < QUICK_S && (self.timeOf(null, result) ?? Infinity) < 1e9 * QUICK_S;
+            return quick;
+        };
         /* Never against the reference, whose rays take minutes. */
-        self.isAutomatic = () => self.against !== 'reference' && (self.automatic === null ? !!store.result && store.result.seconds < QUICK_S : self.automatic);
+        self.isAutomatic = () => self.against !== 'reference' && (self.automatic === null ? isQuick() : self.automatic);
         /* Figures are of pipelines as the plan runs them. */
         self.isCurrent = () => !!self.figures && !!store.result && self.figures.key === keyFor(store.result.state, against());
         /* After a whole frame: what is known already costs nothing, the rest is measured where that was asked for. */

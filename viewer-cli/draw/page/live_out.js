@@ -27,7 +27,10 @@ glintLive.out = (function () {
 
     return function (store) {
         const said = element('p', {class: 'faint', role: 'status'});
-        const say = text => { said.textContent = glintChart.text(text); };
+        const say = text => {
+            said.textContent = glintChart.text(text);
+            said.scrollIntoView({block: 'nearest'});
+        };
         const busy = new Set();
         /* One at a time of each; what it comes to stands below the buttons. */
         const button = (label, title, work, id) => {
@@ -48,13 +51,13 @@ glintLive.out = (function () {
             const answer = await api.insist('/api/v1/preset', {state: store.state, name: name.value});
             const file = `${(answer.name || 'preset').replace(/[^\w.-]/g, '_')}.json`;
             download(new Blob([answer.preset], {type: 'application/json'}), file);
-            return `Saved as ${file}; use it with --preset ${file}.`;
+            return `${file} is among the downloads of the browser; use it with --preset ${file}.`;
         }
         async function saveReport() {
             if (!store.pinned || store.pinned.of) throw new Error('Pin a state as B first: the report compares A with B.');
             say('Measuring A and B \u2026');
             download(await api.file('/api/v1/report', {a: store.state, b: store.pinned.result.state}), 'report.html');
-            return 'Saved as report.html.';
+            return 'report.html is among the downloads of the browser.';
         }
         async function write() {
             const answer = await api.insist('/api/v1/write', {state: store.state, name: name.value});

@@ -61,10 +61,10 @@ glintLive.picture = (function () {
 
     function overlay() {
         const progress = progressBar(), draft = element('span', {class: 'draft', role: 'status'}), failure = element('p', {class: 'note', role: 'alert'});
-        return {e: element('div', {class: 'live-over'}, progress.e, draft, failure), draw(store, wrong) {
+        return {e: element('div', {class: 'live-over'}, progress.e, draft, failure), draw(store, wrong, waits) {
             const message = store.error ? store.error.message || store.error : wrong.A || wrong.B || wrong.D;
-            progress.draw(store.progress);
-            draft.textContent = store.result?.draft ? 'Draft: half the resolution, the whole frame follows' : '';
+            progress.draw(store.running || !store.besides.length ? store.progress : null); /* what is done beside it changes no picture */
+            draft.textContent = waits ? 'Drawing the picture \u2026' : store.result?.draft ? 'Draft: half the resolution, the whole frame follows' : '';
             draft.hidden = !draft.textContent;
             failure.hidden = !message;
             failure.textContent = !message ? '' : glintChart.text(message) +
@@ -96,7 +96,7 @@ glintLive.picture = (function () {
         self.look = {mode: store.look.mode || 'slider', zoom: store.look.zoom || 0};
         const e = element('section', {class: 'live-picture', 'aria-label': 'picture'}, images(store), self.view, self.warning, self.lacks, self.stage);
         for (const what of ['result', 'pinned', 'look', 'state']) store.on(what, () => refresh(self));
-        for (const what of ['error', 'progress']) store.on(what, () => self.over.draw(store, self.wrong));
+        for (const what of ['error', 'progress']) store.on(what, () => drawOver(self));
         store.on('truth', () => self.stage.read());
         store.on('look', () => follow(self));
         let resized = 0;
@@ -136,7 +136,7 @@ glintLive.picture = (function () {
     function refresh(self) {
         askAll(self);
         mark(self);
-        self.over.draw(self.store, self.wrong);
+        drawOver(self);
     }
 
     /* Asks for what has to be there: A, then B in the colours of A, then the heat map if it is looked at. */
@@ -197,9 +197,11 @@ glintLive.picture = (function () {
         refresh(self);
     }
 
+    function drawOver(self) { self.over.draw(self.store, self.wrong, !!self.store.result && !self.shown.A && !self.wrong.A); }
+
     function fail(self, which, error) {
         self.wrong[which] = error.message;
-        self.over.draw(self.store, self.wrong);
+        drawOver(self);
     }
 
     /* The size that A stands for: a draft is shown as large as the whole picture. */
@@ -219,7 +221,7 @@ glintLive.picture = (function () {
     function draw(self) {
         self.stage.update(pictures(self));
         drawWarning(self);
-        self.over.draw(self.store, self.wrong);
+        drawOver(self);
         mark(self);
     }
 
@@ -263,5 +265,5 @@ glintLive.picture = (function () {
         else self.stage.mark(between(x, frame[0], size[0]), between(y, frame[1], size[1]));
     }
 
-    return make;
+    return Object.assign(make, {HEAT});
 })();

@@ -20,13 +20,16 @@ glintLive.pipeline = (function () {
         const known = variantOf(store, slot, variant)?.parameters.map(p => p.name) || [];
         state.use[slot] = variant;
         for (const name of Object.keys(state.set)) if (name.startsWith(`${slot}.`) && !known.includes(name)) delete state.set[name];
-        if (variant === NONE) Object.assign(state, {skip: remove(state.skip, slot), force: remove(state.force, slot)});
+        if (isGone(store, slot, variant)) Object.assign(state, {skip: remove(state.skip, slot), force: remove(state.force, slot)});
         return state;
     }
 
     function variantOf(store, slot, variant) {
         return store.registry.passes.find(p => p.slot === slot && p.variant === variant);
     }
+
+    /* Some slots have a variant of that name. */
+    function isGone(store, slot, variant) { return variant === NONE && !variantOf(store, slot, NONE); }
 
     function differsIn(state, slot) {
         return slot in state.use || state.skip.includes(slot) || state.force.includes(slot) || Object.keys(state.set).some(n => n.startsWith(`${slot}.`));
@@ -72,7 +75,7 @@ glintLive.pipeline = (function () {
             store.change(s => { s.skip = on.checked ? remove(s.skip, slot) : [...remove(s.skip, slot), slot]; s.force = remove(s.force, slot); })});
         const variant = element('select', {'aria-label': `${slot}: variant`, change: () => store.change(s => useVariant(store, s, slot, variant.value))},
             ...variants.map(v => element('option', {value: v.variant, title: glintChart.text(`${v.title}, ${v.source}`)}, v.variant)),
-            element('option', {value: NONE}, NONE));
+            variants.some(v => v.variant === NONE) ? null : element('option', {value: NONE}, NONE));
         const force = element('button', {type: 'button', class: 'force', title: 'run it even if the plan finds that it is not needed (--force)', click: () =>
             store.change(s => { s.force = s.force.includes(slot) ? remove(s.force, slot) : [...s.force, slot]; })}, 'Run anyway');
         const revert = element('button', {type: 'button', class: 'revert', 'aria-label': `${slot}: back to the preset`, title: 'all of this slot back to the preset',
@@ -85,13 +88,14 @@ glintLive.pipeline = (function () {
     }
 
     /* Why a pass did not run, or what it ran with. */
-    function noteOf(state, slot, variant, pass, said, counted) {
-        if (variant === NONE) return 'not in the pipeline';
+    function noteOf(store, slot, variant, pass, said, counted) {
+        const {state} = store;
+        if (isGone(store, slot, variant)) return 'not in the pipeline';
         if (state.skip.includes(slot)) return SKIPPED;
         const words = [];
         if (pass && !pass.ran && !pass.cached) words.push(`left out: ${pass.reason || 'nothing needs it'}`);
         if (pass?.cached && counted) words.push(KEPT);
-        if (said?.shader) words.push(`shader ${said.shader}`);
+        if (said?.shader) words.push(`shader ${said.shader}${store.error?.message?.includes(said.shader) ? ': does not compile' : ''}`);
         if (state.force.includes(slot)) words.push('forced');
         return words.join(' \u00b7 ');
     }
@@ -106,6 +110,7 @@ glintLive.pipeline = (function () {
     function slotRow(store, slot) {
         const body = element('div', {class: 'parameters', hidden: ''});
         let open = false, found = false, shown = null, controls = [];
+        const times = new Map(); /* of each variant, when it was last measured */
         const fold = () => {
             body.hidden = !(open || found);
             head.fold.setAttribute('aria-expanded', String(!body.hidden));
@@ -129,17 +134,18 @@ glintLive.pipeline = (function () {
             build(variant);
             for (const c of controls) c.update(said?.variant === variant ? said.parameters.find(p => p.name === c.parameter.name) : null);
             head.variant.value = variant;
-            head.on.checked = variant !== NONE && !state.skip.includes(slot);
-            head.on.disabled = variant === NONE;
+            head.on.checked = !isGone(store, slot, variant) && !state.skip.includes(slot);
+            head.on.disabled = isGone(store, slot, variant);
             head.revert.hidden = !differsIn(state, slot);
             row.classList.toggle('differs', differsIn(state, slot));
             row.classList.toggle('off', !head.on.checked || !!(pass && !pass.ran && !pass.cached));
             row.classList.toggle('cached', !!pass?.cached);
-            head.note.textContent = glintChart.text(noteOf(state, slot, variant, pass, said, Number.isFinite(counted)));
+            head.note.textContent = glintChart.text(noteOf(store, slot, variant, pass, said, Number.isFinite(counted)));
             const forced = state.force.includes(slot);
             head.force.hidden = !forced && (!pass || pass.ran || pass.cached || !head.on.checked);
             head.force.setAttribute('aria-pressed', String(forced));
-            const ns = pass?.ns, known = Number.isFinite(counted);
+            if (Number.isFinite(pass?.ns) && !result.draft) times.set(variant, pass.ns);
+            const ns = pass?.ns ?? (pass?.cached ? times.get(variant) : undefined), known = Number.isFinite(counted);
             bar(head.time, Number.isFinite(ns) ? `${pass.quick ? '\u2264 ' : ''}${milliseconds(ns)}` : '', Number.isFinite(ns) ? ns / scale.ns : 0,
                 (pass?.cached_work ? 'runs when a cube map changes only, not in every frame' : 'time on the device when it last ran') +
                 (pass?.quick ? '; from a program that reads parameters from memory, which is slower than the pass\u2019s own: Measure times that' : ''));
@@ -267,7 +273,7 @@ glintLive.pipeline = (function () {
             due = true;
             requestAnimationFrame(() => { due = false; update(); });
         };
-        for (const name of ['state', 'slots', 'result', 'refused', 'figures']) store.on(name, later);
+        for (const name of ['state', 'slots', 'result', 'refused', 'figures', 'error']) store.on(name, later);
         update();
         return element('section', {class: 'panel pipeline', id: 'pipeline', 'aria-label': 'Pipeline', tabindex: -1, focusin: explain, pointerover: explain},
             ...bars.bars, element('div', {class: 'list'}, whole, slots, none, add), help);

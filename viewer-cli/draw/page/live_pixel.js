@@ -20,13 +20,14 @@ glintLive.pixel = (function () {
         self.why = element('p', {class: 'faint'});
         self.failure = element('p', {class: 'note', role: 'alert', hidden: ''});
         self.text = element('pre', {tabindex: 0, 'aria-label': 'what glint probe says'});
+        self.steps = element('details', {class: 'steps'}, element('summary', null, 'Every step in words'), self.text);
         self.drawing = element('figure', {tabindex: 0, role: 'group', 'aria-label': 'rays of the pixel: arrow keys go to the next pixel, Shift by ten, Escape closes',
             keydown: event => { if (key(store, event)) event.preventDefault(); }}, self.image, self.why);
         self.inner = element('div', null, element('div', {class: 'bar'}, self.title, element('span', {class: 'together'}, self.enlarge, self.close)), self.wait, self.failure, self.outcome,
-            self.drawing, self.text, self.dialog);
+            self.drawing, self.steps, self.dialog);
         self.e = element('section', {class: 'live-pixel', 'aria-labelledby': 'pixel-title'}, self.hint, self.inner);
         self.image.addEventListener('load', () => { if (self.old) URL.revokeObjectURL(self.old); self.old = null; });
-        for (const e of [self.drawing, self.text]) e.hidden = true;
+        for (const e of [self.drawing, self.steps]) e.hidden = true;
         for (const what of ['look', 'result']) store.on(what, () => refresh(self));
         refresh(self);
         return self.e;
@@ -52,6 +53,7 @@ glintLive.pixel = (function () {
         if (!at) {
             self.stop?.abort();
             self.asked = null;
+            store.setBesides('pixel', false);
             return;
         }
         self.title.textContent = `Pixel ${at[0]},${at[1]}`;
@@ -69,6 +71,7 @@ glintLive.pixel = (function () {
         const stop = self.stop = new AbortController();
         self.e.setAttribute('aria-busy', 'true');
         self.drawing.classList.add('stale');
+        self.store.setBesides('pixel', true);
         self.wait.textContent = 'Tracing the rays of this pixel \u2026';
         for (const reference of [false, true]) {
             const answer = await probe(self, at, wanted, reference, stop.signal);
@@ -78,6 +81,7 @@ glintLive.pixel = (function () {
             if (!answer) break;
         }
         self.e.setAttribute('aria-busy', 'false');
+        self.store.setBesides('pixel', false);
     }
 
     /* The answer, or null. A run may take the replay away: then it is asked again. */
@@ -111,7 +115,7 @@ glintLive.pixel = (function () {
     /* The drawing is a picture and never part of the page: it holds texts of strangers. */
     function show(self, {svg, no_drawing: why, text}, reference) {
         self.failure.hidden = true;
-        self.drawing.hidden = self.text.hidden = false;
+        self.drawing.hidden = self.steps.hidden = false;
         self.drawing.classList.remove('stale');
         drawOutcome(self, reference ? text : '');
         self.old = self.url;

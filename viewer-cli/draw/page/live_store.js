@@ -19,7 +19,7 @@ glintLive.store = (function () {
     /* A preset as it is. */
     function bare(capture, preset) { return {capture, preset, use: {}, set: {}, skip: [], force: []}; }
 
-    /* ---- The permalink: #s= and base64url of {"state", "look"} ---- */
+    /* ---- The permalink: #s= and base64url of {"state", "look", "b"}: what B is, if there is one ---- */
 
     function encode(value) {
         const bytes = new TextEncoder().encode(JSON.stringify(value));
@@ -78,7 +78,7 @@ glintLive.store = (function () {
     function make(registry) {
         const listeners = new Map(), steps = trail();
         const store = {registry, client: api.client, state: null, result: null, error: null, pinned: null, truth: null, look: null,
-            slots: [], command: '', progress: null, effect: null, playing: false};
+            besides: [], slots: [], command: '', progress: null, effect: null, playing: false};
         let timer = 0;
 
         /* f is called after each change of what `name` says; the answer takes it away again. */
@@ -89,11 +89,14 @@ glintLive.store = (function () {
         };
         store.emit = name => { for (const f of [...(listeners.get(name) || [])]) f(store); };
 
-        store.link = () => `${location.origin}${location.pathname}#s=${encode({state: store.state, look: store.look})}`;
+        store.link = () => `${location.origin}${location.pathname}#s=${encode({state: store.state, look: store.look, ...(store.pinned ? {b: linkOf(store.pinned)} : {})})}`;
+        const linkOf = ({title, of, effect, result}) => of ? {title, of, effect} : {title, state: result.state};
         function keepLink() {
             clearTimeout(timer);
             timer = setTimeout(() => history.replaceState(null, '', store.link()), LINK_MS);
         }
+
+        store.on('pinned', keepLink);
 
         /* Shows a state without a step for undo: frames of a shot, what the server made of a state. */
         store.showState = state => {
@@ -137,6 +140,11 @@ glintLive.store = (function () {
             store.look = {...store.look, ...part};
             store.emit('look');
             keepLink();
+        };
+        /* What the server does for the page beside replays, in a word. */
+        store.setBesides = (what, yes) => {
+            store.besides = yes ? [...new Set([...store.besides, what])] : store.besides.filter(w => w !== what);
+            store.emit('progress');
         };
         store.setError = error => {
             store.error = error;

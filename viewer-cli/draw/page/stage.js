@@ -324,7 +324,7 @@ const glintStage = (function () {
     function listen(self) {
         const {frame, state, hooks} = self;
         /* what a press does: "slide" the line, "pan", or nothing yet */
-        const press = {what: null, x: 0, y: 0, moved: false, space: false};
+        const press = {what: null, x: 0, y: 0, moved: false, space: false, pointed: false};
 
         function slideTo(event) {
             const box = frame.getBoundingClientRect();
@@ -338,6 +338,7 @@ const glintStage = (function () {
                 return;
             }
             place(self, event);
+            press.pointed = true;
             if (!(event.buttons & 1) || press.what !== 'slide') return;
             if (Math.hypot(event.clientX - press.x, event.clientY - press.y) >= DRAG_PX) press.moved = true;
             if (press.moved || !hooks.pick) slideTo(event);
@@ -360,6 +361,11 @@ const glintStage = (function () {
             place(self, event);
             if (state.x >= 0) hooks.pick(state.x, state.y);
         });
+        frame.addEventListener('pointerleave', () => {
+            if (self.picked[0] < 0 || press.what || !press.pointed) return;
+            [state.x, state.y] = self.picked;
+            point(self);
+        });
         frame.addEventListener('pointercancel', () => { press.what = null; frame.classList.remove('moving'); });
         frame.addEventListener('mousedown', event => { if (event.button === 1) event.preventDefault(); }); /* no scrolling by the browser */
         frame.addEventListener('blur', () => { press.space = false; });
@@ -369,7 +375,7 @@ const glintStage = (function () {
             press.space = false;
             if (!moved) other(self);
         });
-        frame.addEventListener('keydown', event => { if (key(self, press, event)) event.preventDefault(); });
+        frame.addEventListener('keydown', event => { if (key(self, press, event)) { press.pointed = false; event.preventDefault(); } });
         self.slider.addEventListener('input', () => slide(self, +self.slider.value));
         const resize = () => { self.sized = null; size(self, self.zoom.zoom); };
         self.layers[0].image.addEventListener('load', resize);
