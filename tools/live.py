@@ -10,6 +10,7 @@ page asks for both: the whole frame, and on devices that need it the draft. `./d
 import argparse
 import http.client
 import json
+import os
 import pathlib
 import statistics
 import subprocess
@@ -32,9 +33,11 @@ FOLDER = pages.RECORDS.parent / "live"
 class Live:
     """A server and one connection to it."""
 
-    def __init__(self, glint, *arguments, every=1):
+    def __init__(self, glint, *arguments, every=1, programs=None):
+        """`programs`: a folder in which drivers keep compiled programs, instead of those of earlier measurements."""
         self.every = every
-        self.process = subprocess.Popen([glint, "live", *map(str, arguments)], stdout=subprocess.PIPE, text=True)
+        kept = {"MESA_SHADER_CACHE_DIR": str(programs), "__GL_SHADER_DISK_CACHE_PATH": str(programs)} if programs else {}
+        self.process = subprocess.Popen([glint, "live", *map(str, arguments)], stdout=subprocess.PIPE, text=True, env={**os.environ, **kept})
         address, self.token = self.process.stdout.readline().strip().split("/#")
         self.host = address.removeprefix("http://")
         self.connection = http.client.HTTPConnection(self.host, timeout=600)
@@ -84,7 +87,7 @@ def record(args):
     with tempfile.TemporaryDirectory(dir=args.work) as folder:
         for place, size in enumerate(args.sizes.split(",")):
             capture = pages.sample(args.glint, args.scene, folder, size, args.cube)
-            live = Live(args.glint, capture, every=max(1, int(size.split("x")[0]) // ROOM_PX))
+            live = Live(args.glint, capture, every=max(1, int(size.split("x")[0]) // ROOM_PX), programs=folder)
             found["device"] = live.ask("GET", "registry")["device"]
             first = live.change({})
             rows = {"first": {"ms": round(1e3 * first[0], 1)}}
