@@ -6,8 +6,15 @@
 
 #include "nearest.h"
 
-bool glint_row_is_output(const struct glint_row *row) {
+/* Plans ask this a hundred thousand times. */
+static inline bool is_output(const struct glint_row *row) {
     return row->kind == GLINT_ROW_WRITE || row->kind == GLINT_ROW_DIAGNOSTIC;
+}
+static inline bool same_text(const char *a, const char *b) {
+    return a[0] == b[0] && strcmp(a, b) == 0;
+}
+bool glint_row_is_output(const struct glint_row *row) {
+    return is_output(row);
 }
 bool row_is_sampled(const struct glint_row *row) {
     return row->kind == GLINT_ROW_READ || row->kind == GLINT_ROW_READ_OWN || row->kind == GLINT_ROW_HISTORY;
@@ -61,7 +68,7 @@ const struct glint_row *glint_pass_row(const struct glint_pass *pass, enum glint
 
 const struct glint_row *glint_pass_output(const struct glint_pass *pass, const char *image) {
     for (size_t i = 0; i < pass->row_count; i++)
-        if (glint_row_is_output(&pass->rows[i]) && strcmp(pass->rows[i].name, image) == 0) return &pass->rows[i];
+        if (is_output(&pass->rows[i]) && same_text(pass->rows[i].name, image)) return &pass->rows[i];
     return NULL;
 }
 
@@ -69,7 +76,7 @@ const struct glint_row *capture_row(const char *image) {
     size_t count;
     const struct glint_row *rows = glint_capture_images(&count);
     for (size_t i = 0; i < count; i++)
-        if (strcmp(rows[i].name, image) == 0) return &rows[i];
+        if (same_text(rows[i].name, image)) return &rows[i];
     return NULL;
 }
 
@@ -149,10 +156,12 @@ size_t glint_row_reads(const struct glint_row *row, const char *names[2]) {
 }
 
 bool glint_pass_depends(const struct glint_pass *later, const struct glint_pass *earlier) {
-    for (size_t r = 0; r < later->row_count; r++) {
+    for (size_t r = 0; r < later->row_count; r++)
+        if (later->rows[r].kind == GLINT_ROW_READ && glint_pass_output(earlier, later->rows[r].name)) return true;
+    const bool orders = glint_pass_role(earlier, GLINT_ROLE_CUBEMAP_ORDER) != NULL;
+    for (size_t r = 0; orders && r < later->row_count; r++) {
         const char *names[2];
-        for (size_t n = glint_row_reads(&later->rows[r], names); n-- > 0;)
-            if (glint_pass_output(earlier, names[n])) return true;
+        if (glint_row_reads(&later->rows[r], names) == 2 && glint_pass_output(earlier, names[1])) return true;
     }
     return false;
 }

@@ -113,6 +113,28 @@ static bool execute_round(struct run *run, bool apart, double done, double share
                           each * (double)(graph->pass_count - end), err);
 }
 
+static bool reads_quick(const struct run *run, const struct glint_pass *pass) {
+    for (size_t r = 0; r < pass->row_count; r++)
+        if (row_is_sampled(&pass->rows[r]) &&
+            run->images[graph_bound(run->graph, &pass->rows[r]) - run->graph->images]->quick)
+            return true;
+    return false;
+}
+
+/* Notes what the images of a pass hold from now on. */
+static void note_made(struct run *run, size_t p) {
+    struct step *step = &run->steps[p];
+    step->from_quick = step->quick || reads_quick(run, step->pass->pass);
+    for (size_t i = 0; i < run->graph->image_count; i++) {
+        const struct graph_image *image = &run->graph->images[i];
+        if (image->source != SOURCE_MADE || image->maker != p) continue;
+        run->images[i]->quick = step->from_quick;
+        if (run->images[i]->transient) continue;
+        run->images[i]->key = run->keys[i];
+        run->images[i]->round = run->options->round;
+    }
+}
+
 bool run_execute(struct run *run, struct glint_error *err) {
     const struct glint_replay_options *options = run->options;
     const uint32_t warmup = options->repeat == 0 ? 0 : options->warmup ? options->warmup : 1;
@@ -123,7 +145,7 @@ bool run_execute(struct run *run, struct glint_error *err) {
         if (!(step->ns = calloc(rounds, sizeof *step->ns))) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
         for (size_t i = 0; i < run->graph->image_count; i++) /* undefined until the new contents are complete */
             if (run->graph->images[i].source == SOURCE_MADE && run->graph->images[i].maker == p)
-                run->images[i]->key = 0;
+                run->images[i]->key = 0, run->images[i]->quick = false;
     }
     for (uint32_t round = 0; round < rounds; round++) {
         for (size_t p = 0; p < run->graph->pass_count; p++) run->steps[p].round_ns = 0;
@@ -132,11 +154,7 @@ bool run_execute(struct run *run, struct glint_error *err) {
         for (size_t p = 0; p < run->graph->pass_count && round >= warmup && run->queries; p++)
             if (run->steps[p].execute) run->steps[p].ns[run->steps[p].timed++] = run->steps[p].round_ns;
     }
-    for (size_t i = 0; i < run->graph->image_count; i++) {
-        const struct graph_image *image = &run->graph->images[i];
-        if (image->source != SOURCE_MADE || run->images[i]->transient || !run->steps[image->maker].execute) continue;
-        run->images[i]->key = run->keys[i];
-        run->images[i]->round = options->round;
-    }
+    for (size_t p = 0; p < run->graph->pass_count; p++)
+        if (run->steps[p].execute) note_made(run, p);
     return true;
 }

@@ -118,7 +118,7 @@ static bool step_key(struct run *run, struct step *step, struct glint_error *err
 
 static bool is_outdated(const struct run *run, size_t i) {
     const uint32_t round = run->options->round;
-    return run->images[i]->key != run->keys[i] || (round && run->images[i]->round != round);
+    return !pooled_has(run->images[i], run->keys[i], run->options->quick) || (round && run->images[i]->round != round);
 }
 
 bool run_writes(const struct run *run, size_t i) {

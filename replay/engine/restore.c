@@ -81,7 +81,7 @@ bool run_restore(struct run *run, struct step *step) {
     bool ok = exr != NULL;
     for (size_t i = 0; ok && i < run->graph->image_count; i++) {
         if (run->graph->images[i].source != SOURCE_MADE || run->graph->images[i].maker != place) continue;
-        run->images[i]->key = 0;
+        run->images[i]->key = 0, run->images[i]->quick = false;
         for (uint32_t l = 0; ok && l < run->images[i]->image.desc.levels; l++)
             ok = read_level(run, run->images[i], l, exr, &ignored);
     }

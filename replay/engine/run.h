@@ -49,6 +49,7 @@ struct step {
     char cache_key[CACHE_KEY_SIZE]; /* key of its file in the cache folder; "": none */
     bool execute;
     bool quick;        /* a dispatch has a generic program */
+    bool from_quick;   /* it executed, and its images come from such programs, its own or those of passes before it */
     uint32_t stamp;    /* query of the timestamp at its end; 0: it is not in the current command buffer */
     uint64_t round_ns; /* time in the current round */
     uint64_t *ns;      /* time of each timed round */

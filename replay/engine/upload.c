@@ -76,6 +76,7 @@ static bool upload_part(struct run *run, const struct glint_part_info *part, con
                                   .to = (char *)pool->staging.map + offset,
                                   .row = image->row};
         pack_place(&packing, channels, image->row);
+        run->images[i]->quick = false;
         run->images[i]->key = 0; /* until it is complete */
         pack_texels(&packing, width, rows);
         struct bad_values *bad = &run->images[i]->levels[0].bad;
@@ -108,7 +109,7 @@ static bool upload_values(struct run *run, size_t i, const void *values, struct 
     struct pool *pool = run->pool;
     struct pooled *image = run->images[i];
     const struct image_desc *desc = &image->image.desc;
-    image->key = 0;
+    image->key = 0, image->quick = false;
     bool ok = true;
     const uint32_t *from = values;
     for (uint32_t l = 0; ok && l < desc->levels; from += image_values(desc, l++)) {

@@ -187,9 +187,11 @@ static void replace_image(struct pool *pool, const struct frame_plan *plan, stru
 void pool_recall(struct pool *pool, const struct frame_plan *plan, struct pooled **images, const uint64_t *keys) {
     for (size_t i = 0; i < plan->graph.image_count; i++) {
         const struct pooled *own = images[i];
-        if (own->transient || own->key == keys[i]) continue;
+        const bool quick = plan->options->quick;
+        if (own->transient || pooled_has(own, keys[i], quick)) continue;
         struct pooled *found = pool->images;
-        while (found && !(found->key == keys[i] && is_reusable(found, plan, own->image.name, &own->image.desc)))
+        while (found &&
+               !(pooled_has(found, keys[i], quick) && is_reusable(found, plan, own->image.name, &own->image.desc)))
             found = found->next;
         if (!found) continue;
         unlink_image(pool, found);

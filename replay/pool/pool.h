@@ -19,6 +19,7 @@ struct pooled {
     struct image image;
     struct pooled_level levels[LEVELS_MAX];
     uint64_t key;             /* hash of everything that its contents depend on; 0: contents undefined */
+    bool quick;               /* a generic program made it, or what it was made from: see glint_replay_options.quick */
     bool listed;              /* visible to callers */
     struct glint_image alias; /* also visible as the image of a dropped pass, unless `row` is NULL */
     bool used;                /* by the current run */
@@ -44,6 +45,11 @@ struct pool {
 void pool_finish(struct pool *pool);
 /* Makes pool->staging, a mapped buffer for uploads, at least this large. */
 bool pool_stage(struct pool *pool, VkDeviceSize size, struct glint_error *err);
+
+/* Whether the image has the contents that a run needs; `quick`: of a run that also takes those of generic programs. */
+static inline bool pooled_has(const struct pooled *pooled, uint64_t key, bool quick) {
+    return pooled->key == key && (quick || !pooled->quick);
+}
 
 /* keep.c: the i-th image that callers see of a pooled one, which are its MIP levels and its alias; NULL past the last. */
 const struct glint_image *pooled_shown(const struct pooled *pooled, uint32_t i);

@@ -15,6 +15,14 @@ void results_forget(struct glint_replay *replay) {
     for (struct pooled *image = replay->pool.images; image; image = image->next) pooled_hide(image);
 }
 
+/* Whether images of the pass that were up to date come from generic programs. */
+static bool makes_quick(const struct run *run, size_t p) {
+    for (size_t i = 0; i < run->graph->image_count; i++)
+        if (run->graph->images[i].source == SOURCE_MADE && run->graph->images[i].maker == p && run->images[i]->quick)
+            return true;
+    return false;
+}
+
 static void store_pass(const struct run *run, size_t p, struct results *results) {
     const struct graph_pass *pass = &run->graph->passes[p];
     const struct step *step = &run->steps[p];
@@ -34,6 +42,7 @@ static void store_pass(const struct run *run, size_t p, struct results *results)
     }
     result->cached = !step->execute;
     result->quick = step->quick;
+    result->from_quick = step->execute ? step->from_quick : makes_quick(run, p);
     result->key = step->key;
     if (!run->options->outputs) /* only a file with all images of the pass is cached */
         memcpy(results->cache_keys[p], step->cache_key, CACHE_KEY_SIZE);

@@ -106,6 +106,14 @@ static bool find_compiled(struct spirv *spirv, struct shaders *shaders, const ch
     return true;
 }
 
+/* Where the pass's own module is kept; NULL if memory is short. */
+static struct spirv *find_built_in(struct shaders *shaders, const struct glint_pass *pass) {
+    size_t count;
+    const struct glint_pass *all = glint_passes(&count);
+    if (!shaders->built_in) shaders->built_in = calloc(count, sizeof *shaders->built_in);
+    return shaders->built_in && pass >= all && pass < all + count ? &shaders->built_in[pass - all] : NULL;
+}
+
 bool spirv_find(struct spirv *spirv, struct shaders *shaders, const struct pipeline_pass *entry,
                 struct glint_error *err) {
     const struct glint_pass *pass = entry->pass;
@@ -128,8 +136,14 @@ bool spirv_find(struct spirv *spirv, struct shaders *shaders, const struct pipel
     if (!spirv->words)
         return glint_fail(err, GLINT_ERROR_UNSUPPORTED, "%s/%s: this build has no shader for it", pass->slot,
                           pass->variant);
+    struct spirv *known = spirv->from ? NULL : find_built_in(shaders, pass);
+    if (known && known->words) {
+        *spirv = *known;
+        return true;
+    }
     spirv->hash = XXH3_64bits(spirv->words, spirv->bytes);
     spirv_find_uses(spirv);
+    if (known) *known = *spirv;
     return true;
 }
 
@@ -146,6 +160,7 @@ void shaders_finish(struct shaders *shaders) {
         free(one->words);
         free(one);
     }
+    free(shaders->built_in);
     free(shaders->folder);
     pthread_mutex_lock(&one_at_a_time);
     if (shaders->compiler) glslang_finalize_process();

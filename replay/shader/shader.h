@@ -9,10 +9,13 @@
 
 enum { FRAME_WORDS = sizeof(struct frame_block) / sizeof(uint32_t) };
 
+struct spirv;
 /* Compiled shaders, each source text once, and the folder whose files replace the built-in ones of passes/. */
 struct shaders {
     char *folder; /* or NULL */
     struct compiled *first;
+    struct spirv *
+        built_in; /* what is known of the modules of passes, in the order of glint_passes(); without words: nothing yet */
     bool compiler; /* glslang is initialised */
 };
 bool shaders_init(struct shaders *shaders, const char *folder, struct glint_error *err);

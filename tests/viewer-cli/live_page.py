@@ -321,6 +321,20 @@ class Tests(live_tab.Tests):
         assert self.ask("results").pop()["draft"] is False and self.ask("asked.filter(d => d).length") >= 3, (self.ask("asked"), self.ask("results"))
         tab.quiet()
 
+    def test_where_replays_are_fast_nothing_is_compiled_first(self):
+        tab, number = self.reset(), self.integer()
+        self.ask(f"{STORE}.registry.device.cpu = false; window.quick = []; {STORE}.on('result', s => quick.push([s.result.quick, s.result.run])); 1")
+        try:
+            tab.write(row(number["name"]) + ".querySelector('.exact')", str(int(number["lowest"]) + 3))
+            self.until("quick.length > 1")
+            self.idle()
+            first, second = self.ask("quick")
+            assert first[0] and not second[0] and first[1] != second[1], (first, second)
+            assert tab.state()["set"] == {number["name"]: number["lowest"] + 3}
+            tab.quiet()
+        finally:
+            self.ask(f"{STORE}.registry.device.cpu = true")
+
     def test_a_bad_value_is_refused_with_the_range(self):
         tab, number = self.reset(), self.integer()
         field, before = row(number["name"]) + ".querySelector('.exact')", tab.state()

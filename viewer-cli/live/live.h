@@ -47,7 +47,7 @@ struct held {
 struct run_entry {
     char id[RUN_ID];
     json_t *state; /* NULL: its images are answers */
-    bool draft;
+    bool draft, quick;
     uint64_t used_at;
 };
 struct runs {
@@ -187,8 +187,8 @@ bool live_draft(struct live *live, size_t frame, char *path, size_t size, struct
 
 /* ---- Runs and their images (runs.c) ---- */
 
-/* Notes a run of the state; its id follows from what it depends on. */
-void runs_note(struct live *live, const struct state *state, bool draft, char id[RUN_ID]);
+/* Notes a run of the state; its id follows from what it depends on. `quick`: some of its images come from generic programs. */
+void runs_note(struct live *live, const struct state *state, bool draft, bool quick, char id[RUN_ID]);
 /* Keeps the images of the last replay that pages look at. On the worker thread. */
 bool runs_keep_watched(struct live *live, const struct state *state, const char *id, struct glint_error *err);
 /* The image of a run, replayed again if it is not in memory. Release it with runs_release. NULL on failure. */

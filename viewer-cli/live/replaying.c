@@ -103,5 +103,8 @@ bool live_load(struct live *live, const struct state *state, bool draft, struct 
 }
 
 bool live_replay(struct live *live, const struct state *state, bool draft, bool quick, struct glint_error *err) {
-    return live_load(live, state, draft, err) && run_loaded(live, state, quick, err);
+    if (!live_load(live, state, draft, err) || !run_loaded(live, state, quick, err)) return false;
+    /* The history of the next frame is that of a plain run. */
+    if (quick) live->ran = 0;
+    return true;
 }

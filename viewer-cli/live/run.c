@@ -114,6 +114,15 @@ static const char *picture_of(const struct live *live) {
     return count ? glint_replay_image(live->replay, 0)->name : NULL;
 }
 
+/* Whether last bits of some image can differ from those of a run without `quick`. */
+static bool is_quick(const struct live *live) {
+    size_t count;
+    const struct glint_pass_result *results = glint_replay_results(live->replay, &count);
+    for (size_t i = 0; i < count; i++)
+        if (results[i].from_quick) return true;
+    return false;
+}
+
 struct running {
     struct state state;
     bool draft, quick;
@@ -128,14 +137,14 @@ static bool work_run(struct live *live, void *user, struct glint_error *err) {
     if (!live_replay(live, state, running->draft, running->quick, err)) return false;
     const double seconds = glint_now_seconds() - start;
     json_int_t frame_ns = 0;
-    runs_note(live, state, running->draft, id);
+    runs_note(live, state, running->draft, is_quick(live), id);
     if (!runs_keep_watched(live, state, id, err)) return false;
     const struct glint_part_info *gbuffer = glint_capture_find(live->capture, "gbuffer");
     json_t *passes = passes_json(live, &frame_ns), *result = describe(live, state, err);
-    json_t *more = json_pack("{s:s, s:b, s:[II], s:f, s:o, s:I, s:o, s:s?, s:o}", "run", id, "draft", running->draft,
-                             "size", (json_int_t)gbuffer->width, (json_int_t)gbuffer->height, "seconds", seconds,
-                             "passes", passes, "frame_ns", frame_ns, "images", images_json(live), "picture",
-                             picture_of(live), "warnings", warnings_json(live));
+    json_t *more = json_pack("{s:s, s:b, s:b, s:[II], s:f, s:o, s:I, s:o, s:s?, s:o}", "run", id, "draft",
+                             running->draft, "quick", is_quick(live), "size", (json_int_t)gbuffer->width,
+                             (json_int_t)gbuffer->height, "seconds", seconds, "passes", passes, "frame_ns", frame_ns,
+                             "images", images_json(live), "picture", picture_of(live), "warnings", warnings_json(live));
     const bool ok = result && more && json_object_update(result, more) == 0;
     json_decref(more);
     if (ok) running->result = result;

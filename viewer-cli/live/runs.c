@@ -25,23 +25,24 @@ static struct run_entry *find_entry(struct runs *runs, const char *id) {
     return oldest;
 }
 
-static void note_locked(struct live *live, const char *id, json_t *state, bool draft) {
+static void note_locked(struct live *live, const char *id, json_t *state, bool draft, bool quick) {
     struct run_entry *entry = find_entry(&live->runs, id);
     json_t *copy = state ? json_deep_copy(state) : NULL;
     json_decref(entry->state);
-    *entry = (struct run_entry){.state = copy, .draft = draft, .used_at = ++live->runs.clock};
+    *entry = (struct run_entry){.state = copy, .draft = draft, .quick = quick, .used_at = ++live->runs.clock};
     memcpy(entry->id, id, strlen(id) + 1);
 }
 
-static void make_id(const struct state *state, bool draft, char id[RUN_ID]) {
-    const uint64_t key = (state->key ^ (state->capture + 1) * 0x9e3779b97f4a7c15u) ^ (draft ? 0xd6e8feb86659fd93u : 0);
+static void make_id(const struct state *state, bool draft, bool quick, char id[RUN_ID]) {
+    const uint64_t key = (state->key ^ (state->capture + 1) * 0x9e3779b97f4a7c15u) ^ (draft ? 0xd6e8feb86659fd93u : 0) ^
+                         (quick ? 0xa0761d6478bd642fu : 0);
     snprintf(id, RUN_ID, "%016llx", (unsigned long long)key);
 }
 
-void runs_note(struct live *live, const struct state *state, bool draft, char id[RUN_ID]) {
-    make_id(state, draft, id);
+void runs_note(struct live *live, const struct state *state, bool draft, bool quick, char id[RUN_ID]) {
+    make_id(state, draft, quick, id);
     pthread_mutex_lock(&live->lock);
-    note_locked(live, id, state->json, draft);
+    note_locked(live, id, state->json, draft, quick);
     pthread_mutex_unlock(&live->lock);
 }
 
@@ -253,19 +254,19 @@ static bool work_read(struct live *live, void *user, struct glint_error *err) {
     pthread_mutex_lock(&live->lock);
     struct run_entry *entry = find_entry(&live->runs, reading->id);
     const bool known = !strcmp(entry->id, reading->id);
-    const bool draft = entry->draft;
+    const bool draft = entry->draft, quick = entry->quick;
     json_t *json = known && entry->state ? json_deep_copy(entry->state) : NULL;
     if (known) entry->used_at = ++live->runs.clock;
     pthread_mutex_unlock(&live->lock);
     bool ok = json || glint_fail(err, GLINT_ERROR_USAGE, "there is no run %.20s, or it has no image %.100s",
                                  reading->id, reading->image);
     ok = ok && state_read(&state, live, json, err);
-    if (ok) make_id(&state, draft, now);
+    if (ok) make_id(&state, draft, quick, now);
     if (ok && strcmp(now, reading->id) != 0)
         ok = glint_fail(err, GLINT_ERROR_USAGE,
                         "run %s: the files of its shaders or preset have changed, so that it cannot be replayed again",
                         reading->id);
-    ok = ok && live_replay(live, &state, draft, false, err) &&
+    ok = ok && live_replay(live, &state, draft, quick, err) &&
          read_image(live, &state, reading->id, reading->image, &reading->held, err);
     state_finish(&state);
     json_decref(json);
@@ -287,7 +288,7 @@ struct held *runs_take(struct live *live, const char *id, const char *image, str
 void runs_keep_answer(struct live *live, struct source *source, char id[RUN_ID]) {
     pthread_mutex_lock(&live->lock);
     snprintf(id, RUN_ID, "a%015llx", (unsigned long long)++live->runs.clock);
-    note_locked(live, id, NULL, false);
+    note_locked(live, id, NULL, false, false);
     pthread_mutex_unlock(&live->lock);
     char title[300];
     snprintf(title, sizeof title, "%s", source->title);

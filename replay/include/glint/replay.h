@@ -218,7 +218,8 @@ struct glint_replay_options {
     uint32_t warmup; /* rounds before the timed ones; 0: one */
     bool no_cache;   /* executes every pass, also those whose images are up to date */
     /* Passes run from programs that read parameters from memory where there is no program specialized for the values yet, so that a new value
-       compiles nothing. Images have the same bits; such passes are slower. */
+       compiles nothing. Such passes are slower, and last bits of their images can differ where a device's compiler computes with values that it
+       knows otherwise than the device with others. A later run without `quick` takes none of these images. */
     bool quick;
     /* If not 0, a pass whose images are up to date executes all the same, unless it already executed in a run of this round. So
        pipelines that are measured in turns share work within a round, and each round measures that work again. */
@@ -250,6 +251,7 @@ struct glint_pass_result {
     bool cached_work; /* it depends on cube maps alone: its cost arises when a cube map changes, not every frame */
     char reason[400];
     bool quick;             /* its time is that of a program that reads parameters from memory */
+    bool from_quick;        /* its images come from such programs, its own or those of passes before it */
     struct glint_time time; /* n = 0 when not timed */
     uint64_t texels;        /* as in struct glint_plan_entry */
     uint64_t

@@ -4,6 +4,7 @@ glintLive.runs = (function () {
     'use strict';
     const {api, store: {keyOf, copy}} = glintLive;
     const SLOW_S = 0.3; /* from which on a draft is shown first */
+    const REFINE_MS = 400; /* after the last change */
 
     /* Names of what differs between two states, as in "set": these controls are to blame for a refusal. */
     function differing(a, b) {
@@ -60,28 +61,32 @@ glintLive.runs = (function () {
 
         const wantsDraft = state => !!registry.captures[state.capture]?.draft && lastWhole > SLOW_S;
 
+        /* A draft where replays are slow, and where they are fast a run that compiles nothing; then the whole frame from its own programs. */
         async function replay(state) {
-            if (wantsDraft(state)) {
-                setRunning('draft');
-                take(await run(state, true, true));
-                if (!newest()) return;
+            const draft = wantsDraft(state), quick = draft || !registry.device.cpu;
+            setRunning(draft ? 'draft' : 'whole');
+            const first = await run({state, draft, quick, urgent: true});
+            take(first);
+            if (newest() && (first.draft || first.quick)) await refine(state, first.draft ? 0 : REFINE_MS);
+        }
+
+        /* What this compiles cannot be given up, so that a drag has to have ended before. */
+        async function refine(state, pause) {
+            refining = new AbortController();
+            const {signal} = refining;
+            try {
+                await new Promise(done => { setTimeout(done, pause); signal.addEventListener('abort', done); });
+                if (signal.aborted) return;
                 setRunning('whole');
-                refining = new AbortController();
-                try {
-                    take(await run(state, false, false, refining.signal));
-                } finally {
-                    refining = null;
-                }
-                return;
+                take(await run({state, draft: false, quick: false, urgent: false}, signal));
+            } finally {
+                refining = null;
             }
-            setRunning('whole');
-            take(await run(state, false, true));
         }
 
         /* What another client's run gave up is asked again, and then waits its turn. */
-        async function run(state, draft, urgent, signal) {
-            /* Where passes are fast, the compiling of programs for a new value is what takes long. */
-            const body = {state, draft, urgent, quick: draft || !registry.device.cpu, client: api.client};
+        async function run(what, signal) {
+            const body = {...what, client: api.client};
             try {
                 return await api.post('/api/v1/run', body, signal);
             } catch (error) {
