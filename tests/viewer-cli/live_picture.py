@@ -274,6 +274,7 @@ class Tests:
         assert self.ask("posted.filter(p => p.path.endsWith('/probe')).map(p => p.body.reference)") == [False, True]
         cells = self.ask("all('.live-pixel .outcome tbody tr').map(r => [...r.cells].map(c => c.textContent))")
         assert len(cells) > 3 and all(" ".join(row[1:]) in " ".join(expected.split("\n\n")[-1].split()) for row in cells), cells
+        assert self.ask("$('.live-pixel .explain').textContent") == "glint explain run 20,25"
         # the drawing as large as the window
         self.ask("all('.live-pixel button').find(b => b.textContent === 'Enlarge').click()")
         self.until("$('dialog.drawing').open && $('dialog.drawing img').naturalWidth > 100")

@@ -145,7 +145,8 @@ glintLive.pipeline = (function () {
             head.force.hidden = !forced && (!pass || pass.ran || pass.cached || !head.on.checked);
             head.force.setAttribute('aria-pressed', String(forced));
             if (Number.isFinite(pass?.ns) && !result.draft) times.set(variant, pass.ns);
-            const ns = pass?.ns ?? (pass?.cached ? times.get(variant) : undefined), known = Number.isFinite(counted);
+            /* those of a draft are times of a quarter of the frame */
+            const ns = result?.draft ? times.get(variant) : pass?.ns ?? (pass?.cached ? times.get(variant) : undefined), known = Number.isFinite(counted);
             bar(head.time, Number.isFinite(ns) ? `${pass.quick ? '\u2264 ' : ''}${milliseconds(ns)}` : '', Number.isFinite(ns) ? ns / scale.ns : 0,
                 (pass?.cached_work ? 'runs when a cube map changes only, not in every frame' : 'time on the device when it last ran') +
                 (pass?.quick ? '; from a program that reads parameters from memory, which is slower than the pass\u2019s own: Measure times that' : ''));
@@ -229,7 +230,7 @@ glintLive.pipeline = (function () {
         const general = list(store.registry.pipeline).map(p => parameterControl(store, p));
         const add = missing(store), bars = tools(store, () => filter()), none = element('p', {class: 'faint', hidden: ''}, 'Nothing fits.');
         const help = element('div', {class: 'strip', 'aria-hidden': 'true'});
-        let order = [];
+        let order = [], last = null; /* the last result that is no draft */
         whole.append(...general.map(c => c.row));
 
         function filter() {
@@ -248,7 +249,8 @@ glintLive.pipeline = (function () {
             for (const slot of order) if (!rows.has(slot)) rows.set(slot, slotRow(store, slot));
             const wanted = order.map(s => rows.get(s).row);
             if (wanted.length !== slots.children.length || wanted.some((r, i) => slots.children[i] !== r)) slots.replaceChildren(...wanted);
-            const numbers = key => order.map(key).filter(Number.isFinite), passes = list(store.result?.passes);
+            if (store.result && !store.result.draft) last = store.result;
+            const numbers = key => order.map(key).filter(Number.isFinite), passes = list(last?.passes);
             const scale = {ns: Math.max(1, ...numbers(s => passes.find(p => p.slot === s)?.ns)), fetches: Math.max(1, ...numbers(s => store.fetchesOf?.(s)))};
             for (const slot of order) rows.get(slot).update(store.slots.find(s => s.slot === slot), scale);
             for (const c of general) c.update(null);

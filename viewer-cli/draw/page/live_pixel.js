@@ -17,6 +17,8 @@ glintLive.pixel = (function () {
         self.image = element('img', {alt: '', title: 'a click enlarges the drawing', click: enlarge});
         self.wait = element('p', {class: 'faint', role: 'status'});
         self.outcome = element('div', {class: 'scroll'});
+        self.explain = element('pre', {class: 'explain', tabindex: 0, 'aria-label': 'command line that explains the pixel'});
+        self.sentences = element('div', null, element('p', {class: 'faint'}, 'Why, in sentences, and which change would help, once the run is written by the command line of the state:'), self.explain);
         self.why = element('p', {class: 'faint'});
         self.failure = element('p', {class: 'note', role: 'alert', hidden: ''});
         self.text = element('pre', {tabindex: 0, 'aria-label': 'what glint probe says'});
@@ -24,7 +26,7 @@ glintLive.pixel = (function () {
         self.drawing = element('figure', {tabindex: 0, role: 'group', 'aria-label': 'rays of the pixel: arrow keys go to the next pixel, Shift by ten, Escape closes',
             keydown: event => { if (key(store, event)) event.preventDefault(); }}, self.image, self.why);
         self.inner = element('div', null, element('div', {class: 'bar'}, self.title, element('span', {class: 'together'}, self.enlarge, self.close)), self.wait, self.failure, self.outcome,
-            self.drawing, self.steps, self.dialog);
+            self.drawing, self.steps, self.sentences, self.dialog);
         self.e = element('section', {class: 'live-pixel', 'aria-labelledby': 'pixel-title'}, self.hint, self.inner);
         self.image.addEventListener('load', () => { if (self.old) URL.revokeObjectURL(self.old); self.old = null; });
         for (const e of [self.drawing, self.steps]) e.hidden = true;
@@ -57,6 +59,7 @@ glintLive.pixel = (function () {
             return;
         }
         self.title.textContent = `Pixel ${at[0]},${at[1]}`;
+        self.explain.textContent = `glint explain run ${at[0]},${at[1]}`;
         if (!result) return;
         const wanted = JSON.stringify([at, result.draft ? self.run : result.run]);
         if (!result.draft) { self.run = result.run; self.state = result.state; }
