@@ -11,9 +11,13 @@ static bool make_draft(const struct live_frame *frame, const char *path, struct 
     return ok;
 }
 
+bool draft_path(const struct live *live, size_t number, char *path, size_t size) {
+    return snprintf(path, size, "%s/draft-%zu.exr", live->folder, number) < (int)size;
+}
+
 bool live_draft(struct live *live, size_t number, char *path, size_t size, struct glint_error *err) {
     struct live_frame *frame = &live->frames[number];
-    if (snprintf(path, size, "%s/draft-%zu.exr", live->folder, number) >= (int)size)
+    if (!draft_path(live, number, path, size))
         return glint_fail(err, GLINT_ERROR_IO, "%s: path too long", live->folder);
     if (frame->has_draft) return true;
     if (!live_progress(live, "draft capture", 0)) return glint_fail(err, GLINT_ERROR_INTERRUPTED, "interrupted");

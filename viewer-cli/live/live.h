@@ -184,6 +184,7 @@ bool live_load(struct live *live, const struct state *state, bool draft, struct 
 bool live_ran(struct live *live, const struct state *state, bool ok, struct glint_error *err);
 /* The path of a frame's capture at half the width and height, which is made when it is first asked for (draft.c). */
 bool live_draft(struct live *live, size_t frame, char *path, size_t size, struct glint_error *err);
+bool draft_path(const struct live *live, size_t frame, char *path, size_t size); /* false if there is no room for it */
 
 /* ---- Runs and their images (runs.c) ---- */
 

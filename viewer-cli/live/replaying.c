@@ -102,8 +102,20 @@ bool live_load(struct live *live, const struct state *state, bool draft, struct 
     return true;
 }
 
+/* An error in a draft's file is one of the capture that it was made of. */
+static bool name_capture(const struct live *live, size_t frame, struct glint_error *err) {
+    char path[512], message[sizeof err->message];
+    draft_path(live, frame, path, sizeof path);
+    const size_t length = strlen(path);
+    if (strncmp(err->message, path, length) != 0) return false;
+    snprintf(message, sizeof message, "%.400s, draft%.600s", live->frames[frame].path, err->message + length);
+    memcpy(err->message, message, sizeof message);
+    return false;
+}
+
 bool live_replay(struct live *live, const struct state *state, bool draft, bool quick, struct glint_error *err) {
-    if (!live_load(live, state, draft, err) || !run_loaded(live, state, quick, err)) return false;
+    if (!live_load(live, state, draft, err) || !run_loaded(live, state, quick, err))
+        return draft && name_capture(live, state->capture, err);
     /* The history of the next frame is that of a plain run. */
     if (quick) live->ran = 0;
     return true;
