@@ -92,7 +92,7 @@ static void check_module(void **state, const struct glint_pass *pass, const uint
     const uint64_t had = constants_in(&before, &places), has = constants_in(&after, &places);
     assert_true((turned & ~places.parameters) == 0 && (had & ~turned) == has && (had | turned) == had);
     for (uint32_t place = FIRST_PLACE; place < SPIRV_PLACES; place++) {
-        if (has >> place & 1) print_message("%s/%s: %s stays\n", pass->slot, pass->variant, places.names[place]);
+        if (has >> place & 1) print_message("# %s/%s: %s stays\n", pass->slot, pass->variant, places.names[place]);
         *turned_all += turned >> place & 1, *kept_all += has >> place & 1;
     }
     for (size_t i = 0; i < sizeof same / sizeof *same; i++)
@@ -114,7 +114,7 @@ static void the_module_of_every_pass_is_valid(void **state) {
         if (pass->unprobed != pass->spirv)
             check_module(state, pass, pass->unprobed, pass->unprobed_bytes, &turned, &kept);
     }
-    print_message("%zu constants are read from memory, %zu stay\n", turned, kept);
+    print_message("# %zu constants are read from memory, %zu stay\n", turned, kept);
     assert_true(turned > 300 / every);
 }
 
