@@ -1,5 +1,5 @@
 """The interface of glint live: each request of docs/live.md with each of its members, bad input, and answers against the commands whose work they
-do: live_api.py GLINT. Speaks TAP."""
+do: live_api.py GLINT FOLDER, that of the manifest of the layer whose calls fail. Speaks TAP."""
 import filecmp
 import http.client
 import json
@@ -20,8 +20,9 @@ from live import Live, Refused
 from pictures import read_png
 from tap import glint, programs
 
-GLINT = sys.argv[1]
-TUNE = pathlib.Path(__file__).resolve().parents[2] / "tools/python/tune_live.py"
+GLINT, LAYER = sys.argv[1:]
+SOURCES = pathlib.Path(__file__).resolve().parents[2]
+TUNE = SOURCES / "tools/python/tune_live.py"
 SIZE = (64, 36)
 OTHER = {"set": {"cubemap_trace.steps_hq": 4}}
 LONG = {"set": {"pipeline.rays": 1024}}
@@ -428,6 +429,31 @@ class Tests:
             status = server.end()
             if busy:
                 asking.join()
+    # ---- What goes wrong ----
+
+    def test_a_lost_device_is_opened_again(self):
+        """Whichever job finds it lost: the next one has another. Here a job finds it when it reads images back, as nothing has to run."""
+        file = self.folder / "lost"
+        fault = {"VK_LAYER_PATH": LAYER, "VK_INSTANCE_LAYERS": "VK_LAYER_GLINT_fault", "GLINT_FAULT_STAY": "libvulkan_lvp.so", "GLINT_FAULT_FILE": str(file)}
+        with Live(GLINT, self.capture, "-o", self.folder / "again", env={**os.environ, **fault}) as other:
+            run = other.post("run", state={})
+            for ask in (lambda: other.get(f"picture?run={run['run']}&image={run['picture']}"), lambda: other.post("write", state={}, name="run"),
+                        lambda: other.post("report", a={}, b={})):
+                other.post("run", state={})
+                file.touch()
+                refused(500, "device", "lost", ask)
+                file.unlink()
+                assert ask()
+
+    def test_a_draft_that_was_removed_is_made_again(self):
+        folders = Folders(self.folder)
+        with Live(GLINT, self.capture, env=folders.environment()) as other:
+            first = other.post("run", state={}, draft=True)
+            for file in folders.path.glob("*/draft*"):
+                file.unlink()
+            other.post("run", state={})
+            assert other.post("run", state={}, draft=True)["run"] == first["run"]
+
                 assert isinstance(said[0], (Refused, OSError, http.client.HTTPException)), said
             assert status == 0 and not folders.left() and time.monotonic() - start < 20, (number, status, folders.left())
 

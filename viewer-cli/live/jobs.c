@@ -144,6 +144,7 @@ static void run_job(struct live *live, struct job *job) {
     job->err = err;
     if (!ok && err.code == GLINT_ERROR_INTERRUPTED)
         glint_fail(&job->err, GLINT_ERROR_INTERRUPTED, "a later request gave this one up");
+    if (live->device && glint_device_lost(live->device)) live_close(live); /* wherever the job found that */
     job->done = true;
     pthread_cond_broadcast(&live->changed);
 }
