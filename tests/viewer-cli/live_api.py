@@ -7,6 +7,7 @@ import math
 import os
 import pathlib
 import re
+import shlex
 import signal
 import subprocess
 import sys
@@ -316,6 +317,26 @@ class Tests:
     def test_a_preset_replays_to_the_state(self):
         state = {"preset": "mafia3", "set": {"compose.intensity": 0.123456789}, "use": {"blur": "none", "upscale": "bilinear"}}
         answer = self.post("preset", state=state, name="mine")
+    def test_the_command_line_says_what_the_state_says(self):
+        shader = str(SOURCES / "passes/reflection/blur/plus.comp")
+        for number in (3, 3.0, "3", "3.0"):
+            answer = self.post("pipeline", state={"set": {"pipeline.first_ray": number}})
+            assert answer["state"]["set"] == {"pipeline.first_ray": 3} and answer["command"].endswith("--set pipeline.first_ray=3"), answer
+        dash = self.folder / "-dash.exr"
+        dash.symlink_to(self.capture)
+        with Live(GLINT, "--set", "pipeline.first_ray=3", "--shader", f"blur={shader}", "--", "-dash.exr", cwd=self.folder) as other:
+            start = other.get("registry")["start"]
+            assert start["set"] == {"pipeline.first_ray": 3}, start
+            for use, shown in (({}, True), ({"blur": "none"}, False)):
+                command = other.post("pipeline", state={**start, "use": use})["command"]
+                assert (f"--shader blur={shader}" in command) == shown, command
+                words = shlex.split(command.replace(" -o run ", f" -o dash-{shown} "))[1:]
+                subprocess.run([GLINT, *words], check=True, cwd=self.folder, capture_output=True)
+        for words, said in ((["--set", "blur.depth_part=nan"], "depth_part: expected"), (["--set", "blur.depth_part=1e999"], "depth_part: expected"),
+                            (["--shader", f"blurr={shader}"], "did you mean blur"), (["-o", b"\xe9"], "UTF-8"), (["--use", "blur"], "'blur'")):
+            done = subprocess.run([GLINT, "live", self.capture, *words], capture_output=True, timeout=60)
+            assert done.returncode == 2 and said.encode() in b" ".join(done.stderr.split()) and not done.stdout, (words, done)
+
         # what is the preset's own is left out of a canonical state
         own = {**state, "set": {**state["set"], "cubemap_trace.skip_volume": False}, "use": {**state["use"], "resolve": "hit"}}
         assert self.post("pipeline", state=own)["state"] == {"capture": 0, **state, "skip": [], "force": []}
