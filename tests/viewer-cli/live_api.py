@@ -205,6 +205,11 @@ class Tests:
         answers = self.post("values", **PIXEL, size=SIZE, of=[{}, 3, {"run": "0" * 16, "image": "composed"}, {"run": self.a["run"]}, of[0]])["values"]
         assert ["error" in a for a in answers] == [True, True, True, True, False], answers
 
+    def test_a_value_without_a_texel_keeps_its_place(self):
+        # a message that is cut within a letter is no UTF-8
+        answers = self.post("values", **PIXEL, size=SIZE, of=[{"run": "0" * 16, "image": "a" + 60 * "é"}, {"run": self.a["run"], "image": "composed"}])["values"]
+        assert ["error" in a for a in answers] == [True, False] and "no run" in answers[0]["error"], answers
+
     def test_pictures_of_nothing_are_refused(self):
         run = self.a["run"]
         for query in ("", f"run={run}", "image=composed", "run=&image=composed", "run=0123456789abcdef&image=composed", f"run={run}&image=nothing", f"run={'x' * 8000}&image=composed",
