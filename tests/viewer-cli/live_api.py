@@ -317,11 +317,6 @@ class Tests:
         assert all(math.isclose(v, e, rel_tol=1e-5) for v, e in zip(found, rows[PIXEL["y"]][PIXEL["x"]])), (found, rows[PIXEL["y"]][PIXEL["x"]])
         assert "fog" in answer["note"] and "reflection" in answer["compares"]
 
-    # ---- What leaves the server ----
-
-    def test_a_preset_replays_to_the_state(self):
-        state = {"preset": "mafia3", "set": {"compose.intensity": 0.123456789}, "use": {"blur": "none", "upscale": "bilinear"}}
-        answer = self.post("preset", state=state, name="mine")
     def test_the_command_line_says_what_the_state_says(self):
         shader = str(SOURCES / "passes/reflection/blur/plus.comp")
         for number in (3, 3.0, "3", "3.0"):
@@ -342,6 +337,11 @@ class Tests:
             done = subprocess.run([GLINT, "live", self.capture, *words], capture_output=True, timeout=60)
             assert done.returncode == 2 and said.encode() in b" ".join(done.stderr.split()) and not done.stdout, (words, done)
 
+    # ---- What leaves the server ----
+
+    def test_a_preset_replays_to_the_state(self):
+        state = {"preset": "mafia3", "set": {"compose.intensity": 0.123456789}, "use": {"blur": "none", "upscale": "bilinear"}}
+        answer = self.post("preset", state=state, name="mine")
         # what is the preset's own is left out of a canonical state
         own = {**state, "set": {**state["set"], "cubemap_trace.skip_volume": False}, "use": {**state["use"], "resolve": "hit"}}
         assert self.post("pipeline", state=own)["state"] == {"capture": 0, **state, "skip": [], "force": []}
@@ -429,6 +429,31 @@ class Tests:
         assert said.returncode == 0 and len(errors) == 6 and enough and int(enough[1]) in errors, said
         assert errors[int(enough[1])] <= 1.0101 * min(errors.values()) + 1e-4, said.stdout
 
+    # ---- What goes wrong ----
+
+    def test_a_lost_device_is_opened_again(self):
+        """Whichever job finds it lost: the next one has another. Here a job finds it when it reads images back, as nothing has to run."""
+        file = self.folder / "lost"
+        fault = {"VK_LAYER_PATH": LAYER, "VK_INSTANCE_LAYERS": "VK_LAYER_GLINT_fault", "GLINT_FAULT_STAY": "libvulkan_lvp.so", "GLINT_FAULT_FILE": str(file)}
+        with Live(GLINT, self.capture, "-o", self.folder / "again", env={**os.environ, **fault}) as other:
+            run = other.post("run", state={})
+            for ask in (lambda: other.get(f"picture?run={run['run']}&image={run['picture']}"), lambda: other.post("write", state={}, name="run"),
+                        lambda: other.post("report", a={}, b={})):
+                other.post("run", state={})
+                file.touch()
+                refused(500, "device", "lost", ask)
+                file.unlink()
+                assert ask()
+
+    def test_a_draft_that_was_removed_is_made_again(self):
+        folders = Folders(self.folder)
+        with Live(GLINT, self.capture, env=folders.environment()) as other:
+            first = other.post("run", state={}, draft=True)
+            for file in folders.path.glob("*/draft*"):
+                file.unlink()
+            other.post("run", state={})
+            assert other.post("run", state={}, draft=True)["run"] == first["run"]
+
     # ---- Begin and end ----
 
     def test_ending_leaves_no_folder(self):
@@ -455,37 +480,12 @@ class Tests:
             status = server.end()
             if busy:
                 asking.join()
-    # ---- What goes wrong ----
-
-    def test_a_lost_device_is_opened_again(self):
-        """Whichever job finds it lost: the next one has another. Here a job finds it when it reads images back, as nothing has to run."""
-        file = self.folder / "lost"
-        fault = {"VK_LAYER_PATH": LAYER, "VK_INSTANCE_LAYERS": "VK_LAYER_GLINT_fault", "GLINT_FAULT_STAY": "libvulkan_lvp.so", "GLINT_FAULT_FILE": str(file)}
-        with Live(GLINT, self.capture, "-o", self.folder / "again", env={**os.environ, **fault}) as other:
-            run = other.post("run", state={})
-            for ask in (lambda: other.get(f"picture?run={run['run']}&image={run['picture']}"), lambda: other.post("write", state={}, name="run"),
-                        lambda: other.post("report", a={}, b={})):
-                other.post("run", state={})
-                file.touch()
-                refused(500, "device", "lost", ask)
-                file.unlink()
-                assert ask()
-
-    def test_a_draft_that_was_removed_is_made_again(self):
-        folders = Folders(self.folder)
-        with Live(GLINT, self.capture, env=folders.environment()) as other:
-            first = other.post("run", state={}, draft=True)
-            for file in folders.path.glob("*/draft*"):
-                file.unlink()
-            other.post("run", state={})
-            assert other.post("run", state={}, draft=True)["run"] == first["run"]
-
                 assert isinstance(said[0], (Refused, OSError, http.client.HTTPException)), said
             assert status == 0 and not folders.left() and time.monotonic() - start < 20, (number, status, folders.left())
 
     def test_a_token_file(self):
         file, token = self.folder / "token", "a-token-of-my-own"
-        for text, mode, words in ((token, 0o644, "others may read it"), ("short", 0o600, "16 characters"), ("", 0o600, "16 characters"), (None, 0, "No such file")):
+        for text, mode, words in ((token, 0o644, "others may read it"), ("short", 0o600, "16 characters"), ("", 0o600, "16 characters"), (257 * "a", 0o600, "16 to 256 characters"), (None, 0, "No such file")):
             file.unlink(missing_ok=True)
             if text is not None:
                 file.write_text(text + "\n")
