@@ -72,8 +72,11 @@ static error_t cmd_live_parse(int key, char *arg, struct argp_state *state) {
     return 0;
 }
 
+/* More than a token may have, so that a longer one is refused and not cut. */
+enum { TOKEN_BYTES = 512 };
+
 /* Reads the first line of a file that only its owner may read. */
-static bool read_token(const char *path, char token[256], struct glint_error *err) {
+static bool read_token(const char *path, char token[TOKEN_BYTES], struct glint_error *err) {
     struct stat info;
     FILE *file = fopen(path, "r");
     if (!file || fstat(fileno(file), &info) != 0) {
@@ -81,7 +84,7 @@ static bool read_token(const char *path, char token[256], struct glint_error *er
         if (file) fclose(file);
         return false;
     }
-    const bool read = fgets(token, 256, file) != NULL;
+    const bool read = fgets(token, TOKEN_BYTES, file) != NULL;
     fclose(file);
     if (info.st_mode & 077)
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: others may read it; chmod 600 %s", path, path);
@@ -90,7 +93,7 @@ static bool read_token(const char *path, char token[256], struct glint_error *er
            glint_fail(err, GLINT_ERROR_USAGE, "%s: expected a token of 16 characters or more", path);
 }
 
-static bool take_token(const struct arguments *a, char token[256], struct glint_error *err) {
+static bool take_token(const struct arguments *a, char token[TOKEN_BYTES], struct glint_error *err) {
     return a->token_file ? read_token(a->token_file, token, err) : http_new_token(token, err);
 }
 
@@ -106,7 +109,7 @@ static void print_address(const struct arguments *a, const struct http *http, co
 
 /* Serves until a signal asks to stop. */
 static bool serve(const struct arguments *a, struct live *live, const sigset_t *signals, struct glint_error *err) {
-    char token[256], *page = page_live(err);
+    char token[TOKEN_BYTES], *page = page_live(err);
     int number;
     const struct http_options http_options = {.address = a->listen,
                                               .port = (uint16_t)a->port,

@@ -19,7 +19,7 @@ bool glint_pipeline_set_value(struct glint_pipeline *pipeline, const struct glin
     if (!within || (row->type != GLINT_VALUE_FLOAT && value != floor(value)))
         return glint_fail(err, GLINT_ERROR_USAGE, "%s.%s: expected %s%.9g to %.9g (%s), found %.9g", pass->slot,
                           row->name, within ? "a whole number from " : "", row->lowest, row->highest, row->unit, value);
-    entry->values[row - pass->rows] = value;
+    entry->values[row - pass->rows] = value + 0.0; /* which makes 0 of -0: equal values are one value */
     return true;
 }
 

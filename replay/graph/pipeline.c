@@ -75,6 +75,9 @@ bool pipeline_use(struct glint_pipeline *pipeline, const char *slot, const char 
     return true;
 }
 
+uint32_t glint_pipeline_first_ray(const struct glint_pipeline *pipeline) {
+    return pipeline->first_ray;
+}
 uint32_t glint_pipeline_rays(const struct glint_pipeline *pipeline) {
     return pipeline->rays ? pipeline->rays : 1;
 }

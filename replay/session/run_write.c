@@ -202,7 +202,8 @@ static bool write_pass(struct glint_replay *replay, size_t p, const char *folder
 /* Stores the file of a pass in the cache folder, if that can be written. */
 static void cache_pass(const struct glint_replay *replay, size_t p, const char *folder) {
     char path[PATH_SIZE];
-    if (replay->results.passes[p].cached || !replay->results.cache_keys[p][0]) return;
+    const struct glint_pass_result *result = &replay->results.passes[p];
+    if (result->cached || result->from_quick || !replay->results.cache_keys[p][0]) return;
     if (file_of_pass(replay, p, folder, path))
         cache_store(replay->results.cache, replay->results.cache_keys[p], path, CACHE_BYTES_MAX);
 }

@@ -383,6 +383,45 @@ static void a_plain_run_takes_no_image_of_a_quick_one(void **state) {
     check_messages(both);
 }
 
+static size_t count_files(const char *folder) {
+    char command[256];
+    size_t count = 0;
+    snprintf(command, sizeof command, "find '%s' -type f 2>/dev/null | wc -l", folder);
+    FILE *said = popen(command, "r");
+    assert_non_null(said);
+    assert_int_equal(fscanf(said, "%zu", &count), 1);
+    pclose(said);
+    return count;
+}
+
+/* Catches: images of quick runs in the cache folder, where a plain run of another process takes them as its own. */
+static void the_cache_folder_gets_no_image_of_a_quick_run(void **state) {
+    struct both *both = need_device(state);
+    struct glint_error err = {0};
+    struct glint_capture *capture = frame_of(both, "street", 1);
+    char cache[160], folder[160];
+    snprintf(cache, sizeof cache, "%s/cached", both->fixture->folder);
+    snprintf(folder, sizeof folder, "%s/written", both->fixture->folder);
+    use(both, "mafia3");
+    load(both, capture);
+    const struct glint_replay_options options = {.cache = cache, .no_cache = true, .quick = true};
+    check(glint_pipeline_set(both->pipeline, "cubemap_mips.join=farthest", &err), &err);
+    check(glint_replay_run(both->quick, both->pipeline, &options, NULL, NULL, &err) &&
+              glint_replay_write(both->quick, folder, NULL, NULL, &err),
+          &err);
+    size_t count, quick = 0;
+    const struct glint_pass_result *results = glint_replay_results(both->quick, &count);
+    for (size_t i = 0; i < count; i++) quick += results[i].cached_work && results[i].from_quick;
+    assert_true(quick > 0);
+    const size_t before = count_files(cache);
+    run(both, (struct glint_replay_options){.cache = cache, .no_cache = true});
+    check(glint_replay_write(both->plain, folder, NULL, NULL, &err), &err);
+    assert_true(count_files(cache) >= before + quick);
+    load(both, NULL);
+    glint_capture_close(&capture);
+    check_messages(both);
+}
+
 /* A user's shader: the built-in one with the length of an array that is a parameter. */
 static void use_own_shader(struct both *both) {
     static const char start[] = "void main() {";
@@ -433,6 +472,7 @@ int main(int argc, UNUSED char **argv) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_new_value_compiles_nothing),
         cmocka_unit_test(a_plain_run_takes_no_image_of_a_quick_one),
+        cmocka_unit_test(the_cache_folder_gets_no_image_of_a_quick_run),
         cmocka_unit_test(constants_that_stay_have_their_values),
         cmocka_unit_test(images_have_the_same_bits),
     };

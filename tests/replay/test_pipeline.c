@@ -1,4 +1,5 @@
 /* Pipelines are checked against the declarations; errors list known names and ranges. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -49,6 +50,14 @@ static void values_are_set_by_number_by_word_and_by_choice(UNUSED void **state) 
     assert_true(value_of(pipeline, "downsample", "ndf") == 1);
     assert_true(glint_pipeline_set(pipeline, "cubemap_active.force_outdoor=false", &err));
     assert_true(value_of(pipeline, "cubemap_active", "force_outdoor") == 0);
+    glint_pipeline_destroy(&pipeline);
+}
+
+/* Equal values have equal bits, so that they are one value for what is kept by them. */
+static void there_is_no_negative_zero(UNUSED void **state) {
+    struct glint_pipeline *pipeline = preset();
+    assert_true(glint_pipeline_set(pipeline, "downsample.share=-0", NULL));
+    assert_false(signbit(value_of(pipeline, "downsample", "share")));
     glint_pipeline_destroy(&pipeline);
 }
 
@@ -181,6 +190,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_preset_holds_every_slot_with_its_defaults),
         cmocka_unit_test(values_are_set_by_number_by_word_and_by_choice),
+        cmocka_unit_test(there_is_no_negative_zero),
         cmocka_unit_test(what_is_wrong_with_an_assignment_is_said),
         cmocka_unit_test(a_switch_is_set_in_every_pass_that_has_it),
         cmocka_unit_test(slots_can_be_left_out_and_variants_are_checked),

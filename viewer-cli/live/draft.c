@@ -1,5 +1,6 @@
 /* Drafts: captures at half the width and height, for a first look while the whole frame is replayed. */
 #include <stdio.h>
+#include <unistd.h>
 
 #include "glint/edit.h"
 #include "live/live.h"
@@ -19,7 +20,7 @@ bool live_draft(struct live *live, size_t number, char *path, size_t size, struc
     struct live_frame *frame = &live->frames[number];
     if (!draft_path(live, number, path, size))
         return glint_fail(err, GLINT_ERROR_IO, "%s: path too long", live->folder);
-    if (frame->has_draft) return true;
+    if (frame->has_draft && access(path, R_OK) == 0) return true; /* folders for temporary files are cleaned at times */
     if (!live_progress(live, "draft capture", 0)) return glint_fail(err, GLINT_ERROR_INTERRUPTED, "interrupted");
     return frame->has_draft = make_draft(frame, path, err);
 }

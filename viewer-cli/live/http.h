@@ -31,6 +31,8 @@ struct http_answer {
     void *stream;
     void (*close)(void *stream);
 };
+/* The text as JSON: messages about files and requests need not be UTF-8. NULL: out of memory. */
+json_t *http_text(const char *text);
 /* {"error", "code"}; the status follows from the error's code. */
 void http_error(struct http_answer *answer, const struct glint_error *err);
 /* The same with a status and a code of its own. */

@@ -12,8 +12,7 @@ enum { STREAM_BYTES = 16384 };
 
 /* ---- Errors ---- */
 
-/* The text as JSON: texts of files and requests need not be UTF-8. */
-static json_t *text_of(const char *text) {
+json_t *http_text(const char *text) {
     json_t *made = json_string(text);
     char *plain = made ? NULL : strdup(text);
     if (!plain) return made;
@@ -29,7 +28,7 @@ void http_refuse(struct http_answer *answer, int status, const char *code, const
     free(answer->data);
     if (answer->close) answer->close(answer->stream);
     *answer =
-        (struct http_answer){.status = status, .json = json_pack("{so, ss}", "error", text_of(message), "code", code)};
+        (struct http_answer){.status = status, .json = json_pack("{so, ss}", "error", http_text(message), "code", code)};
 }
 
 void http_error(struct http_answer *answer, const struct glint_error *err) {

@@ -21,11 +21,12 @@ struct job {
 /* ---- Events ---- */
 
 static void say_locked(struct live *live, json_t *event) {
-    char *line = live->events.lines[live->events.count % EVENTS_KEPT];
-    const size_t length = event ? json_dumpb(event, line, EVENT_BYTES - 2, JSON_COMPACT | JSON_ENSURE_ASCII) : 0;
+    char text[EVENT_BYTES]; /* the oldest line is left as it is if this one is too long */
+    const size_t length = event ? json_dumpb(event, text, EVENT_BYTES - 2, JSON_COMPACT | JSON_ENSURE_ASCII) : 0;
     json_decref(event);
     if (!length || length > EVENT_BYTES - 2) return;
-    memcpy(line + length, "\n", 2);
+    memcpy(text + length, "\n", 2);
+    memcpy(live->events.lines[live->events.count % EVENTS_KEPT], text, length + 2);
     live->events.count++;
     pthread_cond_broadcast(&live->changed);
 }
@@ -79,11 +80,16 @@ void live_listen(void *user, const struct http_request *request, struct http_ans
 
 /* ---- The queue ---- */
 
+static bool fail_interrupted(const struct live *live, struct glint_error *err) {
+    return glint_fail(err, GLINT_ERROR_INTERRUPTED,
+                      live->stopping ? "the server is ending" : "a later request gave this one up");
+}
+
 /* Ends a job that has not begun. */
-static void end_job(struct job **at) {
+static void end_job(const struct live *live, struct job **at) {
     struct job *job = *at;
     *at = job->next;
-    glint_fail(&job->err, GLINT_ERROR_INTERRUPTED, "a later request gave this one up");
+    fail_interrupted(live, &job->err);
     job->done = true;
 }
 
@@ -91,7 +97,7 @@ static void give_up_others(struct live *live) {
     if (live->running && !(live->running->flags & JOB_SHORT)) live->running->given_up = true;
     for (struct job **at = &live->jobs; *at;)
         if ((*at)->flags & JOB_SHORT) at = &(*at)->next;
-        else end_job(at);
+        else end_job(live, at);
     pthread_cond_broadcast(&live->changed);
 }
 
@@ -108,7 +114,7 @@ bool live_do(struct live *live, unsigned flags, const char *client, job_work wor
     struct job job = {.flags = flags, .client = client, .work = work, .data = data};
     pthread_mutex_lock(&live->lock);
     if (flags & JOB_URGENT) give_up_others(live);
-    if (live->stopping) glint_fail(&job.err, GLINT_ERROR_INTERRUPTED, "the server is ending"), job.done = true;
+    if (live->stopping) job.done = !fail_interrupted(live, &job.err);
     else append_job(live, &job);
     while (!job.done) pthread_cond_wait(&live->changed, &live->lock);
     pthread_mutex_unlock(&live->lock);
@@ -138,12 +144,12 @@ static void run_job(struct live *live, struct job *job) {
     pthread_mutex_unlock(&live->lock);
     struct glint_error err = {0};
     const bool ok = job->work(live, job->data, &err);
+    if (live->device && glint_device_lost(live->device)) live_close(live); /* wherever the job found that */
     pthread_mutex_lock(&live->lock);
     live->running = NULL;
     job->ok = ok;
     job->err = err;
-    if (!ok && err.code == GLINT_ERROR_INTERRUPTED)
-        glint_fail(&job->err, GLINT_ERROR_INTERRUPTED, "a later request gave this one up");
+    if (!ok && err.code == GLINT_ERROR_INTERRUPTED) fail_interrupted(live, &job->err);
     job->done = true;
     pthread_cond_broadcast(&live->changed);
 }
@@ -162,7 +168,7 @@ void *live_worker(void *user) {
             pthread_cond_wait(&live->wake, &live->lock);
         }
     }
-    while (live->jobs) end_job(&live->jobs);
+    while (live->jobs) end_job(live, &live->jobs);
     pthread_cond_broadcast(&live->changed);
     pthread_mutex_unlock(&live->lock);
     live_close(live);

@@ -21,6 +21,27 @@ static bool holds_cubemaps_alone(const char *path) {
     return alone;
 }
 
+static bool check_text(const char *text, struct glint_error *err) {
+    json_t *json = text ? json_string(text) : json_null();
+    if (!json) return glint_fail(err, GLINT_ERROR_USAGE, "%s: names that are not UTF-8 cannot be told in JSON", text);
+    json_decref(json);
+    return true;
+}
+
+static bool check_list(const struct list *list, struct glint_error *err) {
+    for (size_t i = 0; i < list->count; i++)
+        if (!check_text(list->items[i], err)) return false;
+    return true;
+}
+
+/* Answers repeat what the command line says. */
+static bool check_texts(const struct live *live, struct glint_error *err) {
+    const struct pipeline_args *args = live->args;
+    return check_list(live->captures, err) && check_text(live->out, err) && check_text(live->reference, err) &&
+           check_text(args->preset, err) && check_text(args->device, err) && check_list(&args->use, err) &&
+           check_list(&args->set, err) && check_list(&args->shader, err);
+}
+
 static bool read_frame(struct live_frame *frame, const char *path, struct glint_error *err) {
     struct glint_capture *capture = glint_capture_open(path, NULL, err);
     const struct glint_part_info *gbuffer = capture ? glint_capture_find(capture, "gbuffer") : NULL;
@@ -107,7 +128,7 @@ bool live_begin(struct live *live, struct glint_error *err) {
     pthread_mutex_init(&live->converting, NULL);
     pthread_cond_init(&live->wake, NULL);
     pthread_cond_init(&live->changed, NULL);
-    if (!read_frames(live, err) || !list_presets(live, err) || !make_folder(live, err) ||
+    if (!check_texts(live, err) || !read_frames(live, err) || !list_presets(live, err) || !make_folder(live, err) ||
         !(live->times = json_object()) || !(live->device = pipeline_args_device(live->args, err)) ||
         !(live->registry = live_registry(live, err)))
         return false;

@@ -76,7 +76,10 @@ static bool work_write(struct live *live, void *user, struct glint_error *err) {
     struct stat info;
     if (lstat(w->folder, &info) == 0)
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: exists; expected the name of a new folder", w->folder);
-    return glint_make_folder(live->out, err) && write_state(live, &w->state, w->folder, err);
+    if (!glint_make_folder(live->out, err)) return false;
+    const bool ok = write_state(live, &w->state, w->folder, err);
+    if (!ok) rmdir(w->folder); /* which holds the folder of the frame, and would keep the name from being used again */
+    return ok;
 }
 
 void live_answer_write(void *user, const struct http_request *request, struct http_answer *answer) {

@@ -362,7 +362,7 @@ static json_t *values_of(struct live *live, const json_t *which, double u, doubl
     struct glint_error err = {0};
     struct held *held = runs_take(live, json_string_value(json_object_get(which, "run")),
                                   json_string_value(json_object_get(which, "image")), &err);
-    json_t *json = held ? values_json(&held->source, u, v) : json_pack("{s:s}", "error", err.message);
+    json_t *json = held ? values_json(&held->source, u, v) : json_pack("{s:o}", "error", http_text(err.message));
     runs_release(live, held);
     return json;
 }

@@ -1,4 +1,5 @@
 /* States: what is replayed, as JSON that pages and scripts send, as a pipeline, and as a command line. */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -86,11 +87,17 @@ static bool assign_set(struct state *state, const json_t *set, struct glint_erro
     return true;
 }
 
+/* What stands before the "=" of an assignment. */
+static const char *slot_of(const char *assignment, char slot[64]) {
+    snprintf(slot, 64, "%.*s", (int)strcspn(assignment, "="), assignment);
+    return slot;
+}
+
 /* The user's shaders replace those of the slots that the state still has. */
 static bool assign_shaders(struct state *state, const struct list *shaders, struct glint_error *err) {
     for (size_t i = 0; i < shaders->count; i++) {
         char slot[64];
-        snprintf(slot, sizeof slot, "%.*s", (int)strcspn(shaders->items[i], "="), shaders->items[i]);
+        if (!glint_slot_check(slot_of(shaders->items[i], slot), err)) return false;
         if (glint_pipeline_find(state->base, slot) && !glint_pipeline_shader(state->base, shaders->items[i], err))
             return false;
     }
@@ -112,7 +119,7 @@ static json_t *canonical_use(const struct glint_pipeline *preset, const struct g
     return use;
 }
 
-static json_t *canonical_set(const struct state *state, const json_t *set) {
+static json_t *canonical_set(const struct state *state) {
     json_t *changed = json_object();
     for (size_t i = 0; i < glint_pipeline_pass_count(state->pipeline); i++) {
         const struct glint_pass *pass = glint_pipeline_pass(state->pipeline, i);
@@ -128,8 +135,8 @@ static json_t *canonical_set(const struct state *state, const json_t *set) {
     }
     if (glint_pipeline_rays(state->pipeline) != glint_pipeline_rays(state->base))
         json_object_set_new(changed, "pipeline.rays", json_integer(glint_pipeline_rays(state->pipeline)));
-    json_t *first = json_object_get(set, "pipeline.first_ray");
-    if (json_is_integer(first) && json_integer_value(first)) json_object_set(changed, "pipeline.first_ray", first);
+    if (glint_pipeline_first_ray(state->pipeline) != glint_pipeline_first_ray(state->base))
+        json_object_set_new(changed, "pipeline.first_ray", json_integer(glint_pipeline_first_ray(state->pipeline)));
     return changed;
 }
 
@@ -180,7 +187,7 @@ bool state_read(struct state *state, struct live *live, const json_t *json, stru
     if (ok)
         state->json = json_pack("{s:I, s:s, s:o, s:o, s:O, s:O}", "capture", (json_int_t)state->capture, "preset", name,
                                 "use", canonical_use(preset, state->base), "set",
-                                canonical_set(state, json_object_get(json, "set")), "skip", skip, "force", force);
+                                canonical_set(state), "skip", skip, "force", force);
     json_decref(skip);
     json_decref(force);
     if (preset) glint_pipeline_destroy(&preset);
@@ -205,7 +212,7 @@ static bool put_assignment(json_t *object, const char *text) {
     const double number = strtod(value, &end);
     json_t *json = !strcmp(value, "true") || !strcmp(value, "on")     ? json_true()
                    : !strcmp(value, "false") || !strcmp(value, "off") ? json_false()
-                   : end != value && !*end                            ? json_real(number)
+                   : end != value && !*end && isfinite(number)        ? json_real(number)
                                                                       : json_string(value);
     return json_object_set_new(object, name, json) == 0;
 }
@@ -216,9 +223,8 @@ json_t *state_of_arguments(const struct pipeline_args *args, struct glint_error 
     for (size_t i = 0; i < args->use.count; i++) {
         const char *variant = strchr(args->use.items[i], '=');
         char slot[64];
-        snprintf(slot, sizeof slot, "%.*s", (int)strcspn(args->use.items[i], "="), args->use.items[i]);
-        if (!variant) ok = glint_fail(err, GLINT_ERROR_USAGE, "expected SLOT=VARIANT, found '%s'", slot);
-        else json_object_set_new(use, slot, json_string(variant + 1));
+        if (!variant) ok = glint_fail(err, GLINT_ERROR_USAGE, "expected SLOT=VARIANT, found '%s'", args->use.items[i]);
+        else json_object_set_new(use, slot_of(args->use.items[i], slot), json_string(variant + 1));
     }
     for (size_t i = 0; ok && i < args->set.count; i++) {
         ok = strchr(args->set.items[i], '=') ||
@@ -344,6 +350,14 @@ static void put_word(FILE *out, const char *text) {
     fputc('\'', out);
 }
 
+/* A path that is no option, whatever it begins with. */
+static void put_path(FILE *out, const char *path) {
+    char *plain = NULL;
+    const bool dash = path[0] == '-' && asprintf(&plain, "./%s", path) >= 0;
+    put_word(out, dash ? plain : path);
+    free(plain);
+}
+
 /* The shortest digits that mean the same number. */
 static void put_value(char *text, size_t size, const json_t *value) {
     if (json_is_string(value)) snprintf(text, size, "%s", json_string_value(value));
@@ -379,7 +393,7 @@ char *state_command(const struct live *live, const struct state *state, const ch
     FILE *out = open_memstream(&text, &size);
     if (!out) return NULL;
     fputs("glint replay", out);
-    for (size_t i = state_first_frame(live, state); i <= state->capture; i++) put_word(out, live->frames[i].path);
+    for (size_t i = state_first_frame(live, state); i <= state->capture; i++) put_path(out, live->frames[i].path);
     fputs(" -o", out);
     put_word(out, folder);
     fputs(" --preset", out);
@@ -389,6 +403,8 @@ char *state_command(const struct live *live, const struct state *state, const ch
     put_names(out, "--skip", state->skip);
     put_names(out, "--force", state->force);
     for (size_t i = 0; i < live->args->shader.count; i++) {
+        char slot[64];
+        if (!glint_pipeline_find(state->pipeline, slot_of(live->args->shader.items[i], slot))) continue;
         fputs(" --shader", out);
         put_word(out, live->args->shader.items[i]);
     }

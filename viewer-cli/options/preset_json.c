@@ -26,5 +26,7 @@ json_t *preset_json(const struct glint_pipeline *pipeline, const char *name, con
     }
     if (glint_pipeline_rays(pipeline) > 1)
         json_object_set_new(set, "pipeline.rays", json_integer(glint_pipeline_rays(pipeline)));
+    if (glint_pipeline_first_ray(pipeline))
+        json_object_set_new(set, "pipeline.first_ray", json_integer(glint_pipeline_first_ray(pipeline)));
     return json_pack("{s:s, s:s, s:o, s:o}", "name", name, "title", title, "slots", slots, "set", set);
 }

@@ -97,6 +97,7 @@ bool glint_pipeline_shader(struct glint_pipeline *pipeline, const char *assignme
 size_t glint_pipeline_pass_count(const struct glint_pipeline *pipeline);
 const struct glint_pass *glint_pipeline_pass(const struct glint_pipeline *pipeline, size_t i);
 uint32_t glint_pipeline_rays(const struct glint_pipeline *pipeline); /* rays a pixel, at least 1 */
+uint32_t glint_pipeline_first_ray(const struct glint_pipeline *pipeline);
 /* The pass in a slot, or NULL if the pipeline does not have the slot. */
 const struct glint_pass *glint_pipeline_find(const struct glint_pipeline *pipeline, const char *slot);
 /* The parameter that glint_pipeline_set calls "slot.parameter", and its pass. Otherwise NULL, with a message that suggests the nearest
