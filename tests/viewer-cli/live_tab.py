@@ -20,7 +20,7 @@ class Server:
     """glint live over captures, ended by Ctrl-C."""
     def __init__(self, *words):
         self.process = subprocess.Popen([sys.argv[1], "live", *words], stdout=subprocess.PIPE, text=True)
-        self.url, self.token = self.process.stdout.readline().strip().split("#")
+        self.url, _, self.token = self.process.stdout.readline().strip().partition("#")  # a token from a file is not printed
 
     def __enter__(self):
         return self

@@ -9,8 +9,9 @@
         const form = element('form', {class: 'token', submit: e => {
             e.preventDefault();
             const given = field.value.trim();
-            if (api.setToken(given.includes('#') ? given.split('#')[1].split('&')[0] : given)) start();
-            else askToken('This is no token.');
+            if (!api.setToken(given.includes('#') ? given.split('#')[1].split('&')[0] : given)) askToken('This is no token.');
+            else if (glintLive.shown) location.reload(); /* the page that was there listens on */
+            else start();
         }}, element('h1', null, 'glint live'), why ? element('p', {class: 'message error', role: 'alert'}, why) : null,
         element('p', {id: 'token-help'}, 'This page needs the token of the server that it talks to. The command glint live prints an address such as ' +
             `${location.origin}/#\u2026: open that address, or paste it here.`),
@@ -36,11 +37,20 @@
             else if (event.event === 'gone') { store.gone = true; store.setGone(true); }
             else if (event.event === 'connected') {
                 store.setGone(false);
-                if (store.gone) store.request();
+                if (store.gone) comeBack(store);
                 store.gone = false;
             } else return;
             store.emit('progress');
         });
+    }
+
+    /* The server that answers again may be another one: with the same token, but other captures, or runs of the same ids by other shaders. */
+    async function comeBack(store) {
+        try {
+            if (JSON.stringify(await api.get('/api/v1/registry')) !== JSON.stringify(store.registry)) return location.reload();
+        } catch { return; } /* it is gone again, which the stream says */
+        store.emit('back');
+        store.request();
     }
 
     /* Where there is room the panels stand beside the picture, else below it. */
@@ -60,15 +70,34 @@
         document.title = `glint live: ${glintChart.text(store.registry.captures[0]?.name)}`;
     }
 
-    /* B of a link, once there is an A. */
-    function pinLinked(store) {
-        const {b} = glintLive.store.linked();
+    /* B of a link. */
+    async function pinGiven(store, b) {
         if (!b || typeof b !== 'object') return;
-        const off = store.on('idle', () => {
-            off();
-            if (b.state) store.pinState(b.state, typeof b.title === 'string' ? b.title : undefined);
-            else if (b.of && b.effect) store.pinAnswer(b.of, b.effect, typeof b.title === 'string' ? b.title : String(b.of));
-        });
+        const title = typeof b.title === 'string' ? b.title : undefined;
+        if (b.of && b.effect) return store.pinAnswer(b.of, b.effect, title ?? String(b.of));
+        try {
+            if (b.state) store.pinState((await api.post('/api/v1/pipeline', {state: b.state})).state, title);
+        } catch (error) { store.notice(`The link's B cannot be shown here: ${error.message}`); }
+    }
+
+    /* Once there is an A. */
+    function pinLinked(store) {
+        const {b} = glintLive.store.linked(), off = store.on('idle', () => { off(); pinGiven(store, b); });
+    }
+
+    /* A link that is opened where the page is: all of it, or nothing and a message. */
+    async function openLink(store) {
+        const given = glintLive.store.linked();
+        if (!given?.state) return;
+        try {
+            store.setState((await api.post('/api/v1/pipeline', {state: {...store.state, ...given.state}})).state);
+        } catch (error) {
+            store.notice(`The link's state cannot be shown here: ${error.message}`);
+            return;
+        }
+        store.look = store.lookOf(given.look);
+        store.emit('look');
+        pinGiven(store, given.b);
     }
 
     async function start() {
@@ -91,19 +120,17 @@
         build(store);
         if (linked && !store.lost) pinLinked(store);
         if (store.lost) store.notice(`The link's state cannot be shown here: ${store.lost}`);
-        addEventListener('hashchange', () => {
-            const given = glintLive.store.linked();
-            if (!given?.state) return;
-            store.setState({...store.state, ...given.state});
-            store.look = store.lookOf(given.look);
-            store.emit('look');
-        });
+        addEventListener('hashchange', () => openLink(store));
         listen(store);
         store.request();
         glintLive.shown = store; /* for the console, and for tests */
         document.documentElement.dataset.ready = 'yes';
     }
 
+    /* The address of another server, opened in this tab, loads nothing by itself. */
+    addEventListener('hashchange', () => {
+        if (api.takeToken() || (api.begin() && document.documentElement.dataset.ready !== 'yes')) location.reload();
+    });
     api.onRefused(() => {
         if (document.documentElement.dataset.ready === 'yes') askToken('The server does not know this token any more: it may have been started again.');
     });

@@ -18,15 +18,20 @@ glintLive.api = (function () {
         return token !== null;
     }
 
-    /* Takes the token out of the address, so that it is in no history and no link. What else the fragment holds stays. */
-    function begin() {
-        const parts = location.hash.slice(1).split('&').filter(p => p);
+    /* Takes the token out of the address, so that it is in no history and no link. What else the fragment holds stays. Whether it was
+       another one than before. */
+    function takeToken() {
+        const before = token, parts = location.hash.slice(1).split('&').filter(p => p);
         const given = parts.find(p => !p.includes('=') && TOKEN.test(p));
-        if (given) {
-            setToken(given);
-            const rest = parts.filter(p => p !== given).join('&');
-            history.replaceState(null, '', location.pathname + location.search + (rest ? `#${rest}` : ''));
-        } else if (!token) setToken(recall() || '');
+        if (!given) return false;
+        setToken(given);
+        const rest = parts.filter(p => p !== given).join('&');
+        history.replaceState(null, '', location.pathname + location.search + (rest ? `#${rest}` : ''));
+        return token !== before;
+    }
+
+    function begin() {
+        if (!takeToken() && !token) setToken(recall() || '');
         return token !== null;
     }
 
@@ -122,5 +127,5 @@ glintLive.api = (function () {
         }
     }
 
-    return {client, begin, askTabs, setToken, get, post, bytes, file, insist, stream, failure, onRefused: f => refused.push(f)};
+    return {client, begin, takeToken, askTabs, setToken, get, post, bytes, file, insist, stream, failure, onRefused: f => refused.push(f)};
 })();

@@ -34,7 +34,7 @@ glintLive.bar = (function () {
         function update() {
             const {pinned, registry, state, effect} = store, truth = list(registry.captures[state.capture]?.truth).includes(effect);
             const key = JSON.stringify([pinned?.title, state.preset, effect, truth]);
-            swap.disabled = !pinned || !!pinned.of || !store.result || store.result.draft;
+            swap.disabled = !pinned || !!pinned.of || !store.result || store.result.draft || store.result.quick;
             if (key === shown && select.selectedIndex === 0) return;
             shown = key;
             const option = (kind, name, text) => element('option', {value: JSON.stringify([kind, name])}, text);

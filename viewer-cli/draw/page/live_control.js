@@ -1,5 +1,5 @@
 /* The control of one parameter, made from what the registry says of it: a slider with a field for exact values, a box, a choice.
-   glintLive.control(parameter, {value, set(value, drag), settle, revert}) has show({value, preset, refusal}). */
+   glintLive.control(parameter, {value, set(value, drag), settle, refresh, revert}) has show({value, preset, refusal}). */
 glintLive.control = (function () {
     'use strict';
     const {element} = glintParts;
@@ -121,6 +121,12 @@ glintLive.control = (function () {
         const setTyping = yes => { typing = yes; field.toggleAttribute('data-typing', yes); };
         field.addEventListener('input', () => setTyping(true));
         field.addEventListener('change', enter);
+        /* What was typed and taken back by hand is no change, which the browser does not tell. */
+        field.addEventListener('blur', () => {
+            if (!typing) return;
+            setTyping(false);
+            act.refresh();
+        });
         field.addEventListener('keydown', e => {
             const step = {ArrowUp: 1, ArrowDown: -1}[e.key];
             if (!step) return;

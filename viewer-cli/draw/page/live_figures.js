@@ -48,7 +48,8 @@ glintLive.figures = (function () {
         const ms = ns => Number.isFinite(ns) ? ns / 1e6 : null;
         const rounds = meter.isCurrent() && Number.isFinite(a.frame_ns) ? a.rounds : 0;
         if (a?.against) rows.push([metric?.title || meter.metric, meter.total(a)?.value, meter.total(b)?.value, '', metric?.help]);
-        rows.push(['time of a frame', ms(meter.timeOf(rounds ? a : null, store.result)), ms(meter.timeOf(b, pinned?.result)),
+        rows.push(['time of a frame', ms(meter.timeOf(rounds ? a : null, store.result)), ms(meter.timeOf(rounds ? b : null, rounds ? null : pinned?.result)), /* like with like */
+           
             rounds ? `ms, median of ${rounds}` : 'ms, one replay', 'sum of the passes that run in every frame']);
         if (Number.isFinite(a?.cubemaps_ns)) rows.push(['when a cube map changes', ms(a.cubemaps_ns), ms(b?.cubemaps_ns), 'ms']);
         for (const [name, key, unit] of a ? RAYS : []) if (Number.isFinite(a[key])) rows.push([name, a[key], b?.[key], unit]);
@@ -87,13 +88,15 @@ glintLive.figures = (function () {
     function scatter(store, meter) {
         const own = glintLive.page, box = element('div', {class: 'tried'});
         let drawn = null, shown = '', fits = [];
-        const choose = p => { const t = fits.find(f => f.name === p.name); if (t) store.setState({...t.state, capture: store.state.capture}); };
+        /* Names leave out what differs beyond the first changes. */
+        const choose = p => { const t = fits.find(f => f.name === p.name && f.time / 1e6 === p.x && f.error === p.y); if (t) store.setState({...t.state, capture: store.state.capture}); };
         box.update = () => {
             const next = chartOf(store, meter), key = JSON.stringify(next.chart);
             fits = next.fits;
             if (key === shown) return;
             shown = key;
-            if (fits.length < 1) return;
+            box.hidden = !fits.length;
+            if (box.hidden) return;
             if (drawn) drawn.replace(next.chart);
             else {
                 drawn = glintParts.chartElement(next.chart, own, choose);
@@ -146,7 +149,7 @@ glintLive.figures = (function () {
         store.measure = () => own.measure(own.rounds, true);
 
         function words() {
-            if (own.error) return own.error.message;
+            if (own.failed()) return own.failed();
             if (own.running) return 'measuring \u2026';
             if (!store.effect) return store.result ? 'Nothing that this pipeline makes can be judged.' : '';
             if (!own.isCurrent()) return own.isAutomatic() ? 'waiting to measure \u2026' : own.figures ? 'These are of an earlier state: measure again.' : 'Not measured yet.';

@@ -18,6 +18,7 @@ glintLive.meter = (function () {
 
     function make(store) {
         const cache = new Map(), tried = [];
+        let files = 0; /* changes of shaders and presets */
         const {registry} = store;
         const self = {against: 'truth', metric: registry.metric || registry.metrics[0]?.name || null, rounds: registry.rounds || 0, automatic: null,
             figures: null, other: null, running: null, error: null, tried};
@@ -31,17 +32,17 @@ glintLive.meter = (function () {
         async function measure(state, rounds, wanted) {
             const of = against(), key = keyFor(state, of), known = cache.get(key);
             if (known && (known.rounds >= rounds)) return known;
-            const metrics = self.metric ? [self.metric] : [], {effect} = store;
+            const metrics = self.metric ? [self.metric] : [], {effect} = store, before = files;
             const answer = await api.insist('/api/v1/figures', {state, effect, against: of, metrics, rounds, client: api.client}, wanted);
             const entry = {...answer, rounds, key, state: copy(state)};
-            cache.set(key, entry);
+            if (before === files) cache.set(key, entry);
             if (cache.size > 500) cache.delete(cache.keys().next().value);
             return entry;
         }
 
         /* The error over all pixels, which comes first among the sets of classes. */
         self.total = figures => list(figures?.errors).find(e => e.metric === self.metric && Number.isFinite(e.value)) || null;
-        self.timeOf = (figures, result) => Number.isFinite(figures?.frame_ns) ? figures.frame_ns : result && !result.draft && isTimed(result) ? result.frame_ns : null;
+        self.timeOf = (figures, result) => Number.isFinite(figures?.frame_ns) ? figures.frame_ns : result && !result.draft && !result.quick && isTimed(result) ? result.frame_ns : null;
 
         function note(figures, result) {
             const error = self.total(figures)?.value, time = self.timeOf(figures, keyOf(result?.state || {}) === keyOf(figures.state) ? result : null);
@@ -71,7 +72,7 @@ glintLive.meter = (function () {
                     note(self.other, store.pinned.result);
                 }
             } catch (error) {
-                if (error.code !== 'superseded') self.error = error;
+                if (error.code !== 'superseded') self.error = {message: error.message, key: mine.key};
             } finally {
                 if (self.running === mine) self.running = null;
                 if (!self.running) store.setBesides('measuring', false);
@@ -83,7 +84,7 @@ glintLive.meter = (function () {
         let quick = false;
         const isQuick = () => {
             const {result} = store;
-            if (result && !result.draft) quick = result.seconds < QUICK_S && (self.timeOf(null, result) ?? Infinity) < 1e9 * QUICK_S;
+            if (result && !result.draft && !result.quick) quick = result.seconds < QUICK_S && (self.timeOf(null, result) ?? Infinity) < 1e9 * QUICK_S;
             return quick;
         };
         /* Never against the reference, whose rays take minutes. */
@@ -97,7 +98,16 @@ glintLive.meter = (function () {
             const known = cache.get(keyFor(result.state, against()));
             if (known || self.isAutomatic()) self.measure(0, false);
         };
-        store.on('files', () => cache.clear());
+        /* The error of the state that is shown. */
+        self.failed = () => self.error && store.result && self.error.key === keyFor(store.result.state, against()) ? self.error.message : null;
+        /* What was measured before was of other programs. */
+        store.on('files', () => {
+            files++;
+            cache.clear();
+            tried.length = 0;
+            self.figures = self.other = null;
+            store.emit('figures');
+        });
         self.reset = () => { self.figures = self.other = null; self.follow(); store.emit('figures'); };
         return self;
     }

@@ -64,7 +64,13 @@ glintLive.out = (function () {
             return `Written: ${answer.folder}`;
         }
         const report = button('Report of A and B', 'the page of glint report, as a file', saveReport, 'save-report');
-        store.copyCommand = async () => say(await toClipboard(store.command, command));
+        /* That of the state that the controls show, whose replay may still be under way. */
+        async function copyCommand() {
+            const answer = await api.post('/api/v1/pipeline', {state: store.state});
+            command.textContent = glintChart.text(answer.command);
+            return toClipboard(answer.command, command);
+        }
+        store.copyCommand = () => copyCommand().then(say, error => say(error.message));
 
         function update() {
             command.textContent = glintChart.text(store.command);
@@ -75,7 +81,7 @@ glintLive.out = (function () {
         update();
         return element('section', {class: 'panel out', id: 'out', 'aria-label': 'Out', tabindex: -1}, element('h2', null, 'Out'), command,
             element('div', {class: 'tools'},
-                button('Copy command', 'the command line that gives the same run (c)', () => toClipboard(store.command, command), 'copy-command'),
+                button('Copy command', 'the command line that gives the same run (c)', copyCommand, 'copy-command'),
                 button('Copy link', 'a link to this state and look, without the token', () => {
                     link.hidden = false;
                     link.textContent = store.link();

@@ -61,10 +61,10 @@ glintLive.picture = (function () {
 
     function overlay() {
         const progress = progressBar(), draft = element('span', {class: 'draft', role: 'status'}), failure = element('p', {class: 'note', role: 'alert'});
-        return {e: element('div', {class: 'live-over'}, progress.e, draft, failure), draw(store, wrong, waits) {
+        return {e: element('div', {class: 'live-over'}, progress.e, draft, failure), draw(store, wrong, waits, draws) {
             const message = store.error ? store.error.message || store.error : wrong.A || wrong.B || wrong.D;
             progress.draw(store.running || !store.besides.length ? store.progress : null); /* what is done beside it changes no picture */
-            draft.textContent = waits ? 'Drawing the picture \u2026' : store.result?.draft ? 'Draft: half the resolution, the whole frame follows' : '';
+            draft.textContent = waits ? 'Drawing the picture \u2026' : draws ? `Draft: half the resolution${store.error ? '' : ', the whole frame follows'}` : '';
             draft.hidden = !draft.textContent;
             failure.hidden = !message;
             failure.textContent = !message ? '' : glintChart.text(message) +
@@ -98,6 +98,7 @@ glintLive.picture = (function () {
         for (const what of ['result', 'pinned', 'look', 'state']) store.on(what, () => refresh(self));
         for (const what of ['error', 'progress']) store.on(what, () => drawOver(self));
         store.on('truth', () => self.stage.read());
+        store.on('back', () => forget(self));
         store.on('look', () => follow(self));
         let resized = 0;
         new ResizeObserver(() => { clearTimeout(resized); resized = setTimeout(() => askAll(self), RESIZE_MS); }).observe(self.stage);
@@ -148,21 +149,34 @@ glintLive.picture = (function () {
             draft: result.draft, capture: result.state.capture});
         const other = pinned && images.counterpart(pinned, result, image);
         lacking(self, pinned && !other ? image : null);
-        if (!other) {
-            const had = self.shown.B || self.shown.D;
-            for (const k of ['B', 'D']) { request(self, k, null); self.shown[k] = null; }
-            if (had) draw(self);
-            return;
-        }
+        if (!other) return drop(self, 'B', 'D');
+        if (self.look.mode !== HEAT) drop(self, 'D'); /* it does not follow */
         if (!A || A.image.name !== image.name) return;
         const same = A.head.range && look.low === null && look.high === null
             ? {low: A.head.range[0], high: A.head.range[1], scale: A.head.key?.scale?.log ? 'log' : 'linear'} : {};
-        request(self, 'B', {path: path('picture', {run: pinned.result.run, image: other.name, ...same, ...few(self, other)}, look), what: `${pinned.result.run} ${other.name}`,
+        const what = `${pinned.result.run} ${other.name}`;
+        if (self.shown.B && self.shown.B.what !== what) drop(self, 'B', 'D');
+        request(self, 'B', {path: path('picture', {run: pinned.result.run, image: other.name, ...same, ...few(self, other)}, look), what,
             run: pinned.result.run, image: other, title: pinned.title});
         if (self.look.mode !== HEAT) return;
         const named = other.name === A.image.name ? {} : {other_image: other.name};
         request(self, 'D', {path: path('difference', {run: A.run, other: pinned.result.run, image: A.image.name, ...named}),
             what: `${pinned.result.run} ${A.image.name}`});
+    }
+
+    /* What is shown of something else than what is asked for goes at once, and is no longer asked for. */
+    function drop(self, ...which) {
+        const had = which.some(k => self.shown[k]);
+        for (const k of which) { request(self, k, null); self.shown[k] = null; }
+        if (had) draw(self);
+    }
+
+    /* All is asked for again, and stays until it is answered. */
+    function forget(self) {
+        for (const k of ['A', 'B', 'D']) {
+            request(self, k, null);
+            if (self.shown[k]) self.shown[k].path = null;
+        }
     }
 
     /* B has nothing to stand beside A's image, and what it could stand beside is a click away. */
@@ -197,7 +211,7 @@ glintLive.picture = (function () {
         refresh(self);
     }
 
-    function drawOver(self) { self.over.draw(self.store, self.wrong, !!self.store.result && !self.shown.A && !self.wrong.A); }
+    function drawOver(self) { self.over.draw(self.store, self.wrong, !!self.store.result && !self.shown.A && !self.wrong.A, !!self.shown.A?.draft); }
 
     function fail(self, which, error) {
         self.wrong[which] = error.message;

@@ -51,6 +51,7 @@ glintLive.pipeline = (function () {
                 if (refused && store.refusal?.names.includes(p.name)) store.clearRefusal();
             },
             settle: () => store.settle(),
+            refresh: () => store.emit('slots'),
             revert: () => store.change(state => { delete state.set[p.name]; }),
         };
     }
@@ -181,14 +182,14 @@ glintLive.pipeline = (function () {
 
     /* ---- Slots that the pipeline lacks ---- */
 
-    function addRow(store, slot, passes) {
+    function addRow(store, slot, passes, added) {
         const add = p => element('button', {type: 'button', 'aria-label': `add ${slot}: ${p.variant}`, title: glintChart.text(`${p.title}, ${p.source}`),
-            click: () => store.change(s => useVariant(store, s, slot, p.variant))}, p.variant);
+            click: () => { store.change(s => useVariant(store, s, slot, p.variant)); added(slot); }}, p.variant);
         return element('div', {class: 'add'}, element('span', null, element('b', null, slot), ' ', element('span', {class: 'faint'}, passes[0].slot_title)),
             element('span', {class: 'variants'}, ...passes.map(add)));
     }
 
-    function missing(store) {
+    function missing(store, added) {
         const box = element('details', {class: 'missing'}, element('summary', null, 'Add a pass'));
         let shown = '';
         box.update = (words, there) => {
@@ -203,7 +204,7 @@ glintLive.pipeline = (function () {
             shown = key;
             box.hidden = !left.length;
             box.replaceChildren(box.firstChild, ...left.map(g => element('section', null, element('h3', {title: glintChart.text(g.about)}, g.title),
-                ...[...new Set(g.passes.map(p => p.slot))].map(slot => addRow(store, slot, g.passes.filter(p => p.slot === slot))))));
+                ...[...new Set(g.passes.map(p => p.slot))].map(slot => addRow(store, slot, g.passes.filter(p => p.slot === slot), added)))));
         };
         return box;
     }
@@ -228,9 +229,10 @@ glintLive.pipeline = (function () {
     return function (store) {
         const rows = new Map(), slots = element('ol', {class: 'slots'}), whole = element('div', {class: 'parameters whole'});
         const general = list(store.registry.pipeline).map(p => parameterControl(store, p));
-        const add = missing(store), bars = tools(store, () => filter()), none = element('p', {class: 'faint', hidden: ''}, 'Nothing fits.');
+        const add = missing(store, slot => { added = slot; }), bars = tools(store, () => filter()), none = element('p', {class: 'faint', hidden: ''}, 'Nothing fits.');
         const help = element('div', {class: 'strip', 'aria-hidden': 'true'});
         let order = [], last = null; /* the last result that is no draft */
+        let added = null; /* the slot that gets the focus, which was at a button that goes */
         whole.append(...general.map(c => c.row));
 
         function filter() {
@@ -248,7 +250,15 @@ glintLive.pipeline = (function () {
             order = orderOf(store);
             for (const slot of order) if (!rows.has(slot)) rows.set(slot, slotRow(store, slot));
             const wanted = order.map(s => rows.get(s).row);
-            if (wanted.length !== slots.children.length || wanted.some((r, i) => slots.children[i] !== r)) slots.replaceChildren(...wanted);
+            if (wanted.length !== slots.children.length || wanted.some((r, i) => slots.children[i] !== r)) {
+                const focused = document.activeElement;
+                slots.replaceChildren(...wanted);
+                if (focused !== document.activeElement && slots.contains(focused)) focused.focus({preventScroll: true}); /* which moving takes away */
+            }
+            if (added && rows.get(added)?.row.isConnected) {
+                rows.get(added).row.querySelector('.fold').focus();
+                added = null;
+            }
             if (store.result && !store.result.draft) last = store.result;
             const numbers = key => order.map(key).filter(Number.isFinite), passes = list(last?.passes);
             const scale = {ns: Math.max(1, ...numbers(s => passes.find(p => p.slot === s)?.ns)), fetches: Math.max(1, ...numbers(s => store.fetchesOf?.(s)))};

@@ -28,7 +28,6 @@ glintLive.pixel = (function () {
         self.inner = element('div', null, element('div', {class: 'bar'}, self.title, element('span', {class: 'together'}, self.enlarge, self.close)), self.wait, self.failure, self.outcome,
             self.drawing, self.steps, self.sentences, self.dialog);
         self.e = element('section', {class: 'live-pixel', 'aria-labelledby': 'pixel-title'}, self.hint, self.inner);
-        self.image.addEventListener('load', () => { if (self.old) URL.revokeObjectURL(self.old); self.old = null; });
         for (const e of [self.drawing, self.steps]) e.hidden = true;
         for (const what of ['look', 'result']) store.on(what, () => refresh(self));
         refresh(self);
@@ -55,6 +54,7 @@ glintLive.pixel = (function () {
         if (!at) {
             self.stop?.abort();
             self.asked = null;
+            self.e.setAttribute('aria-busy', 'false');
             store.setBesides('pixel', false);
             return;
         }
@@ -73,7 +73,7 @@ glintLive.pixel = (function () {
         self.stop?.abort();
         const stop = self.stop = new AbortController();
         self.e.setAttribute('aria-busy', 'true');
-        self.drawing.classList.add('stale');
+        for (const e of [self.drawing, self.outcome, self.steps]) e.classList.add('stale');
         self.store.setBesides('pixel', true);
         self.wait.textContent = 'Tracing the rays of this pixel \u2026';
         for (const reference of [false, true]) {
@@ -119,20 +119,23 @@ glintLive.pixel = (function () {
     function show(self, {svg, no_drawing: why, text}, reference) {
         self.failure.hidden = true;
         self.drawing.hidden = self.steps.hidden = false;
-        self.drawing.classList.remove('stale');
+        for (const e of [self.drawing, self.outcome, self.steps]) e.classList.remove('stale');
         drawOutcome(self, reference ? text : '');
-        self.old = self.url;
+        const before = self.url;
         self.url = svg ? URL.createObjectURL(new Blob([svg], {type: 'image/svg+xml'})) : null;
         self.image.hidden = !svg;
         self.enlarge.hidden = !svg;
-        if (svg) self.image.src = self.large.src = self.url;
+        for (const image of [self.image, self.large]) if (svg) image.src = self.url; else image.removeAttribute('src');
+        if (before) URL.revokeObjectURL(before);
         self.image.alt = self.large.alt = svg ? `the rays of ${self.title.textContent}; the text below says the same` : '';
         self.why.hidden = !!svg;
         self.why.textContent = glintChart.text(why || '');
         self.text.textContent = glintChart.text(text);
     }
 
+    /* What was drawn of another pixel or state does not stay below the title of this one. */
     function fail(self, error) {
+        if (self.drawing.classList.contains('stale')) self.drawing.hidden = self.steps.hidden = self.outcome.hidden = self.enlarge.hidden = true;
         self.failure.hidden = false;
         self.failure.textContent = glintChart.text(error.message);
     }

@@ -146,7 +146,7 @@ glintLive.runs = (function () {
 
     function others(store) {
         const {registry} = store;
-        let truthOf = null;
+        let truthOf = null, pins = 0, pinning = 0; /* pins: the last thing that was to be B is, whatever is answered first */
 
         const titleOf = state => {
             const changes = [...Object.entries(state.use).map(([k, v]) => `${k}: ${v}`), ...Object.entries(state.set).map(([k, v]) => `${k}=${v}`),
@@ -156,29 +156,41 @@ glintLive.runs = (function () {
         store.titleOf = titleOf;
 
         function setPinned(pinned) {
+            pins++;
             store.pinned = pinned;
             store.emit('pinned');
         }
         store.unpin = () => setPinned(null);
         store.pinResult = (title, result) => setPinned({title, result, of: null});
 
+        const isWhole = result => result && !result.draft && !result.quick;
+
         /* B is a state; the run of it that is there is taken. */
         store.pinState = async (state, title = titleOf(state)) => {
-            if (store.result && !store.result.draft && keyOf(store.result.state) === keyOf(state)) return store.pinResult(title, store.result);
-            try {
-                store.pinResult(title, await api.insist('/api/v1/run', {state, client: api.client}));
-            } catch (error) { store.notice(error.message); }
+            if (isWhole(store.result) && keyOf(store.result.state) === keyOf(state)) return store.pinResult(title, store.result);
+            await pin(wanted => api.insist('/api/v1/run', {state, client: api.client}, wanted), result => store.pinResult(title, result));
         };
 
-        const answer = (of, effect) => api.insist('/api/v1/answer', {state: store.state, effect, of, client: api.client});
+        const answer = (of, effect, wanted) => api.insist('/api/v1/answer', {state: store.state, effect, of, client: api.client}, wanted);
 
         store.pinAnswer = async (of, effect, title) => {
-            try {
-                const result = await answer(of, effect), again = store.pinned?.of === of && store.pinned.effect === effect;
+            await pin(wanted => answer(of, effect, wanted), result => {
+                const again = store.pinned?.of === of && store.pinned.effect === effect;
                 setPinned({title, result, of, effect});
                 if (!again) lookAtCompared(result);
-            } catch (error) { store.notice(error.message); }
+            });
         };
+
+        async function pin(make, done) {
+            const mine = ++pins, wanted = () => mine === pins;
+            pinning++;
+            try {
+                const result = await make(wanted);
+                if (wanted()) done(result);
+            } catch (error) {
+                if (wanted()) store.notice(error.message);
+            } finally { pinning--; }
+        }
 
         /* What the result of an effect should be says nothing beside another image. */
         function lookAtCompared({compares}) {
@@ -189,7 +201,7 @@ glintLive.runs = (function () {
 
         store.swap = () => {
             const b = store.pinned, a = store.result;
-            if (!b || b.of || !a || a.draft) return;
+            if (!b || b.of || !isWhole(a)) return;
             setPinned({title: titleOf(a.state), result: a, of: null});
             store.setState(b.result.state);
         };
@@ -197,11 +209,19 @@ glintLive.runs = (function () {
         /* B follows to another frame. */
         async function follow() {
             const b = store.pinned, capture = store.state.capture;
-            if (!b || store.playing || b.result.state.capture === capture || store.busy() || b.tried === capture) return;
+            if (!b || store.playing || pinning || b.result.state.capture === capture || store.busy() || b.tried === capture) return;
             b.tried = capture; /* there may be no answer for it */
             if (b.of) await store.pinAnswer(b.of, b.effect, b.title);
             else await store.pinState({...b.result.state, capture}, b.title);
         }
+
+        /* Ids of runs say nothing to a server that has been started again. */
+        store.on('back', () => {
+            const b = store.pinned;
+            truthOf = null;
+            if (b?.of) store.pinAnswer(b.of, b.effect, b.title);
+            else if (b) pin(wanted => api.insist('/api/v1/run', {state: b.result.state, client: api.client}, wanted), result => store.pinResult(b.title, result));
+        });
 
         async function findTruth() {
             const capture = registry.captures[store.state.capture], effect = store.effect;

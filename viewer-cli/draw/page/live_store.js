@@ -44,10 +44,15 @@ glintLive.store = (function () {
 
     const LOOK = {image: null, exposure: 0, display: null, view: null, kind: null, low: null, high: null, scale: null, mode: null, zoom: 0, x: null, y: null};
 
+    const TEXTS = ['image', 'display', 'view', 'kind', 'scale', 'mode'], INTEGERS = ['zoom', 'x', 'y'];
+
     /* Only members that are known, of the kinds that they have. */
     function lookOf(given) {
         const look = {...LOOK};
-        for (const key of Object.keys(LOOK)) if (['string', 'number'].includes(typeof given?.[key])) look[key] = given[key];
+        for (const key of Object.keys(LOOK)) {
+            const value = given?.[key];
+            if (TEXTS.includes(key) ? typeof value === 'string' : INTEGERS.includes(key) ? Number.isInteger(value) : Number.isFinite(value)) look[key] = value;
+        }
         return look;
     }
 
