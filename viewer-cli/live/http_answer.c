@@ -27,8 +27,8 @@ void http_refuse(struct http_answer *answer, int status, const char *code, const
     json_decref(answer->json);
     free(answer->data);
     if (answer->close) answer->close(answer->stream);
-    *answer =
-        (struct http_answer){.status = status, .json = json_pack("{so, ss}", "error", http_text(message), "code", code)};
+    *answer = (struct http_answer){.status = status,
+                                   .json = json_pack("{so, ss}", "error", http_text(message), "code", code)};
 }
 
 void http_error(struct http_answer *answer, const struct glint_error *err) {

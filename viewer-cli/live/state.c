@@ -185,9 +185,9 @@ bool state_read(struct state *state, struct live *live, const json_t *json, stru
               read_slots("skip", json_object_get(json, "skip"), &skip, &state->skip, err) &&
               read_slots("force", json_object_get(json, "force"), &force, &state->force, err);
     if (ok)
-        state->json = json_pack("{s:I, s:s, s:o, s:o, s:O, s:O}", "capture", (json_int_t)state->capture, "preset", name,
-                                "use", canonical_use(preset, state->base), "set",
-                                canonical_set(state), "skip", skip, "force", force);
+        state->json =
+            json_pack("{s:I, s:s, s:o, s:o, s:O, s:O}", "capture", (json_int_t)state->capture, "preset", name, "use",
+                      canonical_use(preset, state->base), "set", canonical_set(state), "skip", skip, "force", force);
     json_decref(skip);
     json_decref(force);
     if (preset) glint_pipeline_destroy(&preset);
