@@ -123,6 +123,7 @@ static bool serve(const struct arguments *a, struct live *live, const sigset_t *
     if (started) {
         print_address(a, http, token);
         sigwait(signals, &number);
+        pthread_sigmask(SIG_UNBLOCK, signals, NULL); /* a second Ctrl-C ends what does not want to end */
         live_stop(live);
         http_stop(&http);
     }

@@ -181,6 +181,7 @@ static bool upload_input(struct run *run, size_t i, struct glint_error *err) {
     if (image->source == SOURCE_MADE && table && table->width && table->height)
         return upload_values(run, i, table->texels.u, err);
     if (!device_begin(run->gpu, err)) return false;
+    run->images[i]->quick = false;
     image_record_clear(&run->images[i]->image, run->gpu, image->row->fallback);
     return submit_upload(run, run->images[i]->image.name, err);
 }
@@ -244,6 +245,7 @@ static bool clear_left_out(struct run *run, size_t i, struct glint_error *err) {
     const struct graph_image *image = &run->graph->images[i];
     if (!plan_limits(run->plan, &run->graph->passes[image->maker])) return true;
     if (!device_begin(run->gpu, err)) return false;
+    run->images[i]->quick = false;
     image_record_clear(&run->images[i]->image, run->gpu, image->row->fallback);
     return submit_upload(run, run->images[i]->image.name, err);
 }

@@ -97,6 +97,10 @@ static int remove_entry(const char *path, const struct stat *info, int kind, str
     return remove(path);
 }
 
+void live_remove_folder(const char *folder) {
+    nftw(folder, remove_entry, 16, FTW_DEPTH | FTW_PHYS);
+}
+
 static bool is_ending(void *user) {
     struct live *live = user;
     pthread_mutex_lock(&live->lock);
@@ -175,7 +179,7 @@ void live_end(struct live *live) {
     if (live->watching) pthread_join(live->watcher, NULL);
     watch_files_finish(&live->files);
     runs_finish(&live->runs);
-    if (live->folder) nftw(live->folder, remove_entry, 16, FTW_DEPTH | FTW_PHYS);
+    if (live->folder) live_remove_folder(live->folder);
     free(live->folder);
     free(live->frames);
     free(live->presets);

@@ -80,7 +80,7 @@ struct live {
     const char **presets; /* names that states may have, NULL-terminated */
     json_t *registry;
 
-    pthread_mutex_t lock; /* of all that follows up to the worker's own */
+    pthread_mutex_t lock; /* of all that follows up to the conversions */
     pthread_cond_t wake, changed;
     struct job *jobs, *running;
     bool stopping, idle;
@@ -120,6 +120,8 @@ bool live_begin(struct live *live, struct glint_error *err);
 /* Ends jobs and streams, before the server is stopped. */
 void live_stop(struct live *live);
 void live_end(struct live *live);
+/* Removes a folder of the private one with all that is in it; no link is followed. */
+void live_remove_folder(const char *folder);
 /* The conversion of colours for a display and view, which stays until the end. NULL on failure. */
 const struct ocio_conversion *live_conversion(struct live *live, const struct ocio_options *options,
                                               struct glint_error *err);
@@ -139,7 +141,7 @@ struct state {
 bool state_read(struct state *state, struct live *live, const json_t *json, struct glint_error *err);
 void state_finish(struct state *state);
 /* The slots in order of execution with their parameters, as docs/live.md has them. */
-json_t *state_slots(const struct live *live, const struct state *state, struct glint_error *err);
+json_t *state_slots(const struct state *state, struct glint_error *err);
 /* A command line that gives the same run, malloc'd. `folder`: where it writes. */
 char *state_command(const struct live *live, const struct state *state, const char *folder);
 /* Whether a pass of the pipeline reads images of the frame before. */

@@ -1,6 +1,5 @@
 /* What leaves the page: preset files, pages of two runs, run folders. Answers /api/v1/preset, report and write. */
 #include <errno.h>
-#include <ftw.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -111,11 +110,6 @@ struct reporting {
     size_t bytes;
 };
 
-static int remove_entry(const char *path, const struct stat *info, int kind, struct FTW *walk) {
-    (void)info, (void)kind, (void)walk;
-    return remove(path);
-}
-
 static bool read_page(const char *path, struct reporting *r, struct glint_error *err) {
     FILE *file = fopen(path, "rb");
     long end = file && fseek(file, 0, SEEK_END) == 0 ? ftell(file) : -1;
@@ -149,7 +143,7 @@ static bool work_report(struct live *live, void *user, struct glint_error *err) 
     snprintf(folder, sizeof folder, "%.4000s/report-XXXXXX", live->folder);
     if (!mkdtemp(folder)) return glint_fail(err, GLINT_ERROR_IO, "%s: %s", folder, strerror(errno));
     const bool ok = write_page(live, user, folder, err);
-    nftw(folder, remove_entry, 16, FTW_DEPTH | FTW_PHYS);
+    live_remove_folder(folder);
     return ok;
 }
 

@@ -8,7 +8,7 @@
 
 /* {"state", "command", "slots"}; NULL on failure. */
 static json_t *describe(const struct live *live, const struct state *state, struct glint_error *err) {
-    json_t *slots = state_slots(live, state, err);
+    json_t *slots = state_slots(state, err);
     char *command = slots ? state_command(live, state, "run") : NULL;
     json_t *json =
         command ? json_pack("{s:O, s:s, s:O}", "state", state->json, "command", command, "slots", slots) : NULL;

@@ -307,8 +307,7 @@ static json_t *parameters_json(const struct state *state, const struct glint_pas
     return list;
 }
 
-json_t *state_slots(const struct live *live, const struct state *state, struct glint_error *err) {
-    (void)live;
+json_t *state_slots(const struct state *state, struct glint_error *err) {
     struct glint_pipeline *preset =
         glint_pipeline_create(json_string_value(json_object_get(state->json, "preset")), err);
     struct slot *slots =

@@ -220,7 +220,8 @@ struct glint_replay_options {
     bool no_cache;   /* executes every pass, also those whose images are up to date */
     /* Passes run from programs that read parameters from memory where there is no program specialized for the values yet, so that a new value
        compiles nothing. Such passes are slower, and last bits of their images can differ where a device's compiler computes with values that it
-       knows otherwise than the device with others. A later run without `quick` takes none of these images. */
+       knows otherwise than the device with others. A later run of the frame without `quick` takes none of these images; what they are history of has
+       them, so that a run that another frame's history comes from is to be a plain one. */
     bool quick;
     /* If not 0, a pass whose images are up to date executes all the same, unless it already executed in a run of this round. So
        pipelines that are measured in turns share work within a round, and each round measures that work again. */
