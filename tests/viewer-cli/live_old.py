@@ -235,6 +235,20 @@ class Tests(live_tab.Tests):
         self.idle()
         assert self.ask(f"{field}.value") == str(int(number["lowest"]) + 3)
 
+    def test_a_slider_stands_at_the_value_of_the_picture_after_a_refusal(self):
+        tab, number = self.reset(), self.integer()
+        tab.write(row(number["name"]) + ".querySelector('.exact')", "99999999")
+        self.until(f"{STORE}.refusal")
+        tab.browser.settle()
+        slider, value = row(number["name"]) + ".querySelector('input[type=range]')", self.ask(f"{STORE}.slots.flatMap(s => s.parameters).find(p => p.name === '{number['name']}').value")
+        assert self.ask(f"{slider}.getAttribute('aria-valuetext')").split()[0] == str(value) and self.ask(f"+{slider}.value < +{slider}.max")
+
+    def test_a_draft_without_a_pass_that_was_timed_is_drawn(self):
+        tab = self.reset()
+        self.ask(f"{STORE}.result = {{...{STORE}.result, draft: true, passes: []}}, {STORE}.emit('result'), 1")
+        tab.browser.settle()
+        tab.quiet()
+
     def test_the_focus_stays_when_slots_come_and_go(self):
         self.reset()
         order = self.ask(f"{STORE}.slots.map(s => s.slot)")
