@@ -137,8 +137,8 @@ glintLive.control = (function () {
         });
         return {parts: [track, field], focus: slider, show(v, of, refused) {
             if (of !== preset) setPlaces(of);
-            if (!refused && typeof v === 'number') {
-                if (!typing && field.value !== text(v)) field.value = text(v);
+            if (typeof v === 'number') {
+                if (!refused && !typing && field.value !== text(v)) field.value = text(v);
                 if (places[+slider.value] !== v) slider.value = nearest(places, v);
                 slider.setAttribute('aria-valuetext', `${text(v)} ${unitOf(p)}`.trim());
             }

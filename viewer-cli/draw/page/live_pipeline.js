@@ -148,7 +148,7 @@ glintLive.pipeline = (function () {
             if (Number.isFinite(pass?.ns) && !result.draft) times.set(variant, pass.ns);
             /* those of a draft are times of a quarter of the frame */
             const ns = result?.draft ? times.get(variant) : pass?.ns ?? (pass?.cached ? times.get(variant) : undefined), known = Number.isFinite(counted);
-            bar(head.time, Number.isFinite(ns) ? `${pass.quick ? '\u2264 ' : ''}${milliseconds(ns)}` : '', Number.isFinite(ns) ? ns / scale.ns : 0,
+            bar(head.time, Number.isFinite(ns) ? `${pass?.quick ? '\u2264 ' : ''}${milliseconds(ns)}` : '', Number.isFinite(ns) ? ns / scale.ns : 0,
                 (pass?.cached_work ? 'runs when a cube map changes only, not in every frame' : 'time on the device when it last ran') +
                 (pass?.quick ? '; from a program that reads parameters from memory, which is slower than the pass\u2019s own: Measure times that' : ''));
             bar(head.fetches, known ? `${count(counted)} fetches` : pass?.cached ? KEPT : '', known ? counted / scale.fetches : 0,
