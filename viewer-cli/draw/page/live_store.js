@@ -92,7 +92,15 @@ glintLive.store = (function () {
             listeners.get(name).add(f);
             return () => listeners.get(name).delete(f);
         };
-        store.emit = name => { for (const f of [...(listeners.get(name) || [])]) f(store); };
+        /* A part of the page that fails leaves the others, and the requests under way, as they are. */
+        store.emit = name => {
+            for (const f of [...(listeners.get(name) || [])])
+                try {
+                    f(store);
+                } catch (error) {
+                    console.error(error);
+                }
+        };
 
         store.link = () => `${location.origin}${location.pathname}#s=${encode({state: store.state, look: store.look, ...(store.pinned ? {b: linkOf(store.pinned)} : {})})}`;
         const linkOf = ({title, of, effect, result}) => of ? {title, of, effect} : {title, state: result.state};
