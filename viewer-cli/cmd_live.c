@@ -123,7 +123,11 @@ static bool serve(const struct arguments *a, struct live *live, const sigset_t *
     if (started) {
         print_address(a, http, token);
         sigwait(signals, &number);
-        pthread_sigmask(SIG_UNBLOCK, signals, NULL); /* a second Ctrl-C ends what does not want to end */
+        /* A second Ctrl-C ends what does not want to end. */
+        sigset_t interrupt;
+        sigemptyset(&interrupt);
+        sigaddset(&interrupt, SIGINT);
+        pthread_sigmask(SIG_UNBLOCK, &interrupt, NULL);
         live_stop(live);
         http_stop(&http);
     }
