@@ -11,6 +11,7 @@
 
 #include "check/check.h"
 #include "glint/replay.h"
+#include "io/memory.h"
 
 enum { PATH_SIZE = 4096 };
 
@@ -148,7 +149,9 @@ bool check_approve(const char *run, const char *baseline, struct glint_error *er
     if (stat(run, &from) == 0 && stat(path, &to) == 0 && from.st_dev == to.st_dev && from.st_ino == to.st_ino)
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: run and baseline are the same folder", run);
     json_t *files = files_of(run, err);
-    const bool ok = files && copy_run(run, fresh, files, err) && replace(fresh, path, err);
+    bool ok = files && copy_run(run, fresh, files, err);
+    if (ok && memory_ran_out()) ok = glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", run); /* a file may lack */
+    ok = ok && replace(fresh, path, err);
     if (!ok && files) remove_files(fresh, files);
     json_decref(files);
     return ok;
