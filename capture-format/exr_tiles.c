@@ -4,8 +4,9 @@
 
 #include "exr_internal.h"
 
-static bool tile_fail(const struct glint_exr *exr, size_t p, const int at[2], enum glint_code code, const char *what,
+static bool tile_fail(struct glint_exr *exr, size_t p, const int at[2], enum glint_code code, const char *what,
                       struct glint_error *err) {
+    if (code == GLINT_ERROR_FORMAT) glint_exr_system_failed(exr, &code, &what);
     return glint_fail(err, code, "%s: part %s: tile %d, %d: %s", exr->path, exr->parts[p].info.name, at[0], at[1],
                       what);
 }

@@ -151,9 +151,7 @@ static bool write_in_turn(struct job *job, size_t index, int part, uint32_t y, c
     glint_mutex_unlock(&job->lock);
     if (!go) return false;
     const exr_result_t rv = exr_write_scanline_chunk(job->context, part, (int)y, data, bytes);
-    if (rv)
-        return job_fail(job, GLINT_ERROR_IO, job->targets[part].part->name,
-                        glint_exr_complaint(rv));
+    if (rv) return job_fail(job, GLINT_ERROR_IO, job->targets[part].part->name, glint_exr_complaint(rv));
     glint_mutex_lock(&job->lock);
     job->next++;
     glint_condition_wake_all(&job->turn);
@@ -170,10 +168,15 @@ static bool keep_chunk(struct job *job, struct worker *worker, size_t index, siz
     struct glint_exr *from = target->kept.exr;
     exr_chunk_info_t chunk;
     size_t got = 0;
+    enum glint_code code = GLINT_ERROR_FORMAT;
+    const char *what = "a chunk of the input is missing or damaged";
+    glint_exr_memory_begin();
     if (exr_read_scanline_chunk_info(from->context, (int)target->kept.part,
                                      from->parts[target->kept.part].first_y + (int)y, &chunk) ||
-        chunk.unpacked_size != bytes || chunk.packed_size > bytes || !chunk.packed_size)
-        return job_fail(job, GLINT_ERROR_FORMAT, target->part->name, "a chunk of the input is missing or damaged");
+        chunk.unpacked_size != bytes || chunk.packed_size > bytes || !chunk.packed_size) {
+        glint_exr_system_failed(from, &code, &what);
+        return job_fail(job, code, target->part->name, what);
+    }
     if (!glint_file_read(from->stream.file, worker->packed, chunk.packed_size, chunk.data_offset, &got))
         return job_fail(job, GLINT_ERROR_IO, target->part->name, strerror(errno));
     if (got != chunk.packed_size)
@@ -259,8 +262,7 @@ static bool write_headers(struct job *job) {
     if (glint_exr_memory_ran_out()) return job_fail(job, GLINT_ERROR_MEMORY, name, "out of memory");
     if (!rv) return true;
     char text[512];
-    snprintf(text, sizeof text, "%s: %s", what,
-             glint_exr_complaint(rv));
+    snprintf(text, sizeof text, "%s: %s", what, glint_exr_complaint(rv));
     return job_fail(job, rv == EXR_ERR_WRITE_IO ? GLINT_ERROR_IO : GLINT_ERROR_USAGE, name, text);
 }
 
@@ -314,8 +316,7 @@ static bool write_file(struct job *job, size_t chunk_bytes, uint32_t threads) {
     if (job->context) {
         const exr_result_t rv = exr_finish(&job->context);
         if (ok && rv)
-            ok = job_fail(job, GLINT_ERROR_IO, job->targets[job->target_count - 1].part->name,
-                          glint_exr_complaint(rv));
+            ok = job_fail(job, GLINT_ERROR_IO, job->targets[job->target_count - 1].part->name, glint_exr_complaint(rv));
     }
     for (uint32_t i = 0; i < workers; i++) {
         free(job->workers[i].pixels);
