@@ -79,11 +79,11 @@ static json_t *cubemaps_record(const struct survey_state *state) {
     json_t *traced = survey->active_traced ? time_record(&state->trace_time) : NULL;
     const bool whole = traced || !survey->active_traced;
     json_t *record = json_pack("{si si si si si so so so*}", "faces", (int)(6 * survey->active_surveyed), "open",
-                     (int)glint_survey_faces(survey, GLINT_SURVEY_OPEN), "sky",
-                     (int)glint_survey_faces(survey, GLINT_SURVEY_SKY), "crossed",
-                     (int)glint_survey_faces(survey, GLINT_SURVEY_CROSSED), "nearby",
-                     (int)glint_survey_faces(survey, GLINT_SURVEY_NEARBY), "active", list, "time_ns",
-                     time_record(&state->cubes.time), "reach_time_ns", traced);
+                               (int)glint_survey_faces(survey, GLINT_SURVEY_OPEN), "sky",
+                               (int)glint_survey_faces(survey, GLINT_SURVEY_SKY), "crossed",
+                               (int)glint_survey_faces(survey, GLINT_SURVEY_CROSSED), "nearby",
+                               (int)glint_survey_faces(survey, GLINT_SURVEY_NEARBY), "active", list, "time_ns",
+                               time_record(&state->cubes.time), "reach_time_ns", traced);
     return record_if(whole, record);
 }
 
@@ -98,13 +98,12 @@ json_t *survey_record(const struct survey_state *state, const struct glint_frame
     if (json && survey->on_device) record_set(&json, "time_ns", time_record(&state->time));
     if (json && survey->active_surveyed) record_set(&json, "active_cubemaps", cubemaps_record(state));
     if (!json || !survey->on_device || survey->partial) return json;
-    json_t *more = json_pack("{so so sI sI ss? sI sI so so}", "metalness",
-                                           numbers_record(survey->metalness, GLINT_SURVEY_BINS), "weight",
-                                           numbers_record(survey->weight, GLINT_SURVEY_WEIGHTS), "water",
-                                           (json_int_t)survey->water, "transparent", (json_int_t)survey->transparent,
-                                           "motion", glint_survey_motion(survey), "moved", (json_int_t)survey->moved,
-                                           "moving", (json_int_t)survey->moving, "stencil",
-                                           stencil_record(survey, frame), "luminance", range_record(survey->light));
+    json_t *more =
+        json_pack("{so so sI sI ss? sI sI so so}", "metalness", numbers_record(survey->metalness, GLINT_SURVEY_BINS),
+                  "weight", numbers_record(survey->weight, GLINT_SURVEY_WEIGHTS), "water", (json_int_t)survey->water,
+                  "transparent", (json_int_t)survey->transparent, "motion", glint_survey_motion(survey), "moved",
+                  (json_int_t)survey->moved, "moving", (json_int_t)survey->moving, "stencil",
+                  stencil_record(survey, frame), "luminance", range_record(survey->light));
     const bool whole = json_object_update_new(json, more) == 0;
     return record_if(whole, json);
 }

@@ -91,8 +91,7 @@ json_t *bad_values_record(const struct glint_bad_values *list, size_t count) {
     json_t *array = json_array();
     for (size_t i = 0; i < count; i++) {
         const struct glint_bad_values *bad = &list[i];
-        record_append(&array,
-                              json_pack("{ss ss? ss si si so sI sI}", "image", bad->image, "slot",
+        record_append(&array, json_pack("{ss ss? ss si si so sI sI}", "image", bad->image, "slot",
                                         bad->pass ? bad->pass->slot : NULL, "channel", bad->channel, "x", (int)bad->x,
                                         "y", (int)bad->y, "value", json_value(bad->value), "not_finite",
                                         (json_int_t)bad->not_finite, "clamped", (json_int_t)bad->clamped));

@@ -33,19 +33,19 @@ static json_t *pass_record(const struct results *results, const struct run *run,
     for (size_t r = 0; r < pass->pass->row_count; r++)
         if (glint_row_is_parameter(&pass->pass->rows[r]))
             record_set(&parameters, pass->pass->rows[r].name,
-                                parameter_record(&pass->pass->rows[r], pass->entry->values[r]));
+                       parameter_record(&pass->pass->rows[r], pass->entry->values[r]));
     const uint64_t rays = pass_rays(run->graph, pass);
     const char *from = pass->entry->shader ? pass->entry->shader : run->steps[p].spirv.from;
     const bool host = pass->pass->host;
     json_t *dispatches = host ? NULL : json_integer((json_int_t)(run->steps[p].dispatch_count * rays));
     json_t *work = host ? NULL : work_record(run, p), *shader = from ? text_or_null(from) : NULL;
     const bool whole = (host || (dispatches && work)) && (!from || shader);
-    json_t *record = json_pack("{ss ss sb so sb so* so* so* so* so* so s[] so}", "slot", pass->pass->slot, "variant",
-                     pass->pass->variant, "ran", pass->runs, "reason", text_or_null(result->reason), "cached",
-                     result->cached, "cached_work", pass->cached_work ? json_true() : NULL, "dispatches",
-                     dispatches, "work", work, "host", host ? json_true() : NULL, "shader",
-                             json_is_null(shader) ? NULL : shader, "parameters",
-                     parameters, "images", "time_ns", time_record(&result->time));
+    json_t *record =
+        json_pack("{ss ss sb so sb so* so* so* so* so* so s[] so}", "slot", pass->pass->slot, "variant",
+                  pass->pass->variant, "ran", pass->runs, "reason", text_or_null(result->reason), "cached",
+                  result->cached, "cached_work", pass->cached_work ? json_true() : NULL, "dispatches", dispatches,
+                  "work", work, "host", host ? json_true() : NULL, "shader", json_is_null(shader) ? NULL : shader,
+                  "parameters", parameters, "images", "time_ns", time_record(&result->time));
     return record_if(whole, record);
 }
 
@@ -83,7 +83,7 @@ static void warn_of_missing(const struct glint_replay *replay, const struct run 
     for (size_t i = 0; i < replay->missing_count; i++) {
         const struct glint_absence *missing = replay->missing[i];
         record_append(list, json_sprintf("no %s%s%s: %s", missing->role, missing->channels[0] ? ":" : "",
-                                                 missing->channels, missing->cost));
+                                         missing->channels, missing->cost));
     }
     for (size_t i = 0; i < run->graph->image_count; i++) {
         const struct graph_image *image = &run->graph->images[i];
@@ -92,8 +92,8 @@ static void warn_of_missing(const struct glint_replay *replay, const struct run 
         for (size_t k = 0; k < count; k++)
             known |= glint_absence_concerns(&all[k], image->row) || takes_place(&all[k], image->row);
         if (!known)
-            record_append(list, json_sprintf("the capture has no %s: %s holds its fallback value, %g",
-                                                     image->row->role, image->name, image->row->fallback));
+            record_append(list, json_sprintf("the capture has no %s: %s holds its fallback value, %g", image->row->role,
+                                             image->name, image->row->fallback));
     }
 }
 
@@ -117,8 +117,7 @@ static json_t *warnings_record(const struct glint_replay *replay, const struct r
         record_append(&list, sentence("%s was made from another capture", run->options->inputs));
     const struct glint_frame *frame = glint_capture_frame(run->source->capture);
     if (run->sizes->history && !frame->has_previous)
-        record_append(&list,
-                              json_string("the capture has no previous camera: the camera is assumed not to move"));
+        record_append(&list, json_string("the capture has no previous camera: the camera is assumed not to move"));
     char notes[GLINT_NOTES][GLINT_NOTE_LENGTH];
     for (size_t i = 0, count = glint_frame_notes(frame, notes); i < count; i++)
         record_append(&list, json_string(notes[i]));

@@ -162,11 +162,11 @@ bool run_finish_record(struct glint_replay *replay, json_t *root, struct glint_e
     const int failed =
         json_object_set_new(root, "capture",
                             json_pack("{ssss}", "path", glint_capture_path(replay->source.capture), "xxh3_128", hash)) |
-        json_object_set_new(root, "seconds",
-                        json_pack("{sfsfsfsfsf}", "read", replay->source.seconds[PHASE_READ], "upload",
-                                  replay->source.seconds[PHASE_UPLOAD], "passes", replay->source.seconds[PHASE_PASSES],
-                                  "readback", replay->source.seconds[PHASE_READBACK], "write",
-                                  replay->source.seconds[PHASE_WRITE])) |
+        json_object_set_new(
+            root, "seconds",
+            json_pack("{sfsfsfsfsf}", "read", replay->source.seconds[PHASE_READ], "upload",
+                      replay->source.seconds[PHASE_UPLOAD], "passes", replay->source.seconds[PHASE_PASSES], "readback",
+                      replay->source.seconds[PHASE_READBACK], "write", replay->source.seconds[PHASE_WRITE])) |
         json_object_set_new(root, "peak_memory_bytes", json_integer((json_int_t)peak_memory_bytes()));
     return !failed || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
 }
@@ -189,9 +189,9 @@ static bool write_pass(struct glint_replay *replay, size_t p, const char *folder
     json_t *images = json_object_get(recorded, "images");
     job->parameters = json_object_get(recorded, "parameters");
     for (size_t i = 0; i < job->count; i++)
-        if (json_array_append_new(images, image_record(&job->parts[i], job->path + strlen(folder) + 1,
-                                                       encoding_of(job->pass, job->parameters,
-                                                                   job->parts[i].info->row->name))))
+        if (json_array_append_new(images,
+                                  image_record(&job->parts[i], job->path + strlen(folder) + 1,
+                                               encoding_of(job->pass, job->parameters, job->parts[i].info->row->name))))
             return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", job->path);
     if (result->cached && replay->results.cache_keys[p][0] &&
         cache_copy(replay->results.cache, replay->results.cache_keys[p], job->path))
