@@ -125,7 +125,9 @@ static enum status print_capture(const struct arguments *a, struct glint_capture
     const struct glint_frame *frame = glint_capture_frame(capture);
     if (a->json) {
         const struct depth_facts depth = depth_facts(capture);
-        json_t *parts = json_array(), *carries = survey ? carries_json(capture, NULL) : NULL;
+        struct glint_error err = {0};
+        json_t *parts = json_array(), *carries = survey ? carries_json(capture, &err) : NULL;
+        if (survey && !carries) return json_decref(parts), command_fail(&cmd_info, &err);
         for (size_t i = 0; i < glint_capture_part_count(capture); i++)
             json_array_append_new(parts, part_json(capture, glint_capture_part(capture, i), all));
         return print_json(

@@ -98,5 +98,6 @@ int main(int argc, char **argv) {
     const enum status status = dispatch(argc, argv);
     const bool whole = !memory_ran_out(), written = flush_output();
     if (!whole) fputs("glint: out of memory: what was printed may be incomplete\n", stderr);
+    memory_end();
     return status == STATUS_DONE && !(whole && written) ? STATUS_CHECK : (int)status;
 }

@@ -150,7 +150,8 @@ bool check_approve(const char *run, const char *baseline, struct glint_error *er
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: run and baseline are the same folder", run);
     json_t *files = files_of(run, err);
     bool ok = files && copy_run(run, fresh, files, err);
-    if (ok && memory_ran_out()) ok = glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", run); /* a file may lack */
+    if (ok && memory_ran_out())
+        ok = glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", run); /* a file may lack */
     ok = ok && replace(fresh, path, err);
     if (!ok && files) remove_files(fresh, files);
     json_decref(files);

@@ -7,6 +7,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
+
+#include "status.h"
 
 static atomic_bool ran_out;
 
@@ -23,8 +26,30 @@ static void *noted(void *memory) {
     return memory;
 }
 
+/* ---- Jansson: 2.14 writes past the end of a string that it reads when its buffer cannot grow, and passes over what it cannot store. It has to get its memory: from
+   a reserve that is given back when there is none, once, and then the command fails at its end. ---- */
+
+enum { RESERVE_BYTES = 1 << 20 };
+static _Atomic(void *) reserve;
+
+static void *take_for_json(size_t bytes) {
+    void *memory = malloc(bytes);
+    if (memory) return memory;
+    free(atomic_exchange(&reserve, NULL));
+    memory = malloc(bytes);
+    if (memory) return memory;
+    static const char text[] = "glint: out of memory\n";
+    const ssize_t written = write(STDERR_FILENO, text, sizeof text - 1);
+    _exit(written < 0 ? STATUS_USAGE : STATUS_CHECK); /* rather than wrong texts, or worse */
+}
+
 void memory_begin(void) {
-    json_set_alloc_funcs(malloc, free);
+    atomic_store(&reserve, malloc(RESERVE_BYTES));
+    json_set_alloc_funcs(take_for_json, free);
+}
+
+void memory_end(void) {
+    free(atomic_exchange(&reserve, NULL));
 }
 
 /* ---- What the linker has the program call in place of the C library's functions (__wrap_), and these themselves (__real_) ---- */
@@ -119,9 +144,11 @@ static int stream_close(void *cookie) {
 FILE *__wrap_open_memstream(char **text, size_t *length) {
     struct stream *stream = malloc(sizeof *stream);
     char *begin = calloc(1, 1);
-    FILE *file = stream && begin
-                     ? fopencookie(stream, "w", (cookie_io_functions_t){.write = stream_write, .seek = stream_seek, .close = stream_close})
-                     : NULL;
+    FILE *file =
+        stream && begin
+            ? fopencookie(stream, "w",
+                          (cookie_io_functions_t){.write = stream_write, .seek = stream_seek, .close = stream_close})
+            : NULL;
     if (!noted(file)) {
         free(stream);
         free(begin);

@@ -8,8 +8,9 @@
 
 #include <stdbool.h>
 
-/* From here on Jansson's allocations are noted, too. Called once, by main. */
+/* From here on Jansson's allocations are noted, too, and a reserve is held for them. Called once, by main. */
 void memory_begin(void);
+void memory_end(void);
 /* Whether an allocation failed, in any thread, since the beginning or memory_forget. */
 bool memory_ran_out(void);
 /* For what goes on after a part of its work failed: a server after a request. */
