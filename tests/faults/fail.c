@@ -6,10 +6,11 @@
    GLINT_FAIL_ERROR   the error's number (errno), or "short": the call works with half of the bytes; without it what is usual for the kind
    GLINT_FAIL_REPORT  a file to which the number of calls is written when main returns, and the call stack of the first call that fails, one "object offset" a line
 
-   Calls are counted from the beginning of main to its end, in all threads. Only those that are made on behalf of glint count, as what the Vulkan loader, the driver, LLVM and
-   GLib and OpenColorIO do without memory is not glint's to mend (they end the process): from the call up the stack, objects that work for whoever calls them (libc, libstdc++, Jansson,
-   OpenEXRCore, libpng, …) are passed over, and the first other one decides. It has to be the program itself or a library libglint-…. The objects are those of
-   dl_iterate_phdr, and the stack is that of the unwinder. */
+   Calls are counted from the beginning of main to its end, in all threads. Only those that are made on behalf of glint count, as what the
+   Vulkan loader, the driver, LLVM and GLib and OpenColorIO do without memory is not glint's to mend (they end the process): from the call
+   up the stack, objects that work for whoever calls them (libc, libstdc++, Jansson, OpenEXRCore, libpng, …) are passed over, and the first
+   other one decides. It has to be the program itself or a library libglint-…. The objects are those of dl_iterate_phdr, and the stack is
+   that of the unwinder. */
 #include "fail.h"
 
 #include <dlfcn.h>

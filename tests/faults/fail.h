@@ -17,8 +17,8 @@ enum fail_kind {
     FAIL_KINDS
 };
 
-/* Whether this call has to fail: it is of the kind that was asked for, made between the beginning and the end of main on behalf of glint, and its number is the one. `caller` is
-   where the call returns to, or NULL if only the stack tells. */
+/* Whether this call has to fail: it is of the kind that was asked for, made between the beginning and the end of main on behalf of glint,
+   and its number is the one. `caller` is where the call returns to, or NULL if only the stack tells. */
 bool fail_now(enum fail_kind kind, const void *caller);
 /* Whether calls of this kind were asked for. */
 bool fail_watches(enum fail_kind kind);

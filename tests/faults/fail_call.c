@@ -1,5 +1,6 @@
-/* System calls that fail. A filter (seccomp) hands those of the kind that was asked for to a signal handler, which lets them fail or makes them itself: so what libc makes
-   inside, such as the writes of fflush, comes here as well. The filter lets calls from `make_call` through. */
+/* System calls that fail. A filter (seccomp) hands those of the kind that was asked for to a signal handler, which lets them fail or makes
+   them itself: so what libc makes inside, such as the writes of fflush, comes here as well. The filter lets calls from `make_call` through.
+   */
 #include "fail.h"
 
 #include <errno.h>

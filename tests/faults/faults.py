@@ -4,8 +4,9 @@ faults.py GLINT LIBRARY [--all | --samples N [--evenly]] [--only COMMAND[:KIND]]
 
 One fault has failed well if the command
 
-- ends with another status than 0, and not by a signal; says on stderr that it is out of memory, or the system's error with the name of a file; and leaves all files as they
-  were (none under a final name that was not there before, none changed, no temporary file) or all of them whole, as without the fault, if it failed afterwards; or
+- ends with another status than 0, and not by a signal; says on stderr that it is out of memory, or the system's error with the name of a
+  file; and leaves all files as they were (none under a final name that was not there before, none changed, no temporary file) or all of
+  them whole, as without the fault, if it failed afterwards; or
 - ends as without the fault, with the same bytes on stdout and the same files, byte for byte. Where two runs without a fault differ, as in times,
   numbers with their units and the spaces between columns are not compared.
 

@@ -17,6 +17,10 @@ bool memory_ran_out(void) {
     return atomic_load(&ran_out);
 }
 
+void memory_note(void) {
+    atomic_store(&ran_out, true);
+}
+
 void memory_forget(void) {
     atomic_store(&ran_out, false);
 }
@@ -26,8 +30,8 @@ static void *noted(void *memory) {
     return memory;
 }
 
-/* ---- Jansson: 2.14 writes past the end of a string that it reads when its buffer cannot grow, and passes over what it cannot store. It has to get its memory: from
-   a reserve that is given back when there is none, once, and then the command fails at its end. ---- */
+/* ---- Jansson: 2.14 writes past the end of a string that it reads when its buffer cannot grow, and passes over what it cannot store. It
+   has to get its memory: from a reserve that is given back when there is none, once, and then the command fails at its end. ---- */
 
 enum { RESERVE_BYTES = 1 << 20 };
 static _Atomic(void *) reserve;

@@ -4,6 +4,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "io/memory.h"
 #include "live/live.h"
 #include "options/args.h"
 
@@ -137,6 +138,7 @@ static void run_job(struct live *live, struct job *job) {
     live->idle = false;
     pthread_mutex_unlock(&live->lock);
     struct glint_error err = {0};
+    memory_forget(); /* what an earlier job lacked */
     const bool ok = job->work(live, job->data, &err);
     pthread_mutex_lock(&live->lock);
     live->running = NULL;
