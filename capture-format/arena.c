@@ -10,9 +10,12 @@ struct glint_arena_block {
 };
 
 void *glint_arena_take(struct glint_arena *arena, size_t bytes) {
-    if (bytes > (size_t)-1 - sizeof(struct glint_arena_block)) return NULL;
-    struct glint_arena_block *block = calloc(1, sizeof *block + (bytes ? bytes : 1));
-    if (!block) return NULL;
+    const bool fits = bytes <= (size_t)-1 - sizeof(struct glint_arena_block);
+    struct glint_arena_block *block = fits ? calloc(1, sizeof *block + (bytes ? bytes : 1)) : NULL;
+    if (!block) {
+        arena->exhausted = true;
+        return NULL;
+    }
     block->previous = arena->last;
     arena->last = block;
     arena->bytes += bytes;
@@ -36,4 +39,5 @@ void glint_arena_finish(struct glint_arena *arena) {
         free(block);
     }
     arena->bytes = 0;
+    arena->exhausted = false;
 }

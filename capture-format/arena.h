@@ -2,11 +2,13 @@
 #ifndef GLINT_ARENA_H
 #define GLINT_ARENA_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 struct glint_arena {
     struct glint_arena_block *last;
-    size_t bytes; /* allocated so far */
+    size_t bytes;   /* allocated so far */
+    bool exhausted; /* an allocation failed, whatever else what failed then says */
 };
 
 /* Zeroed, aligned for any type; NULL if memory is exhausted. */

@@ -41,6 +41,10 @@ static struct glint_sibling *open_sibling(struct glint_capture *capture, struct 
         glint_exr_close(&sibling->exr);
     free(path);
     capture->sibling_count++;
+    if (err.code == GLINT_ERROR_MEMORY) {
+        fail_memory(check);
+        return NULL;
+    }
     if (!sibling->exr) glint_violation(check, GLINT_RULE_SIBLING, part->name, NULL, "%s", err.message);
     return sibling;
 }

@@ -140,7 +140,11 @@ static bool copy_attribute(struct glint_arena *arena, struct glint_exr_attribute
     else if (to->type != GLINT_EXR_STRINGS && !opaque)
         to->numbers = glint_arena_copy(arena, to->numbers, to->count * sizeof *to->numbers);
     else if (opaque) to->bytes = glint_arena_copy(arena, to->bytes, to->count);
-    return to->name && to->type_name && (to->type != GLINT_EXR_STRING || to->string);
+    const void *value = to->type == GLINT_EXR_STRING    ? (const void *)to->string
+                        : to->type == GLINT_EXR_STRINGS ? (const void *)to->strings
+                        : opaque                        ? to->bytes
+                                                        : (const void *)to->numbers;
+    return to->name && to->type_name && value;
 }
 
 bool glint_edit_set(struct glint_edit *edit, size_t i, const struct glint_exr_attribute *attribute,

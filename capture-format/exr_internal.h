@@ -14,6 +14,7 @@ struct glint_exr_stream {
     uint64_t bytes;     /* size of the file */
     uint64_t allowance; /* bytes that may still be read through the stream, which chunks bypass */
     bool exceeded;      /* more than the allowance was requested */
+    int failure;        /* errno of the first read that failed, or 0 */
     const char *path;
     glint_mutex lock;
     char complaint[256];
@@ -89,6 +90,20 @@ int glint_exr_channel(const struct glint_exr_part_info *part, const char *name);
 static inline size_t glint_stored_bytes(enum glint_stored stored) {
     return stored == GLINT_STORED_HALF ? 2 : 4;
 }
+
+/* Memory for OpenEXRCore, which may go on without where it gets none: it then drops attributes or calls a file damaged. Whether that happened
+   is kept for each thread since glint_exr_memory_begin, as OpenEXRCore says neither for whom it allocates nor that it failed. */
+void *glint_exr_memory_take(size_t bytes);
+void glint_exr_memory_free(void *memory);
+void glint_exr_memory_begin(void);
+bool glint_exr_memory_ran_out(void);
+/* An error handler that keeps the first message of this thread since glint_exr_memory_begin. A context that is written to is locked while it calls
+   its handler, which therefore must not ask it for anything, not even for its user data. */
+void glint_exr_complain(exr_const_context_t context, exr_result_t code, const char *message);
+/* That message, or what the code means. */
+const char *glint_exr_complaint(exr_result_t code);
+/* What OpenEXRCore says of a file is not the file's fault if the system refused memory or a read: then this is the error, and the result true. */
+bool glint_exr_system_failed(struct glint_exr *exr, enum glint_code *code, const char **what);
 
 /* Convert attributes between OpenEXRCore and glint. */
 bool glint_exr_attributes_get(struct glint_exr *exr, size_t part, struct glint_error *err);

@@ -22,7 +22,12 @@ static int64_t stream_read(exr_const_context_t context, void *user, void *buffer
     glint_mutex_unlock(&stream->lock);
     if (!allowed || offset > INT64_MAX) return -1;
     size_t got = 0;
-    return glint_file_read(stream->file, buffer, size, offset, &got) ? (int64_t)got : -1;
+    if (glint_file_read(stream->file, buffer, size, offset, &got)) return (int64_t)got;
+    const int failure = errno;
+    glint_mutex_lock(&stream->lock);
+    if (!stream->failure) stream->failure = failure;
+    glint_mutex_unlock(&stream->lock);
+    return -1;
 }
 
 static int64_t stream_size(exr_const_context_t context, void *user) {
@@ -90,6 +95,8 @@ static bool start_reading(struct glint_exr *exr, struct glint_error *err) {
     exr_context_initializer_t init = EXR_DEFAULT_CONTEXT_INITIALIZER;
     init.error_handler_fn = store_complaint;
     init.user_data = &exr->stream;
+    init.alloc_fn = glint_exr_memory_take;
+    init.free_fn = glint_exr_memory_free;
     init.read_fn = stream_read;
     init.size_fn = stream_size;
     init.max_image_width = init.max_image_height = 1 << 28; /* larger than any limit, which read_layout checks */
@@ -221,6 +228,16 @@ static bool read_parts(struct glint_exr *exr, struct glint_error *err) {
     return true;
 }
 
+/* Headers, without what is only there because the system refused something. */
+static bool read_headers(struct glint_exr *exr, struct glint_error *err) {
+    enum glint_code code;
+    const char *what;
+    glint_exr_memory_begin();
+    const bool ok = start_reading(exr, err) && read_parts(exr, err);
+    if (glint_exr_system_failed(exr, &code, &what)) return glint_fail(err, code, "%s: %s", exr->path, what);
+    return ok;
+}
+
 struct glint_exr *glint_exr_open(const char *path, const struct glint_limits *limits, struct glint_error *err) {
     struct glint_exr *exr = calloc(1, sizeof *exr);
     if (!exr) {
@@ -236,7 +253,7 @@ struct glint_exr *glint_exr_open(const char *path, const struct glint_limits *li
     exr->stream.file = GLINT_NO_FILE;
     exr->path = glint_arena_string(&exr->arena, path);
     if (!exr->path) glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
-    if (!exr->path || !open_file(exr, err) || !start_reading(exr, err) || !read_parts(exr, err)) glint_exr_close(&exr);
+    if (!exr->path || !open_file(exr, err) || !read_headers(exr, err)) glint_exr_close(&exr);
     return exr;
 }
 

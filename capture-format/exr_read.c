@@ -28,6 +28,7 @@ struct job {
 
 static bool chunk_fail(struct job *job, size_t index, enum glint_code code, const char *what) {
     const struct glint_exr_part_file *part = &job->exr->parts[job->part];
+    if (code == GLINT_ERROR_FORMAT) glint_exr_system_failed(job->exr, &code, &what);
     glint_mutex_lock(&job->lock);
     if (job->first.code == GLINT_OK)
         glint_fail(&job->first, code, "%s: part %s: chunk %zu of %u: %s", job->exr->path, part->info.name, index,
@@ -85,6 +86,7 @@ static bool read_chunk(void *user, uint32_t w, size_t index) {
     const uint32_t lines = part->info.height - y < part->chunk_lines ? part->info.height - y : part->chunk_lines;
     const size_t bytes = lines * part->line_bytes;
     exr_chunk_info_t chunk;
+    glint_exr_memory_begin();
     if (exr_read_scanline_chunk_info(job->exr->context, (int)job->part, part->first_y + (int)y, &chunk))
         return chunk_fail(job, index, GLINT_ERROR_FORMAT, "its offset in the file is missing or damaged");
     if (chunk.unpacked_size != bytes || chunk.packed_size > bytes || chunk.packed_size == 0)

@@ -4,8 +4,9 @@
 
 #include "exr_internal.h"
 
-static bool tile_fail(const struct glint_exr *exr, size_t p, const int at[2], enum glint_code code, const char *what,
+static bool tile_fail(struct glint_exr *exr, size_t p, const int at[2], enum glint_code code, const char *what,
                       struct glint_error *err) {
+    if (code == GLINT_ERROR_FORMAT) glint_exr_system_failed(exr, &code, &what);
     return glint_fail(err, code, "%s: part %s: tile %d, %d: %s", exr->path, exr->parts[p].info.name, at[0], at[1],
                       what);
 }
@@ -58,6 +59,7 @@ static bool read_tile(struct glint_exr *exr, size_t p, const struct glint_exr_wa
     const uint32_t width = part->width - x < size[0] ? part->width - x : size[0],
                    height = part->height - y < size[1] ? part->height - y : size[1];
     exr_chunk_info_t chunk;
+    glint_exr_memory_begin();
     if (exr_read_tile_chunk_info(exr->context, (int)p, at[0], at[1], 0, 0, &chunk))
         return tile_fail(exr, p, at, GLINT_ERROR_FORMAT, "its offset in the file is missing or damaged", err);
     const uint64_t bytes = (uint64_t)width * height * (exr->parts[p].line_bytes / part->width);

@@ -51,19 +51,11 @@ static bool job_fail(struct job *job, enum glint_code code, const char *part, co
 
 static int64_t stream_write(exr_const_context_t context, void *user, const void *buffer, uint64_t size, uint64_t offset,
                             exr_stream_error_func_ptr_t error) {
-    (void)context, (void)error;
+    (void)error;
     struct glint_exr_stream *stream = user;
     if (glint_file_write(stream->file, buffer, size, offset)) return (int64_t)size;
-    snprintf(stream->complaint, sizeof stream->complaint, "%s", strerror(errno));
+    glint_exr_complain(context, EXR_ERR_WRITE_IO, strerror(errno));
     return -1;
-}
-
-static void store_complaint(exr_const_context_t context, exr_result_t code, const char *message) {
-    (void)code;
-    void *user = NULL;
-    if (!context || exr_get_user_data(context, &user) || !user) return;
-    struct glint_exr_stream *stream = user;
-    if (!stream->complaint[0]) snprintf(stream->complaint, sizeof stream->complaint, "%s", message ? message : "");
 }
 
 static exr_compression_t compression_of(enum glint_compression compression) {
@@ -159,9 +151,7 @@ static bool write_in_turn(struct job *job, size_t index, int part, uint32_t y, c
     glint_mutex_unlock(&job->lock);
     if (!go) return false;
     const exr_result_t rv = exr_write_scanline_chunk(job->context, part, (int)y, data, bytes);
-    if (rv)
-        return job_fail(job, GLINT_ERROR_IO, job->targets[part].part->name,
-                        job->stream.complaint[0] ? job->stream.complaint : exr_get_default_error_message(rv));
+    if (rv) return job_fail(job, GLINT_ERROR_IO, job->targets[part].part->name, glint_exr_complaint(rv));
     glint_mutex_lock(&job->lock);
     job->next++;
     glint_condition_wake_all(&job->turn);
@@ -178,10 +168,15 @@ static bool keep_chunk(struct job *job, struct worker *worker, size_t index, siz
     struct glint_exr *from = target->kept.exr;
     exr_chunk_info_t chunk;
     size_t got = 0;
+    enum glint_code code = GLINT_ERROR_FORMAT;
+    const char *what = "a chunk of the input is missing or damaged";
+    glint_exr_memory_begin();
     if (exr_read_scanline_chunk_info(from->context, (int)target->kept.part,
                                      from->parts[target->kept.part].first_y + (int)y, &chunk) ||
-        chunk.unpacked_size != bytes || chunk.packed_size > bytes || !chunk.packed_size)
-        return job_fail(job, GLINT_ERROR_FORMAT, target->part->name, "a chunk of the input is missing or damaged");
+        chunk.unpacked_size != bytes || chunk.packed_size > bytes || !chunk.packed_size) {
+        glint_exr_system_failed(from, &code, &what);
+        return job_fail(job, code, target->part->name, what);
+    }
     if (!glint_file_read(from->stream.file, worker->packed, chunk.packed_size, chunk.data_offset, &got))
         return job_fail(job, GLINT_ERROR_IO, target->part->name, strerror(errno));
     if (got != chunk.packed_size)
@@ -250,9 +245,12 @@ static exr_result_t declare_part(struct job *job, size_t i, const struct glint_e
 
 static bool write_headers(struct job *job) {
     exr_context_initializer_t init = EXR_DEFAULT_CONTEXT_INITIALIZER;
-    init.error_handler_fn = store_complaint;
+    init.error_handler_fn = glint_exr_complain;
     init.user_data = &job->stream;
     init.write_fn = stream_write;
+    init.alloc_fn = glint_exr_memory_take;
+    init.free_fn = glint_exr_memory_free;
+    glint_exr_memory_begin();
     const char *what = "header", *name = job->targets[0].part->name;
     exr_result_t rv = exr_start_write(&job->context, job->path, EXR_WRITE_FILE_DIRECTLY, &init);
     if (!rv) rv = exr_set_longname_support(job->context, 1);
@@ -261,10 +259,10 @@ static bool write_headers(struct job *job) {
         rv = declare_part(job, i, job->targets[0].part, &what);
     }
     if (!rv) what = "header", rv = exr_write_header(job->context);
+    if (glint_exr_memory_ran_out()) return job_fail(job, GLINT_ERROR_MEMORY, name, "out of memory");
     if (!rv) return true;
     char text[512];
-    snprintf(text, sizeof text, "%s: %s", what,
-             job->stream.complaint[0] ? job->stream.complaint : exr_get_default_error_message(rv));
+    snprintf(text, sizeof text, "%s: %s", what, glint_exr_complaint(rv));
     return job_fail(job, rv == EXR_ERR_WRITE_IO ? GLINT_ERROR_IO : GLINT_ERROR_USAGE, name, text);
 }
 
@@ -318,8 +316,7 @@ static bool write_file(struct job *job, size_t chunk_bytes, uint32_t threads) {
     if (job->context) {
         const exr_result_t rv = exr_finish(&job->context);
         if (ok && rv)
-            ok = job_fail(job, GLINT_ERROR_IO, job->targets[job->target_count - 1].part->name,
-                          job->stream.complaint[0] ? job->stream.complaint : exr_get_default_error_message(rv));
+            ok = job_fail(job, GLINT_ERROR_IO, job->targets[job->target_count - 1].part->name, glint_exr_complaint(rv));
     }
     for (uint32_t i = 0; i < workers; i++) {
         free(job->workers[i].pixels);

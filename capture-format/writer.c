@@ -49,9 +49,11 @@ bool glint_writer_set_frame(struct glint_writer *writer, const struct glint_fram
     struct glint_arena arena = {0};
     struct glint_attribute_list list = {0};
     struct glint_check check = {.file = writer->path, .err = err};
-    bool ok = glint_attributes_encode(&arena, &list, GLINT_SCOPE_FRAME, frame) ||
-              glint_fail(err, GLINT_ERROR_USAGE, "%s: part gbuffer: expected enums and counts in range, found others",
-                         writer->path);
+    bool ok = glint_attributes_encode(&arena, &list, GLINT_SCOPE_FRAME, frame);
+    if (!ok && arena.exhausted) glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", writer->path);
+    else if (!ok)
+        glint_fail(err, GLINT_ERROR_USAGE, "%s: part gbuffer: expected enums and counts in range, found others",
+                   writer->path);
     const struct glint_exr_part_info part = {.name = "gbuffer", .attributes = list.all, .attribute_count = list.count};
     writer->as_read = (struct glint_frame){0};
     ok = ok && glint_attributes_decode(&check, &part, GLINT_SCOPE_FRAME, &writer->as_read);

@@ -86,6 +86,7 @@ static bool push_foreign(struct glint_writer_part *held, const struct glint_part
         to->type = from->type == GLINT_ATTRIBUTE_STRING ? GLINT_EXR_STRING
                    : from->type == GLINT_ATTRIBUTE_INT  ? GLINT_EXR_INT
                                                         : GLINT_EXR_DOUBLE;
+        if (held->arena.exhausted) return glint_fail(err, GLINT_ERROR_MEMORY, "part %s: out of memory", part->name);
         if (!to->name || !to->numbers || (to->type == GLINT_EXR_STRING && !to->string))
             return glint_fail(err, GLINT_ERROR_USAGE, "part %s: %s: expected a value", part->name, from->name);
     }
@@ -100,10 +101,11 @@ static bool push_scopes(struct glint_writer_part *held, const struct glint_part 
         const void *from = row->of_frame ? NULL : *(const void *const *)((const char *)part + row->given);
         if (!from || (from == part->truth && !glint_scope_is_on((enum glint_scope)i, role, false))) continue;
         if (!glint_attributes_encode(&held->arena, &held->attributes, (enum glint_scope)i, from))
-            return from == part->cubemap ? glint_fail(err, GLINT_ERROR_USAGE,
-                                                      "part %s: expected a volume and at most %d planes, found others",
-                                                      part->name, GLINT_MAX_PLANES)
-                                         : glint_fail(err, GLINT_ERROR_MEMORY, "part %s: out of memory", part->name);
+            return from == part->cubemap && !held->arena.exhausted
+                       ? glint_fail(err, GLINT_ERROR_USAGE,
+                                    "part %s: expected a volume and at most %d planes, found others", part->name,
+                                    GLINT_MAX_PLANES)
+                       : glint_fail(err, GLINT_ERROR_MEMORY, "part %s: out of memory", part->name);
     }
     return true;
 }

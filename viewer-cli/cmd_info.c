@@ -125,7 +125,9 @@ static enum status print_capture(const struct arguments *a, struct glint_capture
     const struct glint_frame *frame = glint_capture_frame(capture);
     if (a->json) {
         const struct depth_facts depth = depth_facts(capture);
-        json_t *parts = json_array(), *carries = survey ? carries_json(capture, NULL) : NULL;
+        struct glint_error err = {0};
+        json_t *parts = json_array(), *carries = survey ? carries_json(capture, &err) : NULL;
+        if (survey && !carries) return json_decref(parts), command_fail(&cmd_info, &err);
         for (size_t i = 0; i < glint_capture_part_count(capture); i++)
             json_array_append_new(parts, part_json(capture, glint_capture_part(capture, i), all));
         return print_json(
@@ -175,14 +177,14 @@ static enum status print_exr(const struct arguments *a, const struct glint_exr *
     return STATUS_DONE;
 }
 
-/* A file without a G-buffer is listed as any EXR file; one with a G-buffer must be a valid capture. */
-static bool is_capture(const char *path) {
-    struct glint_exr *exr = glint_exr_open(path, NULL, NULL);
-    bool found = false;
-    for (size_t i = 0; exr && i < glint_exr_part_count(exr) && !found; i++)
-        found = !strcmp(glint_exr_part(exr, i)->name, "gbuffer");
-    glint_exr_close(&exr);
-    return found;
+/* A file without a G-buffer is listed as any EXR file; one with a G-buffer must be a valid capture. NULL: neither. */
+static struct glint_exr *open_exr(const char *path, bool *is_capture, struct glint_error *err) {
+    struct glint_exr *exr = glint_exr_open(path, NULL, err);
+    *is_capture = false;
+    for (size_t i = 0; exr && i < glint_exr_part_count(exr) && !*is_capture; i++)
+        *is_capture = !strcmp(glint_exr_part(exr, i)->name, "gbuffer");
+    if (*is_capture) glint_exr_close(&exr);
+    return exr;
 }
 
 /* With --json, a run is described by its run.json. */
@@ -314,15 +316,15 @@ static enum status cmd_info_run(int argc, char **argv) {
     struct glint_capture *capture = NULL;
     struct glint_exr *exr = NULL;
     struct pipe pipe;
-    bool ok = false;
+    bool ok = false, is_capture = false;
     progress_begin(&progress);
     const char *path = pipe_input(&pipe, a.path, &err);
-    if (path && is_capture(path)) {
+    if (path) exr = open_exr(path, &is_capture, &err);
+    if (is_capture) {
         capture = glint_capture_open(path, NULL, &err);
         ok = capture && channels_of_capture(&all, capture, !a.headers, progress_report, &progress, &err) &&
              (a.headers || glint_survey_capture(capture, &survey, &err));
-    } else if (path) {
-        exr = glint_exr_open(path, NULL, &err);
+    } else {
         ok = exr && channels_of_exr(&all, exr, !a.headers, progress_report, &progress, &err);
     }
     progress_end(&progress);

@@ -7,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "io/memory.h"
 #include "io/table.h"
 #include "nearest.h"
 #include "options/args.h"
@@ -200,6 +201,8 @@ static void fail(const struct command *command, const char *format, ...) {
 }
 
 enum status command_fail(const struct command *command, const struct glint_error *err) {
+    /* What is said of a file may be only because memory was lacking; main tells that. */
+    if (memory_ran_out() && err->code != GLINT_ERROR_MEMORY) return STATUS_CHECK;
     fail(command, "%s", err->message[0] ? err->message : "failed without a message");
     switch (err->code) {
     case GLINT_ERROR_USAGE:

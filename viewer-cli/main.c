@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "complete/complete.h"
+#include "io/memory.h"
 #include "io/table.h"
 #include "nearest.h"
 
@@ -82,15 +83,21 @@ static enum status dispatch(int argc, char **argv) {
     return command ? command->run(argc - 1, argv + 1) : unknown_command(first);
 }
 
+static bool flush_output(void) {
+    errno = 0;
+    if (fflush(stdout) == 0 && !ferror(stdout)) return true;
+    fprintf(stderr, "glint: cannot write to stdout: %s\n", errno ? strerror(errno) : "not everything could be written");
+    return false;
+}
+
 int main(int argc, char **argv) {
     setlocale(LC_CTYPE, "");
     console_begin();
+    memory_begin();
     argp_err_exit_status = STATUS_USAGE;
-    enum status status = dispatch(argc, argv);
-    errno = 0;
-    if (fflush(stdout) != 0 || ferror(stdout)) {
-        fprintf(stderr, "glint: cannot write to stdout: %s\n", strerror(errno));
-        return status == STATUS_DONE ? STATUS_CHECK : (int)status;
-    }
-    return (int)status;
+    const enum status status = dispatch(argc, argv);
+    const bool whole = !memory_ran_out(), written = flush_output();
+    if (!whole) fputs("glint: out of memory: what was printed may be incomplete\n", stderr);
+    memory_end();
+    return status == STATUS_DONE && !(whole && written) ? STATUS_CHECK : (int)status;
 }

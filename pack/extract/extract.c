@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <unistd.h>
 
 #include "attributes.h"
 #include "file.h"
@@ -17,6 +18,7 @@ struct extract {
     const struct glint_pack_options *options;
     struct glint_exr *exr;
     json_t *manifest, *textures, *parts;
+    struct written *written;
 };
 
 static bool no_memory(const struct extract *x, struct glint_error *err) {
@@ -36,15 +38,39 @@ static char *path_in(const struct extract *x, const char *name) {
     return path;
 }
 
-static bool write_file(const struct extract *x, const char *name, const void *data, size_t size,
-                       struct glint_error *err) {
+/* A file that was not there before. */
+struct written {
+    struct written *before;
+    char *path;
+};
+
+static bool write_file(struct extract *x, const char *name, const void *data, size_t size, struct glint_error *err) {
     char *path = path_in(x, name);
-    if (!path) return no_memory(x, err);
-    const bool ok = !file_same(path, x->capture)
-                        ? file_write(path, data, size, err)
-                        : glint_fail(err, GLINT_ERROR_USAGE, "%s is the capture itself: expected another folder", path);
+    struct written *written = malloc(sizeof *written);
+    const bool fresh = path && access(path, F_OK) != 0;
+    bool ok = (path && written) || no_memory(x, err);
+    if (ok && file_same(path, x->capture))
+        ok = glint_fail(err, GLINT_ERROR_USAGE, "%s is the capture itself: expected another folder", path);
+    ok = ok && file_write(path, data, size, err);
+    if (ok && fresh) {
+        *written = (struct written){x->written, path};
+        x->written = written;
+        return true;
+    }
+    free(written);
     free(path);
     return ok;
+}
+
+/* Ends what was written; without `keep`, the files that were not there before are removed. */
+static void finish_files(struct extract *x, bool keep) {
+    while (x->written) {
+        struct written *written = x->written;
+        x->written = written->before;
+        if (!keep) unlink(written->path);
+        free(written->path);
+        free(written);
+    }
 }
 
 /* ---- Textures ---- */
@@ -236,7 +262,10 @@ bool glint_extract(const char *capture, const char *folder, const struct glint_p
                         .parts = json_object()};
     x.exr = glint_exr_open(capture, NULL, err);
     bool ok = x.exr && ((x.manifest && x.textures && x.parts) || no_memory(&x, err));
+    const bool made = access(folder, F_OK) != 0;
     ok = ok && glint_make_folder(folder, err) && extract_all(&x, err);
+    finish_files(&x, ok);
+    if (!ok && made) rmdir(folder);
     glint_exr_close(&x.exr);
     json_decref(x.manifest);
     json_decref(x.textures);

@@ -14,7 +14,7 @@ char *file_text(const char *path, size_t limit, struct glint_error *err) {
     }
     char *text = malloc(limit + 2); /* pages that are not written cost nothing */
     const size_t size = text ? fread(text, 1, limit + 1, file) : 0;
-    bool failed = ferror(file) != 0;
+    const int failed = ferror(file) ? errno : 0;
     fclose(file);
     if (text && !failed && size <= limit) {
         text[size] = 0;
@@ -23,7 +23,8 @@ char *file_text(const char *path, size_t limit, struct glint_error *err) {
             return fitted ? fitted : text;
         }
         glint_fail(err, GLINT_ERROR_FORMAT, "%s: expected text, found a NUL byte at %zu", path, strlen(text));
-    } else if (failed) glint_fail(err, GLINT_ERROR_IO, "%s: cannot be read", path);
+    } else if (!text) glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
+    else if (failed) glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(failed));
     else glint_fail(err, GLINT_ERROR_LIMIT, "%s: expected at most %zu bytes of text", path, limit);
     free(text);
     return NULL;

@@ -3,11 +3,13 @@
 
 #include <errno.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "complete.h"
 #include "glint/replay.h"
+#include "record.h"
 
 enum { PATH_SIZE = 4096 };
 
@@ -45,8 +47,11 @@ bool run_write_json(const char *folder, const json_t *root, struct glint_error *
     if (snprintf(path, sizeof path, "%s/run.json", folder) >= (int)sizeof path)
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
     if (!complete_open(&out, path, err)) return false;
-    const bool ok = json_dumpfd(root, (int)out.file, JSON_INDENT(2) | JSON_REAL_PRECISION(9)) == 0;
-    if (!ok) glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
+    char *text = record_text(root, JSON_INDENT(2) | JSON_REAL_PRECISION(9));
+    bool ok = text || glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
+    if (ok && !glint_file_write(out.file, text, strlen(text), 0))
+        ok = glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
+    free(text);
     return complete_close(&out, ok, false, err);
 }
 

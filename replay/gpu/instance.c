@@ -202,6 +202,7 @@ bool instance_devices(VkInstance instance, VkPhysicalDevice **physical, struct g
     *infos = calloc(n + 1, sizeof **infos);
     if (!*physical || !*infos) {
         free(*physical), free(*infos);
+        *physical = NULL, *infos = NULL;
         return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     }
     *count = 0;

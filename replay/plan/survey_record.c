@@ -3,9 +3,11 @@
 
 #include <math.h>
 
+#include "record.h"
+
 static json_t *numbers_record(const uint64_t *values, size_t count) {
     json_t *list = json_array();
-    for (size_t i = 0; i < count; i++) json_array_append_new(list, json_integer((json_int_t)values[i]));
+    for (size_t i = 0; i < count; i++) record_append(&list, json_integer((json_int_t)values[i]));
     return list;
 }
 
@@ -39,7 +41,7 @@ static json_t *stencil_record(const struct glint_survey *survey, const struct gl
     uint64_t count;
     for (uint32_t i = 0; i < frame->class_count; i++)
         if (glint_survey_class(survey, &frame->classes[i], &count))
-            json_object_set_new(classes, frame->classes[i].name, json_integer((json_int_t)count));
+            record_set(&classes, frame->classes[i].name, json_integer((json_int_t)count));
     return classes;
 }
 
@@ -70,17 +72,19 @@ static json_t *cubemaps_record(const struct survey_state *state) {
     for (uint32_t i = 0; i < survey->active_surveyed; i++) {
         const struct glint_survey_cubemap *map = &survey->active[i];
         json_t *entry = json_pack("{sIsisi}", "number", (json_int_t)map->number, "open", map->open, "sky", map->sky);
-        if (survey->active_traced) json_object_set_new(entry, "crossed", json_integer(map->crossed));
-        if (survey->active_traced) json_object_set_new(entry, "nearby", json_integer(map->nearby));
-        json_array_append_new(list, entry);
+        if (survey->active_traced) record_set(&entry, "crossed", json_integer(map->crossed));
+        if (survey->active_traced) record_set(&entry, "nearby", json_integer(map->nearby));
+        record_append(&list, entry);
     }
-    return json_pack("{si si si si si so so so*}", "faces", (int)(6 * survey->active_surveyed), "open",
-                     (int)glint_survey_faces(survey, GLINT_SURVEY_OPEN), "sky",
-                     (int)glint_survey_faces(survey, GLINT_SURVEY_SKY), "crossed",
-                     (int)glint_survey_faces(survey, GLINT_SURVEY_CROSSED), "nearby",
-                     (int)glint_survey_faces(survey, GLINT_SURVEY_NEARBY), "active", list, "time_ns",
-                     time_record(&state->cubes.time), "reach_time_ns",
-                     survey->active_traced ? time_record(&state->trace_time) : NULL);
+    json_t *traced = survey->active_traced ? time_record(&state->trace_time) : NULL;
+    const bool whole = traced || !survey->active_traced;
+    json_t *record = json_pack("{si si si si si so so so*}", "faces", (int)(6 * survey->active_surveyed), "open",
+                               (int)glint_survey_faces(survey, GLINT_SURVEY_OPEN), "sky",
+                               (int)glint_survey_faces(survey, GLINT_SURVEY_SKY), "crossed",
+                               (int)glint_survey_faces(survey, GLINT_SURVEY_CROSSED), "nearby",
+                               (int)glint_survey_faces(survey, GLINT_SURVEY_NEARBY), "active", list, "time_ns",
+                               time_record(&state->cubes.time), "reach_time_ns", traced);
+    return record_if(whole, record);
 }
 
 json_t *survey_record(const struct survey_state *state, const struct glint_frame *frame) {
@@ -90,16 +94,16 @@ json_t *survey_record(const struct survey_state *state, const struct glint_frame
                              pixels_record(&survey->reflecting), "depth_m", range_record(survey->depth_m), "cubemaps",
                              (json_int_t)survey->cubemaps, "volumes", (json_int_t)survey->volumes, "probe",
                              survey->has_probe, "planar", survey->has_planar, "previous", survey->has_previous);
-    json_object_set_new(json, "counted_on", json_string(survey->on_device ? "device" : "host"));
-    if (json && survey->on_device) json_object_set_new(json, "time_ns", time_record(&state->time));
-    if (json && survey->active_surveyed) json_object_set_new(json, "active_cubemaps", cubemaps_record(state));
+    record_set(&json, "counted_on", json_string(survey->on_device ? "device" : "host"));
+    if (json && survey->on_device) record_set(&json, "time_ns", time_record(&state->time));
+    if (json && survey->active_surveyed) record_set(&json, "active_cubemaps", cubemaps_record(state));
     if (!json || !survey->on_device || survey->partial) return json;
-    json_object_update_new(json, json_pack("{so so sI sI ss? sI sI so so}", "metalness",
-                                           numbers_record(survey->metalness, GLINT_SURVEY_BINS), "weight",
-                                           numbers_record(survey->weight, GLINT_SURVEY_WEIGHTS), "water",
-                                           (json_int_t)survey->water, "transparent", (json_int_t)survey->transparent,
-                                           "motion", glint_survey_motion(survey), "moved", (json_int_t)survey->moved,
-                                           "moving", (json_int_t)survey->moving, "stencil",
-                                           stencil_record(survey, frame), "luminance", range_record(survey->light)));
-    return json;
+    json_t *more =
+        json_pack("{so so sI sI ss? sI sI so so}", "metalness", numbers_record(survey->metalness, GLINT_SURVEY_BINS),
+                  "weight", numbers_record(survey->weight, GLINT_SURVEY_WEIGHTS), "water", (json_int_t)survey->water,
+                  "transparent", (json_int_t)survey->transparent, "motion", glint_survey_motion(survey), "moved",
+                  (json_int_t)survey->moved, "moving", (json_int_t)survey->moving, "stencil",
+                  stencil_record(survey, frame), "luminance", range_record(survey->light));
+    const bool whole = json_object_update_new(json, more) == 0;
+    return record_if(whole, json);
 }

@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "record.h"
+
 /* An alias shows an image of the capture, whose invalid values were counted when it was uploaded. */
 static bool is_captured(const struct image_part *part) {
     return part->info == &part->image->alias;
@@ -89,8 +91,7 @@ json_t *bad_values_record(const struct glint_bad_values *list, size_t count) {
     json_t *array = json_array();
     for (size_t i = 0; i < count; i++) {
         const struct glint_bad_values *bad = &list[i];
-        json_array_append_new(array,
-                              json_pack("{ss ss? ss si si so sI sI}", "image", bad->image, "slot",
+        record_append(&array, json_pack("{ss ss? ss si si so sI sI}", "image", bad->image, "slot",
                                         bad->pass ? bad->pass->slot : NULL, "channel", bad->channel, "x", (int)bad->x,
                                         "y", (int)bad->y, "value", json_value(bad->value), "not_finite",
                                         (json_int_t)bad->not_finite, "clamped", (json_int_t)bad->clamped));

@@ -1,7 +1,11 @@
 /* run.json without files. It is made when the run ends, since the caller owns the pipeline and the options. */
 #include "session.h"
 
+#include <stdarg.h>
+#include <stdio.h>
 #include <string.h>
+
+#include "record.h"
 
 static json_t *parameter_record(const struct glint_row *row, double value) {
     if (row->choices) return json_string(row->choices[(size_t)value]);
@@ -17,8 +21,9 @@ static json_t *work_record(const struct run *run, size_t p) {
 
 /* null also for a path that is not UTF-8. */
 static json_t *text_or_null(const char *text) {
-    json_t *string = text ? json_string(text) : NULL;
-    return string ? string : json_null();
+    json_error_t fault;
+    json_t *string = text ? json_pack_ex(&fault, 0, "s", text) : NULL;
+    return string || (text && json_error_code(&fault) != json_error_invalid_utf8) ? string : json_null();
 }
 
 static json_t *pass_record(const struct results *results, const struct run *run, size_t p) {
@@ -27,17 +32,21 @@ static json_t *pass_record(const struct results *results, const struct run *run,
     json_t *parameters = json_object();
     for (size_t r = 0; r < pass->pass->row_count; r++)
         if (glint_row_is_parameter(&pass->pass->rows[r]))
-            json_object_set_new(parameters, pass->pass->rows[r].name,
-                                parameter_record(&pass->pass->rows[r], pass->entry->values[r]));
+            record_set(&parameters, pass->pass->rows[r].name,
+                       parameter_record(&pass->pass->rows[r], pass->entry->values[r]));
     const uint64_t rays = pass_rays(run->graph, pass);
-    const char *shader = pass->entry->shader ? pass->entry->shader : run->steps[p].spirv.from;
-    return json_pack("{ss ss sb so sb so* so* so* so* so* so s[] so}", "slot", pass->pass->slot, "variant",
-                     pass->pass->variant, "ran", pass->runs, "reason", text_or_null(result->reason), "cached",
-                     result->cached, "cached_work", pass->cached_work ? json_true() : NULL, "dispatches",
-                     pass->pass->host ? NULL : json_integer((json_int_t)(run->steps[p].dispatch_count * rays)), "work",
-                     pass->pass->host ? NULL : work_record(run, p), "host", pass->pass->host ? json_true() : NULL,
-                     "shader", shader ? json_string(shader) : NULL, "parameters", parameters, "images", "time_ns",
-                     time_record(&result->time));
+    const char *from = pass->entry->shader ? pass->entry->shader : run->steps[p].spirv.from;
+    const bool host = pass->pass->host;
+    json_t *dispatches = host ? NULL : json_integer((json_int_t)(run->steps[p].dispatch_count * rays));
+    json_t *work = host ? NULL : work_record(run, p), *shader = from ? text_or_null(from) : NULL;
+    const bool whole = (host || (dispatches && work)) && (!from || shader);
+    json_t *record =
+        json_pack("{ss ss sb so sb so* so* so* so* so* so s[] so}", "slot", pass->pass->slot, "variant",
+                  pass->pass->variant, "ran", pass->runs, "reason", text_or_null(result->reason), "cached",
+                  result->cached, "cached_work", pass->cached_work ? json_true() : NULL, "dispatches", dispatches,
+                  "work", work, "host", host ? json_true() : NULL, "shader", json_is_null(shader) ? NULL : shader,
+                  "parameters", parameters, "images", "time_ns", time_record(&result->time));
+    return record_if(whole, record);
 }
 
 static json_t *device_record(const struct glint_device_info *info) {
@@ -68,13 +77,13 @@ static bool takes_place(const struct glint_absence *absence, const struct glint_
 }
 
 /* What the capture does not have and what that costs; images of which nothing is known hold their fallback value. */
-static void warn_of_missing(const struct glint_replay *replay, const struct run *run, json_t *list) {
+static void warn_of_missing(const struct glint_replay *replay, const struct run *run, json_t **list) {
     size_t count;
     const struct glint_absence *all = glint_absences(&count);
     for (size_t i = 0; i < replay->missing_count; i++) {
         const struct glint_absence *missing = replay->missing[i];
-        json_array_append_new(list, json_sprintf("no %s%s%s: %s", missing->role, missing->channels[0] ? ":" : "",
-                                                 missing->channels, missing->cost));
+        record_append(list, json_sprintf("no %s%s%s: %s", missing->role, missing->channels[0] ? ":" : "",
+                                         missing->channels, missing->cost));
     }
     for (size_t i = 0; i < run->graph->image_count; i++) {
         const struct graph_image *image = &run->graph->images[i];
@@ -83,35 +92,45 @@ static void warn_of_missing(const struct glint_replay *replay, const struct run 
         for (size_t k = 0; k < count; k++)
             known |= glint_absence_concerns(&all[k], image->row) || takes_place(&all[k], image->row);
         if (!known)
-            json_array_append_new(list, json_sprintf("the capture has no %s: %s holds its fallback value, %g",
-                                                     image->row->role, image->name, image->row->fallback));
+            record_append(list, json_sprintf("the capture has no %s: %s holds its fallback value, %g", image->row->role,
+                                             image->name, image->row->fallback));
     }
+}
+
+/* null also where what is inserted is not UTF-8. */
+GLINT_PRINTF(1, 2)
+static json_t *sentence(const char *format, ...) {
+    char text[4096];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    return text_or_null(text);
 }
 
 static json_t *warnings_record(const struct glint_replay *replay, const struct run *run) {
     json_t *list = json_array();
-    warn_of_missing(replay, run, list);
+    warn_of_missing(replay, run, &list);
     if (run->options->diagnostics && !makes_diagnostics(run))
-        json_array_append_new(list, json_string("diagnostics were requested, but no pass that runs writes any"));
+        record_append(&list, json_string("diagnostics were requested, but no pass that runs writes any"));
     if (run->plan->inputs && !inputs_match(run))
-        json_array_append_new(list, json_sprintf("%s was made from another capture", run->options->inputs));
+        record_append(&list, sentence("%s was made from another capture", run->options->inputs));
     const struct glint_frame *frame = glint_capture_frame(run->source->capture);
     if (run->sizes->history && !frame->has_previous)
-        json_array_append_new(list,
-                              json_string("the capture has no previous camera: the camera is assumed not to move"));
+        record_append(&list, json_string("the capture has no previous camera: the camera is assumed not to move"));
     char notes[GLINT_NOTES][GLINT_NOTE_LENGTH];
     for (size_t i = 0, count = glint_frame_notes(frame, notes); i < count; i++)
-        json_array_append_new(list, json_string(notes[i]));
+        record_append(&list, json_string(notes[i]));
     const char *last = NULL;
     uint32_t messages = glint_device_messages(run->engine->device, &last);
-    if (messages) json_array_append_new(list, json_sprintf("%u validation messages, the last: %s", messages, last));
+    if (messages) record_append(&list, sentence("%u validation messages, the last: %s", messages, last));
     return list;
 }
 
 /* The values of images whose unit is the end reason. */
 static json_t *end_reasons_record(void) {
     json_t *list = json_array();
-#define REASON(name, text) json_array_append_new(list, json_pack("{ssss}", "name", #name, "text", text));
+#define REASON(name, text) record_append(&list, json_pack("{ssss}", "name", #name, "text", text));
 #include "shared/end_reasons.h"
 #undef REASON
     return list;
@@ -119,7 +138,7 @@ static json_t *end_reasons_record(void) {
 
 static json_t *matrix_record(const double matrix[16]) {
     json_t *list = json_array();
-    for (int i = 0; i < 16; i++) json_array_append_new(list, json_real(matrix[i]));
+    for (int i = 0; i < 16; i++) record_append(&list, json_real(matrix[i]));
     return list;
 }
 

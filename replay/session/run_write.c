@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "glint/exr.h"
+#include "record.h"
 #include "run_json.h"
 
 enum { PATH_SIZE = 4096, CHANNELS = 4 };
@@ -136,8 +137,8 @@ static json_t *image_record(const struct image_part *part, const char *file, con
     json_t *record = json_pack("{ssssssssssss si si ss}", "name", image->name, "file", file, "part", image->name,
                                "channels", row->channels, "unit", row->unit, "meaning", row->help, "width",
                                (int)image->width, "height", (int)image->height, "format", format_name(image->format));
-    if (image->levels > 1) json_object_set_new(record, "level", json_integer((json_int_t)image->level));
-    if (encoding) json_object_set_new(record, "encoding", json_string(encoding));
+    if (image->levels > 1) record_set(&record, "level", json_integer((json_int_t)image->level));
+    if (encoding) record_set(&record, "encoding", json_string(encoding));
     return record;
 }
 
@@ -158,15 +159,16 @@ static bool check_not_inputs(const struct glint_replay *replay, const char *fold
 bool run_finish_record(struct glint_replay *replay, json_t *root, struct glint_error *err) {
     char hash[33];
     if (!frame_source_hash(&replay->source, hash, err)) return false;
-    json_object_set_new(root, "capture",
-                        json_pack("{ssss}", "path", glint_capture_path(replay->source.capture), "xxh3_128", hash));
-    json_object_set_new(root, "seconds",
-                        json_pack("{sfsfsfsfsf}", "read", replay->source.seconds[PHASE_READ], "upload",
-                                  replay->source.seconds[PHASE_UPLOAD], "passes", replay->source.seconds[PHASE_PASSES],
-                                  "readback", replay->source.seconds[PHASE_READBACK], "write",
-                                  replay->source.seconds[PHASE_WRITE]));
-    json_object_set_new(root, "peak_memory_bytes", json_integer((json_int_t)peak_memory_bytes()));
-    return true;
+    const int failed =
+        json_object_set_new(root, "capture",
+                            json_pack("{ssss}", "path", glint_capture_path(replay->source.capture), "xxh3_128", hash)) |
+        json_object_set_new(
+            root, "seconds",
+            json_pack("{sfsfsfsfsf}", "read", replay->source.seconds[PHASE_READ], "upload",
+                      replay->source.seconds[PHASE_UPLOAD], "passes", replay->source.seconds[PHASE_PASSES], "readback",
+                      replay->source.seconds[PHASE_READBACK], "write", replay->source.seconds[PHASE_WRITE])) |
+        json_object_set_new(root, "peak_memory_bytes", json_integer((json_int_t)peak_memory_bytes()));
+    return !failed || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
 }
 
 static bool file_of_pass(const struct glint_replay *replay, size_t p, const char *folder, char path[PATH_SIZE]) {
@@ -187,9 +189,10 @@ static bool write_pass(struct glint_replay *replay, size_t p, const char *folder
     json_t *images = json_object_get(recorded, "images");
     job->parameters = json_object_get(recorded, "parameters");
     for (size_t i = 0; i < job->count; i++)
-        json_array_append_new(images,
-                              image_record(&job->parts[i], job->path + strlen(folder) + 1,
-                                           encoding_of(job->pass, job->parameters, job->parts[i].info->row->name)));
+        if (json_array_append_new(images,
+                                  image_record(&job->parts[i], job->path + strlen(folder) + 1,
+                                               encoding_of(job->pass, job->parameters, job->parts[i].info->row->name))))
+            return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", job->path);
     if (result->cached && replay->results.cache_keys[p][0] &&
         cache_copy(replay->results.cache, replay->results.cache_keys[p], job->path))
         return true;
@@ -212,8 +215,8 @@ static bool record_bad_values(struct glint_replay *replay, json_t *root, struct 
     const struct glint_bad_values *bad;
     size_t count;
     if (!glint_replay_bad_values(replay, &bad, &count, err)) return false;
-    json_object_set_new(root, "bad_values", bad_values_record(bad, count));
-    return true;
+    return json_object_set_new(root, "bad_values", bad_values_record(bad, count)) == 0 ||
+           glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
 }
 
 char *glint_replay_json(struct glint_replay *replay, struct glint_error *err) {
@@ -224,7 +227,7 @@ char *glint_replay_json(struct glint_replay *replay, struct glint_error *err) {
     json_t *root = json_deep_copy(replay->results.record);
     char *text = NULL;
     if (!root) glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    else if (run_finish_record(replay, root, err) && !(text = json_dumps(root, JSON_REAL_PRECISION(17))))
+    else if (run_finish_record(replay, root, err) && !(text = record_text(root, JSON_REAL_PRECISION(17))))
         glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     json_decref(root);
     return text;

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "record.h"
+
 bool session_fail(const struct glint_replay *replay, const struct glint_error *own, struct glint_error *err) {
     const bool device = own->code == GLINT_ERROR_DEVICE || own->code == GLINT_ERROR_MEMORY;
     const char *path = replay->source.capture && device ? glint_capture_path(replay->source.capture) : NULL;
@@ -70,7 +72,7 @@ char *glint_replay_survey_json(struct glint_replay *replay, struct glint_error *
     const struct glint_survey *survey;
     if (!glint_replay_survey(replay, &survey, NULL, err)) return NULL;
     json_t *json = survey_record(&replay->planner.survey, glint_capture_frame(replay->source.capture));
-    char *text = json_dumps(json, JSON_INDENT(2));
+    char *text = record_text(json, JSON_INDENT(2));
     json_decref(json);
     if (!text) glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     return text;

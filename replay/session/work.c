@@ -23,8 +23,8 @@ static bool count_rays(struct glint_replay *replay, const char *name, json_t *wo
     json_int_t rays = 0;
     for (size_t i = 0; i < texels; i++) rays += ((const uint8_t *)buffer.map)[i] != 0;
     host_buffer_finish(&buffer, replay->pool.gpu);
-    json_object_set_new(work, "rays", json_integer(rays));
-    return true;
+    return json_object_set_new(work, "rays", json_integer(rays)) == 0 ||
+           glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
 }
 
 bool replay_count_work(struct glint_replay *replay, json_t *root, struct glint_error *err) {

@@ -11,6 +11,7 @@
 
 #include "check/check.h"
 #include "glint/replay.h"
+#include "io/memory.h"
 
 enum { PATH_SIZE = 4096 };
 
@@ -42,6 +43,17 @@ static json_t *files_of(const char *folder, struct glint_error *err) {
     return files;
 }
 
+static bool write_all(int file, const char *bytes, size_t size) {
+    while (size > 0) {
+        const ssize_t count = write(file, bytes, size);
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) return false;
+        bytes += count;
+        size -= (size_t)count;
+    }
+    return true;
+}
+
 static bool copy_file(const char *from, const char *to, struct glint_error *err) {
     static const size_t size = 1 << 20;
     const int in = open(from, O_RDONLY | O_CLOEXEC),
@@ -51,8 +63,9 @@ static bool copy_file(const char *from, const char *to, struct glint_error *err)
     if (ok && (in < 0 || out < 0)) ok = fail_at(in < 0 ? from : to, err);
     for (ssize_t count = 1; ok && count > 0;) {
         count = read(in, block, size);
-        if (count < 0) ok = fail_at(from, err);
-        else if (count > 0 && write(out, block, (size_t)count) != count) ok = fail_at(to, err);
+        if (count < 0 && errno == EINTR) count = 1;
+        else if (count < 0) ok = fail_at(from, err);
+        else if (count > 0) ok = write_all(out, block, (size_t)count) || fail_at(to, err);
     }
     if (ok && fsync(out) != 0) ok = fail_at(to, err);
     if (out >= 0 && close(out) != 0 && ok) ok = fail_at(to, err);
@@ -148,7 +161,10 @@ bool check_approve(const char *run, const char *baseline, struct glint_error *er
     if (stat(run, &from) == 0 && stat(path, &to) == 0 && from.st_dev == to.st_dev && from.st_ino == to.st_ino)
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: run and baseline are the same folder", run);
     json_t *files = files_of(run, err);
-    const bool ok = files && copy_run(run, fresh, files, err) && replace(fresh, path, err);
+    bool ok = files && copy_run(run, fresh, files, err);
+    if (ok && memory_ran_out())
+        ok = glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", run); /* a file may lack */
+    ok = ok && replace(fresh, path, err);
     if (!ok && files) remove_files(fresh, files);
     json_decref(files);
     return ok;

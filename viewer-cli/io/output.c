@@ -8,6 +8,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "io/memory.h"
+
 enum { START_BYTES = 16 };
 
 static const struct kind {
@@ -107,6 +109,7 @@ static bool finish(struct output *output, struct glint_error *err) {
 }
 
 bool output_close(struct output *output, bool ok, struct glint_error *err) {
+    if (ok && memory_ran_out()) ok = glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", output->path);
     if (ok) ok = finish(output, err);
     if (output->file && output->file != stdout) fclose(output->file);
     if (output->complete.temporary) ok = complete_close(&output->complete, ok, false, err);

@@ -4,6 +4,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "io/memory.h"
 #include "live/live.h"
 #include "options/args.h"
 
@@ -143,6 +144,7 @@ static void run_job(struct live *live, struct job *job) {
     live->idle = false;
     pthread_mutex_unlock(&live->lock);
     struct glint_error err = {0};
+    memory_forget(); /* what an earlier job lacked */
     const bool ok = job->work(live, job->data, &err);
     if (live->device && glint_device_lost(live->device)) live_close(live); /* wherever the job found that */
     pthread_mutex_lock(&live->lock);

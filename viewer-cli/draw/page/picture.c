@@ -10,6 +10,7 @@
 #include "image.h"
 #include "draw/page/base64.h"
 #include "draw/page/page.h"
+#include "io/memory.h"
 
 struct bytes {
     unsigned char *data; /* malloc'd */
@@ -20,7 +21,11 @@ static bool encode_png(const struct picture *p, struct bytes *out) {
     png_image image = {.version = PNG_IMAGE_VERSION, .width = p->width, .height = p->height, .format = PNG_FORMAT_RGBA};
     png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
     *out = (struct bytes){malloc(size), 0};
-    if (!out->data || !png_image_write_to_memory(&image, out->data, &size, 0, p->rgba, 0, NULL)) return false;
+    if (!out->data) return false;
+    if (!png_image_write_to_memory(&image, out->data, &size, 0, p->rgba, 0, NULL)) {
+        memory_note(); /* there is room for any picture: only memory of libpng's own can lack */
+        return false;
+    }
     out->size = size;
     return true;
 }

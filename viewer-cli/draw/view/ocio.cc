@@ -118,6 +118,13 @@ std::string choose_input(const OCIO::ConstConfigRcPtr &config, const char *name)
     return OCIO::ROLE_SCENE_LINEAR;
 }
 
+// OpenColorIO wraps what the standard library throws in its own exceptions, which keep its text.
+bool fail_with(const std::exception &e, struct glint_error *err) {
+    if (std::string(e.what()).find("bad_alloc") != std::string::npos)
+        return glint_fail(err, GLINT_ERROR_MEMORY, "OpenColorIO: out of memory");
+    return glint_fail(err, GLINT_ERROR_FORMAT, "OpenColorIO: %s", e.what());
+}
+
 } // namespace
 
 struct ocio_conversion {
@@ -137,7 +144,7 @@ struct ocio_conversion *ocio_prepare(const struct ocio_options *options, struct 
     } catch (const std::invalid_argument &e) {
         glint_fail(err, GLINT_ERROR_USAGE, "%s", e.what());
     } catch (const std::exception &e) {
-        glint_fail(err, GLINT_ERROR_FORMAT, "OpenColorIO: %s", e.what());
+        fail_with(e, err);
     }
     return nullptr;
 }
@@ -155,7 +162,7 @@ bool ocio_apply(const struct ocio_options *options, float *rgba, size_t width, s
         OCIO::PackedImageDesc image(rgba, long(width), long(height), 4);
         if (ok) conversion->cpu->apply(image);
     } catch (const std::exception &e) {
-        ok = glint_fail(err, GLINT_ERROR_FORMAT, "OpenColorIO: %s", e.what());
+        ok = fail_with(e, err);
     }
     ocio_release(&own);
     return ok;

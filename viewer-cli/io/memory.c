@@ -1,0 +1,165 @@
+/* Allocations, which note that one failed. */
+#include "io/memory.h"
+
+#include <jansson.h>
+#include <stdarg.h>
+#include <stdatomic.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "status.h"
+
+static atomic_bool ran_out;
+
+bool memory_ran_out(void) {
+    return atomic_load(&ran_out);
+}
+
+void memory_note(void) {
+    atomic_store(&ran_out, true);
+}
+
+void memory_forget(void) {
+    atomic_store(&ran_out, false);
+}
+
+static void *noted(void *memory) {
+    if (!memory) atomic_store(&ran_out, true);
+    return memory;
+}
+
+/* ---- Jansson: 2.14 writes past the end of a string that it reads when its buffer cannot grow, and passes over what it cannot store. It
+   has to get its memory: from a reserve that is given back when there is none, once, and then the command fails at its end. ---- */
+
+enum { RESERVE_BYTES = 1 << 20 };
+static _Atomic(void *) reserve;
+
+static void *take_for_json(size_t bytes) {
+    void *memory = malloc(bytes);
+    if (memory) return memory;
+    free(atomic_exchange(&reserve, NULL));
+    memory = malloc(bytes);
+    if (memory) return memory;
+    static const char text[] = "glint: out of memory\n";
+    const ssize_t written = write(STDERR_FILENO, text, sizeof text - 1);
+    _exit(written < 0 ? STATUS_USAGE : STATUS_CHECK); /* rather than wrong texts, or worse */
+}
+
+void memory_begin(void) {
+    atomic_store(&reserve, malloc(RESERVE_BYTES));
+    json_set_alloc_funcs(take_for_json, free);
+}
+
+void memory_end(void) {
+    free(atomic_exchange(&reserve, NULL));
+}
+
+/* ---- What the linker has the program call in place of the C library's functions (__wrap_), and these themselves (__real_) ---- */
+
+void *__real_malloc(size_t bytes);
+void *__real_calloc(size_t count, size_t bytes);
+void *__real_realloc(void *memory, size_t bytes);
+char *__real_strdup(const char *text);
+char *__real_strndup(const char *text, size_t length);
+int __real_vasprintf(char **text, const char *format, va_list args);
+
+void *__wrap_malloc(size_t bytes);
+void *__wrap_calloc(size_t count, size_t bytes);
+void *__wrap_realloc(void *memory, size_t bytes);
+char *__wrap_strdup(const char *text);
+char *__wrap_strndup(const char *text, size_t length);
+int __wrap_vasprintf(char **text, const char *format, va_list args);
+int __wrap_asprintf(char **text, const char *format, ...);
+FILE *__wrap_open_memstream(char **text, size_t *length);
+
+void *__wrap_malloc(size_t bytes) {
+    return noted(__real_malloc(bytes ? bytes : 1));
+}
+
+void *__wrap_calloc(size_t count, size_t bytes) {
+    return noted(__real_calloc(count ? count : 1, bytes ? bytes : 1));
+}
+
+void *__wrap_realloc(void *memory, size_t bytes) {
+    return noted(__real_realloc(memory, bytes ? bytes : 1));
+}
+
+char *__wrap_strdup(const char *text) {
+    return noted(__real_strdup(text));
+}
+
+char *__wrap_strndup(const char *text, size_t length) {
+    return noted(__real_strndup(text, length));
+}
+
+/* A negative length is that of a text that is too long or no text at all, too, which is none of what these formats make. */
+int __wrap_vasprintf(char **text, const char *format, va_list args) {
+    const int length = __real_vasprintf(text, format, args);
+    if (length < 0) noted(*text = NULL);
+    return length;
+}
+
+int __wrap_asprintf(char **text, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    const int length = __wrap_vasprintf(text, format, args);
+    va_end(args);
+    return length;
+}
+
+/* ---- A stream into memory: glibc's loses what does not fit, and only the function that wrote it knows ---- */
+
+struct stream {
+    char **text;
+    size_t *length, capacity;
+};
+
+static ssize_t stream_write(void *cookie, const char *from, size_t bytes) {
+    struct stream *stream = cookie;
+    const size_t needed = *stream->length + bytes + 1;
+    if (needed > stream->capacity) {
+        const size_t capacity = needed > 2 * stream->capacity ? needed : 2 * stream->capacity;
+        char *text = realloc(*stream->text, capacity);
+        if (!text) return 0;
+        *stream->text = text;
+        stream->capacity = capacity;
+    }
+    memcpy(*stream->text + *stream->length, from, bytes);
+    *stream->length += bytes;
+    (*stream->text)[*stream->length] = '\0';
+    return (ssize_t)bytes;
+}
+
+/* Tells the position, which ftell asks for; there is no going back. */
+static int stream_seek(void *cookie, off64_t *offset, int from) {
+    const struct stream *stream = cookie;
+    if (*offset != 0 || from == SEEK_SET) return -1;
+    *offset = (off64_t)*stream->length;
+    return 0;
+}
+
+static int stream_close(void *cookie) {
+    free(cookie);
+    return 0;
+}
+
+FILE *__wrap_open_memstream(char **text, size_t *length) {
+    struct stream *stream = malloc(sizeof *stream);
+    char *begin = calloc(1, 1);
+    FILE *file =
+        stream && begin
+            ? fopencookie(stream, "w",
+                          (cookie_io_functions_t){.write = stream_write, .seek = stream_seek, .close = stream_close})
+            : NULL;
+    if (!noted(file)) {
+        free(stream);
+        free(begin);
+        return NULL;
+    }
+    *stream = (struct stream){text, length, 1};
+    *text = begin;
+    *length = 0;
+    return file;
+}
