@@ -17,8 +17,10 @@ PICTURE = """(c => { let sum = 7; const copy = new OffscreenCanvas(c.width, c.he
 
 
 class Tests:
-    def __init__(self, folder, browser):
-        self.folder, self.browser = folder, browser
+    """Each with a browser of its own, in which no page of another server is left."""
+
+    def __init__(self, folder):
+        self.folder = folder
         self.capture, self.lost = os.path.join(folder, "street.exr"), os.path.join(folder, "lost")
         tap.glint("sample", "street", "-o", self.capture, "--size", "96x54", "--cube-size", "16")
         os.environ.update(VK_LAYER_PATH=LAYERS, VK_INSTANCE_LAYERS="VK_LAYER_GLINT_fault", GLINT_FAULT_FILE=self.lost)
@@ -27,8 +29,8 @@ class Tests:
         tab.write(row(name) + ".querySelector('.exact')", str(value))
 
     def test_a_lost_device(self):
-        with Server(self.capture) as server:
-            tab = Tab(self.browser, server)
+        with Server(self.capture) as server, Browser(1440, 900) as browser:
+            tab = Tab(browser, server)
             tab.open()
             before = tab.until(PICTURE)
             with open(self.lost, "w"):
@@ -58,8 +60,8 @@ class Tests:
         save(text)
         if os.path.exists(self.lost):
             os.remove(self.lost)
-        with Server(self.capture, "--shader", f"compose={shader}") as server:
-            tab = Tab(self.browser, server)
+        with Server(self.capture, "--shader", f"compose={shader}") as server, Browser(1440, 900) as browser:
+            tab = Tab(browser, server)
             tab.open()
             before = tab.until(PICTURE)
             save(text.replace("void main() {", "void main() {\n    no such thing;", 1))
@@ -72,5 +74,5 @@ class Tests:
             tab.quiet()
 
 
-with tempfile.TemporaryDirectory() as work, Browser(1440, 900) as one:
-    sys.exit(tap.run(Tests(work, one)))
+with tempfile.TemporaryDirectory() as work:
+    sys.exit(tap.run(Tests(work)))
