@@ -182,23 +182,20 @@ static exr_result_t set_opaque(exr_context_t context, int part, const struct gli
 }
 
 static exr_result_t set_floats(exr_context_t context, int part, const struct glint_exr_attribute *a) {
-    exr_result_t rv = EXR_ERR_OUT_OF_MEMORY;
-    struct glint_arena arena = {0};
-    float *values = glint_arena_take(&arena, a->count * sizeof *values);
-    if (values) {
-        for (size_t i = 0; i < a->count; i++) values[i] = (float)a->numbers[i];
-        rv = exr_attr_set_float_vector(context, part, a->name, (int32_t)a->count, values);
-    }
-    glint_arena_finish(&arena);
+    float *values = glint_exr_memory_take(a->count * sizeof *values);
+    for (size_t i = 0; values && i < a->count; i++) values[i] = (float)a->numbers[i];
+    const exr_result_t rv =
+        values ? exr_attr_set_float_vector(context, part, a->name, (int32_t)a->count, values) : EXR_ERR_OUT_OF_MEMORY;
+    glint_exr_memory_free(values);
     return rv;
 }
 
 static exr_result_t set_strings(exr_context_t context, int part, const struct glint_exr_attribute *a) {
-    struct glint_arena arena = {0};
-    const char **copy = glint_arena_copy(&arena, a->strings, a->count * sizeof *copy);
+    const char **copy = glint_exr_memory_take(a->count * sizeof *copy);
+    for (size_t i = 0; copy && i < a->count; i++) copy[i] = a->strings[i];
     const exr_result_t rv =
         copy ? exr_attr_set_string_vector(context, part, a->name, (int32_t)a->count, copy) : EXR_ERR_OUT_OF_MEMORY;
-    glint_arena_finish(&arena);
+    glint_exr_memory_free(copy);
     return rv;
 }
 

@@ -7,6 +7,7 @@
 #include FT_FREETYPE_H
 
 #include "draw/blobs.h"
+#include "io/memory.h"
 
 struct text {
     FT_Library library;
@@ -20,9 +21,13 @@ struct text *text_create(uint32_t height_px, struct glint_error *err) {
         return NULL;
     }
     FT_Long size = (FT_Long)(blob_font_end - blob_font);
-    if (FT_Init_FreeType(&text->library) || FT_New_Memory_Face(text->library, blob_font, size, 0, &text->face) ||
-        FT_Set_Pixel_Sizes(text->face, 0, height_px)) {
-        glint_fail(err, GLINT_ERROR_UNSUPPORTED, "FreeType cannot read the built-in font");
+    FT_Error failed = FT_Init_FreeType(&text->library);
+    if (!failed) failed = FT_New_Memory_Face(text->library, blob_font, size, 0, &text->face);
+    if (!failed) failed = FT_Set_Pixel_Sizes(text->face, 0, height_px);
+    if (failed) {
+        const bool memory = failed == FT_Err_Out_Of_Memory;
+        glint_fail(err, memory ? GLINT_ERROR_MEMORY : GLINT_ERROR_UNSUPPORTED,
+                   "FreeType cannot read the built-in font%s", memory ? ": out of memory" : "");
         text_destroy(&text);
     }
     return text;
@@ -59,7 +64,9 @@ static int walk(struct text *text, struct picture *picture, int x, int y, const 
     int start = x;
     while (*string) {
         FT_ULong c = next_character(&string);
-        if (FT_Load_Char(text->face, c, FT_LOAD_RENDER)) continue;
+        const FT_Error failed = FT_Load_Char(text->face, c, FT_LOAD_RENDER);
+        if (failed == FT_Err_Out_Of_Memory) memory_note();
+        if (failed) continue;
         if (picture) draw_glyph(text->face->glyph, picture, x, y, color);
         x += (int)(text->face->glyph->advance.x >> 6);
     }
