@@ -294,6 +294,10 @@ void live_answer_figures(void *user, const struct http_request *request, struct 
 
 /* ---- What the result should be ---- */
 
+static void name_target(const struct measuring *m, char *name, size_t size) {
+    snprintf(name, size, "%s of %s", m->truth ? "truth" : "reference", m->effect->name);
+}
+
 static bool keep_target(struct live *live, const struct measuring *m, const struct glint_pixels *pixels,
                         char id[RUN_ID], struct glint_error *err) {
     static const char *const names[] = {"R", "G", "B", "A"};
@@ -303,7 +307,7 @@ static bool keep_target(struct live *live, const struct measuring *m, const stru
     if (source.components > 4)
         return glint_fail(err, GLINT_ERROR_UNSUPPORTED, "the %s has %u channels, but at most 4 can be shown",
                           m->effect->noun, source.components);
-    snprintf(source.title, sizeof source.title, "%s of %s", m->truth ? "truth" : "reference", m->effect->name);
+    name_target(m, source.title, sizeof source.title);
     snprintf(source.unit, sizeof source.unit, "%.60s", made ? made->unit : "1");
     for (uint32_t k = 0; k < source.components; k++)
         snprintf(source.channels[k], sizeof source.channels[k], "%s", names[k]);
@@ -319,7 +323,7 @@ static json_t *target_json(const struct live *live, const struct measuring *m, c
     char name[64];
     json_t *channels = json_array(), *compares = json_array();
     for (size_t k = 0; m->effect->results[k]; k++) json_array_append_new(compares, json_string(m->effect->results[k]));
-    snprintf(name, sizeof name, "%s of %s", m->truth ? "truth" : "reference", m->effect->name);
+    name_target(m, name, sizeof name);
     for (uint32_t k = 0; k < pixels->components; k++) json_array_append_new(channels, json_stringn(&"RGBA"[k], 1));
     const bool fogged =
         m->truth && glint_capture_frame(glint_judge_capture(live->judge))->has_fog && pipeline_fog(m->state.pipeline);
