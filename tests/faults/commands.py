@@ -66,10 +66,16 @@ COMMANDS = {
     "tune": "tune tiny.exr -p plain.json --vary screen_trace.steps=4..32 --budget-fetches 50% --repeat 0 --reference truth -o out.json",
     "blame": "blame tiny.exr -p plain.json --rays 16 --player-rays 16 --exact 0 --permutations 2 --repeat 0 --reference truth -o out",
     "selftest": "selftest --quick --only functions",
+    # libraries.c
+    "library pack": "pack loose/manifest.json out.exr",
+    "library extract": "extract tiny.exr out",
+    "library replay": "replay tiny.exr plain.json out",
+    "library reference": "reference tiny.exr plain.json out",
+    "library judge": "judge tiny.exr plain.json converged",
 }
 
 # A fault of these takes many replays: in a sample they have fewer.
-LONG = {"explain", "stability", "compare", "reference", "sweep", "tune", "blame", "selftest"}
+LONG = {"explain", "stability", "compare", "reference", "sweep", "tune", "blame", "selftest", "library reference"}
 
 
 def make_inputs(folder):
@@ -77,10 +83,11 @@ def make_inputs(folder):
     size = ("--size", "16x9", "--cube-size", "8")
     with open(tap.PLAIN, encoding="utf-8") as file, open(os.path.join(folder, "plain.json"), "w", encoding="utf-8") as copy:
         copy.write(file.read())
-    tap.glint("sample", "street", "-o", "shot.exr", *size, "--frames", "2", folder=folder)
-    tap.glint("sample", "street", "-o", "tiny.exr", *size, "--truth", "1", folder=folder)
+    tap.glint("sample", "still_life", "-o", "shot.exr", *size, "--frames", "2", folder=folder)
+    tap.glint("sample", "still_life", "-o", "tiny.exr", *size, "--truth", "1", folder=folder)
     tap.glint("replay", "tiny.exr", "-p", "plain.json", "-o", "run", folder=folder)
     tap.glint("replay", "shot.0001.exr", "shot.0002.exr", "-p", "plain.json", "-o", "part", folder=folder)
     shutil.rmtree(os.path.join(folder, "part", "shot.0002"))  # as if the replay had been interrupted
+    tap.glint("reference", "tiny.exr", "--like", "plain.json", "--rays", "16", "-o", "converged", folder=folder)
     tap.glint("check", "run", "--baseline", "base", "--approve", folder=folder)
     tap.glint("extract", "tiny.exr", "-o", "loose", folder=folder)

@@ -1,6 +1,7 @@
 """Every allocation, thread and system call of glint's commands fails once, by the library of fail.c: what fails well, and what does not.
+PROGRAM is that of libraries.c, which calls glint's libraries without glint.
 
-faults.py GLINT LIBRARY [--all | --stacks N | --samples N] [--only COMMAND[:KIND]] [--from N] [--to N] [--where] [--record FILE] [--page FILE]
+faults.py GLINT LIBRARY PROGRAM [--all | --stacks N | --samples N] [--only COMMAND[:KIND]] [--from N] [--to N] [--where] [--record FILE] [--page FILE]
 
 --all lets every call fail. Most calls are made by loops, so a command with forty thousand allocations has a thousand different stacks of
 calls: --stacks N tries the first (1), also the last (2), and also the middle (3) call of each. Otherwise it is a sample.
@@ -34,7 +35,7 @@ from table import Table  # noqa: E402
 
 NUMBER = re.compile("[0-9]+([.][0-9]+)?(e-?[0-9]+)?( (ns|µs|ms|s)\\b)?|[ ─█▏▎▍▌▋▊▉]+".encode())
 # What a command that goes on where it was interrupted may keep, whole as it is without the fault, and uses then.
-KEEPS = {"replay SHOT", "replay PART", "reference", "sweep", "tune", "blame", "explain", "compare", "stability"}
+KEEPS = {"replay SHOT", "replay PART", "reference", "sweep", "tune", "blame", "explain", "compare", "stability", "library reference"}
 
 
 class Command:
@@ -42,7 +43,8 @@ class Command:
 
     def __init__(self, options, name, inputs, folder):
         self.options, self.name, self.counted = options, name, {}
-        self.process = Process(options.glint, options.library, COMMANDS[name].split(), inputs, folder)
+        self.program = options.program if name.startswith("library") else options.glint
+        self.process = Process(self.program, options.library, COMMANDS[name].split(), inputs, folder)
         first, second = self.process.run(), self.process.run()
         assert first.status == 0, (name, first.status, first.err)
         self.varies = {"": first.out != second.out}
@@ -103,7 +105,7 @@ class Command:
         for path, offset in frames:
             if path != "-" and "libglint-" not in path:
                 continue
-            path = self.options.glint if path == "-" else path
+            path = self.program if path == "-" else path
             found = subprocess.run(["addr2line", "-fse", path, offset], capture_output=True, text=True, check=False).stdout.split()
             lines.append(f"{found[0]} {found[1]}" if len(found) > 1 else f"{path}+{offset}")
             if len(lines) == most:
@@ -153,6 +155,7 @@ def arguments():
     parser = argparse.ArgumentParser()
     parser.add_argument("glint", type=os.path.abspath)
     parser.add_argument("library", type=os.path.abspath)
+    parser.add_argument("program", type=os.path.abspath)
     parser.add_argument("--all", action="store_true", dest="everything", help="every call")
     parser.add_argument("--stacks", type=int, choices=(1, 2, 3), help="the first, last and middle call of each stack of calls")
     parser.add_argument("--samples", type=int, default=40, help="faults of a command, about")
