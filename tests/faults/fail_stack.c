@@ -1,8 +1,9 @@
-/* Who calls: from a call up the stack, objects that work for whoever calls them (libc, libstdc++, Jansson, OpenEXRCore, libpng, …) are
+/* Who calls, with GLINT_FAIL_EXCEPT (the beginning of functions' names) passed over whatever these call. From a call up the stack, objects that work for whoever calls them (libc, libstdc++, Jansson, OpenEXRCore, libpng, …) are
    passed over, and the first other one decides. It has to be the program itself or a library libglint-…. The objects are those of
    dl_iterate_phdr, and the stack is that of the unwinder. */
 #include "fail.h"
 
+#include <dlfcn.h>
 #include <execinfo.h>
 #include <link.h>
 #include <stdatomic.h>
@@ -77,6 +78,13 @@ static struct object object_at(const void *code) {
     return object;
 }
 
+/* Whether this is a function that is not to fail. */
+static bool excepted(const void *code) {
+    const char *start = getenv("GLINT_FAIL_EXCEPT");
+    Dl_info info;
+    return start && dladdr(code, &info) && info.dli_sname && !strncmp(info.dli_sname, start, strlen(start));
+}
+
 const void *fail_stack_site(const void *caller) {
     const enum owner direct = caller ? object_at(caller).owner : OWNER_CALLER;
     if (direct != OWNER_CALLER) return direct == OWNER_GLINT ? caller : NULL;
@@ -85,7 +93,7 @@ const void *fail_stack_site(const void *caller) {
     for (int i = 1; i < count; i++) {
         const enum owner owner = object_at(frames[i]).owner;
         if (owner == OWNER_GLINT) return frames[i];
-        if (owner == OWNER_OTHER) return NULL;
+        if (owner == OWNER_OTHER || excepted(frames[i])) return NULL;
     }
     return NULL;
 }

@@ -122,8 +122,8 @@ int main(int argc, char **argv) {
     struct glint_error err = {0};
     for (size_t i = 0; argc > 1 && i < sizeof calls / sizeof *calls; i++)
         if (!strcmp(argv[1], calls[i].name) && argc == 2 + calls[i].words) {
-            const bool ok = calls[i].run(argv + 2, &err) && fflush(stdout) == 0;
-            if (!ok) fprintf(stderr, "%s\n", err.code ? err.message : "cannot write to stdout");
+            const bool ok = calls[i].run(argv + 2, &err) && !ferror(stdout) && fflush(stdout) == 0;
+            if (!ok) fprintf(stderr, "%s\n", err.code ? err.message : "stdout: not everything could be written");
             return !ok;
         }
     return 2;

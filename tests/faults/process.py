@@ -47,10 +47,10 @@ class Outcome:
 
 
 class Process:
-    """`words` are the command's; `folder` has a copy of `inputs` that is as before after each run."""
+    """`words` are the command's; `excepted` begins the names of functions that do not fail; `folder` has a copy of `inputs` that is as before after each run."""
 
-    def __init__(self, glint, library, words, inputs, folder):
-        self.glint, self.library, self.words = glint, library, words
+    def __init__(self, program, library, words, excepted, inputs, folder):
+        self.program, self.library, self.words, self.excepted = program, library, words, excepted
         self.folder, self.report, self.process = os.path.join(folder, "work"), os.path.join(folder, "report"), None
         shutil.rmtree(self.folder, ignore_errors=True)
         shutil.copytree(inputs, self.folder, symlinks=True)
@@ -62,7 +62,9 @@ class Process:
         self.answers, write = os.pipe()
         environment = {**os.environ, "GLINT_CACHE": "none", "LC_ALL": "C.UTF-8", "TMPDIR": self.folder, "LD_PRELOAD": self.library,
                        "GLINT_FAIL_SERVER": f"{read} {write}", "GLINT_FAIL_REPORT": self.report, "GLINT_FAIL_LOAD": LAVAPIPE}
-        self.process = subprocess.Popen([self.glint, *self.words], cwd=self.folder, env=environment, stdin=subprocess.DEVNULL, pass_fds=(read, write))
+        if self.excepted:
+            environment["GLINT_FAIL_EXCEPT"] = self.excepted
+        self.process = subprocess.Popen([self.program, *self.words], cwd=self.folder, env=environment, stdin=subprocess.DEVNULL, pass_fds=(read, write))
         os.close(read)
         os.close(write)
         self.line = b""
