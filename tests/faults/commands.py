@@ -66,6 +66,7 @@ COMMANDS = {
     "tune": "tune tiny.exr -p plain.json --vary screen_trace.steps=4..32 --budget-fetches 50% --repeat 0 --reference truth -o out.json",
     "blame": "blame tiny.exr -p plain.json --rays 16 --player-rays 16 --exact 0 --permutations 2 --repeat 0 --reference truth -o out",
     "selftest": "selftest --quick --only functions",
+    "live": "live tiny.exr -p plain.json -o runs",  # serving.py
     # libraries.c
     "library pack": "pack loose/manifest.json out.exr",
     "library extract": "extract tiny.exr out",
@@ -75,7 +76,7 @@ COMMANDS = {
 }
 
 # A fault of these takes many replays: in a sample they have fewer.
-LONG = {"explain", "stability", "compare", "reference", "sweep", "tune", "blame", "selftest", "library reference"}
+LONG = {"live", "explain", "stability", "compare", "reference", "sweep", "tune", "blame", "selftest", "library reference"}
 
 
 def make_inputs(folder):

@@ -11,7 +11,7 @@ One fault has failed well if the command
 - ends with another status than 0, and not by a signal; says on stderr that it is out of memory, or the system's error with the name of a
   file; and leaves all files as they were (none under a final name that was not there before, none changed, no temporary file) or all of
   them whole, as without the fault, if it failed afterwards; or
-- ends as without the fault, with the same bytes on stdout and the same files, byte for byte. Where two runs without a fault differ, as in times,
+- ends as without the fault (glint live: answers each request as without the fault, or refuses it and says why, and answers all that follow), with the same bytes on stdout and the same files, byte for byte. Where two runs without a fault differ, as in times,
   numbers with their units and the spaces between columns are not compared;
 
 and, if main returned, no more of glint's own memory is left allocated, and no more files are open, than without the fault.
@@ -29,16 +29,18 @@ import sys
 import tempfile
 
 sys.path.append(os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "viewer-cli"))
-from commands import COMMANDS, KINDS, LONG, make_inputs  # noqa: E402
-from process import Process  # noqa: E402
-from table import Table  # noqa: E402
+from commands import COMMANDS, KINDS, LONG, make_inputs
+import serving
+from process import Process
+from serving import Serving
+from table import Table
 
 NUMBER = re.compile("[0-9]+([.][0-9]+)?(e-?[0-9]+)?( (ns|µs|ms|s)\\b)?|[ ─█▏▎▍▌▋▊▉]+".encode())
 # Without memory Jansson 2.14 reads something else than the text has, or writes past the end of a string: that is not glint's to mend, and the
 # program glint has a reserve for it.
 JANSSON_READS = "json_load"
 # What a command that goes on where it was interrupted may keep, whole as it is without the fault, and uses then.
-KEEPS = {"replay SHOT", "replay PART", "reference", "sweep", "tune", "blame", "explain", "compare", "stability", "library reference"}
+KEEPS = {"live", "replay SHOT", "replay PART", "reference", "sweep", "tune", "blame", "explain", "compare", "stability", "library reference"}
 
 
 class Command:
@@ -48,7 +50,8 @@ class Command:
         self.options, self.name, self.counted = options, name, {}
         library = name.startswith("library")
         self.program = options.program if library else options.glint
-        self.process = Process(self.program, options.library, COMMANDS[name].split(), library and JANSSON_READS, inputs, folder)
+        make = Serving if name == "live" else Process
+        self.process = make(self.program, options.library, COMMANDS[name].split(), library and JANSSON_READS, inputs, folder)
         first, second = self.process.run(), self.process.run()
         assert first.status == 0, (name, first.status, first.err)
         self.varies = {"": first.out != second.out}
@@ -66,7 +69,10 @@ class Command:
     def same(self, path, one, other):
         if one is None or other is None:
             return one is other
-        return NUMBER.sub(b"#", one) == NUMBER.sub(b"#", other) if self.varies[path] else one == other
+        return self.same_text(one, other) if self.varies[path] else one == other
+
+    def same_text(self, one, other):
+        return NUMBER.sub(b"#", one) == NUMBER.sub(b"#", other)
 
     def same_files(self, files):
         return files.keys() == self.whole.files.keys() and all(self.same(path, files[path], self.whole.files[path]) for path in files)
@@ -94,10 +100,13 @@ class Command:
             return f"signal {-outcome.status}"
         if outcome.status == 0 and not self.same("", outcome.out, whole.out):
             return "exit 0, other output"
-        if outcome.status == 0 and not self.same_files(outcome.files):
+        if outcome.status == 0 and not self.same_files(outcome.files) and self.name != "live":
             return "exit 0, other files"
         if not self.may_leave(outcome.files):
             return "leaves files"
+        wrong = self.name == "live" and serving.judge(outcome, whole, words, self.same_text)
+        if wrong:
+            return wrong
         said = outcome.err + outcome.out.decode(errors="replace") * self.name.startswith("validate")
         if outcome.status and not re.search(words, said):
             return "does not say why"

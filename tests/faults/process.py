@@ -95,6 +95,7 @@ class Process:
                 os.remove(self.report + suffix)
         os.write(self.to, f"{kind} {number} {error} {how}\n".encode())
         child = self.answer(None)
+        self.talk(child)
         status = self.answer(LIMIT_S)
         if status is None:
             os.kill(child, signal.SIGKILL)
@@ -104,6 +105,9 @@ class Process:
         assert status not in (98, 99), "the library could not do its work"
         out, err, report = (contents(self.report + suffix) if os.path.exists(self.report + suffix) else b"" for suffix in (".out", ".err", ""))
         return Outcome(status, out, err.decode(errors="replace"), self.files(), report.decode())
+
+    def talk(self, child):
+        """What is done with a process that runs, such as a server."""
 
     def files(self):
         """All files as they are now; afterwards they are as before."""
