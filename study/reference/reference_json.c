@@ -104,9 +104,8 @@ char *glint_reference_json(const struct glint_reference *reference) {
 /* ---- Comparing settings ---- */
 
 static void json_text(const json_t *value, char text[80]) {
-    char *dumped =
-        value ? json_dumps(value, JSON_ENCODE_ANY | JSON_COMPACT | JSON_REAL_PRECISION(REFERENCE_DIGITS)) : NULL;
-    snprintf(text, 80, "%.70s", dumped ? dumped : "nothing");
+    char *dumped = record_text(value, JSON_ENCODE_ANY | JSON_COMPACT | JSON_REAL_PRECISION(REFERENCE_DIGITS));
+    snprintf(text, 80, "%.70s", dumped ? dumped : value ? "something" : "nothing");
     free(dumped);
 }
 

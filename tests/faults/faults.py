@@ -184,7 +184,7 @@ def arguments():
 
 def how(options):
     which = "each call" if options.everything else f"{('first', 'first and last', 'first, middle and last')[options.stacks - 1]} call of each stack" if options.stacks else "sample"
-    return which + (f", each {options.every}th" if options.every > 1 else "")
+    return which + (f", one in {options.every}" if options.every > 1 else "")
 
 
 def try_kind(options, table, command, label, seed):

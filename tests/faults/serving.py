@@ -34,9 +34,8 @@ class Serving(Process):
             printed = contents(self.report + ".out").decode() if os.path.exists(self.report + ".out") else ""
             if printed.count("\n") > 1:
                 return printed.split("\n")[0]
-            with open(f"/proc/{child}/stat", encoding="utf-8") as file:
-                if file.read().rsplit(")", 1)[1].split()[0] == "Z":
-                    return None
+            if not os.path.exists(f"/proc/{child}"):
+                return None
             time.sleep(0.02)
         return None
 
