@@ -169,6 +169,8 @@ static bool compare_with_truth(const struct glint_reference *reference, struct g
     uint8_t *labels = NULL;
     missing->known = glint_study_truth(capture, effect, pipeline, &truth, &truth_error, &no_truth);
     missing->fog = glint_capture_frame(capture)->has_fog && pipeline_fog(pipeline);
+    if (!missing->known && no_truth.code != GLINT_ERROR_FORMAT) /* it may have one */
+        return glint_fail(err, no_truth.code, "%s", no_truth.message);
     bool ok = !missing->known ||
               ((labels = glint_study_labels(capture, effect, err)) != NULL &&
                glint_reference_pixels(reference, &own, &own_error, err) &&

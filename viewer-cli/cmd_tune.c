@@ -209,7 +209,7 @@ static bool begin_tune(struct arguments *a, struct glint_error *err) {
 }
 
 /* An interrupted search writes the best preset so far. */
-static enum status report_interrupted_tune(const struct tune *tune) {
+static enum status report_interrupted_tune(struct tune *tune) {
     struct glint_error err = {0};
     const bool some = tune->found.count && tune->found.feasible;
     if (some && !tune_write_preset(tune, &err)) return command_fail(&cmd_tune, &err);
@@ -231,6 +231,7 @@ void tune_finish(struct tune *tune) {
     for (size_t s = 0; tune->subjects && s < tune->subject_count; s++) tune_unload_subject(tune, s);
     for (int k = 0; k < TUNE_CONTENDERS; k++)
         if (tune->contenders[k]) glint_pipeline_destroy(&tune->contenders[k]);
+    json_decref(tune->provenance);
     for (size_t a = 0; a < tune->axis_count; a++) free(tune->axes[a].texts);
     glint_search_result_finish(&tune->found);
     journal_close(&tune->journal);

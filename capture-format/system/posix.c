@@ -44,7 +44,10 @@ bool glint_file_write(glint_file file, const void *buffer, size_t size, uint64_t
 }
 
 bool glint_file_sync(glint_file file) {
-    return fsync((int)file) == 0;
+    int done;
+    do done = fsync((int)file);
+    while (done != 0 && errno == EINTR);
+    return done == 0;
 }
 
 static void describe(const struct stat *from, struct glint_file_info *info) {

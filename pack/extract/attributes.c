@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "record.h"
 #include "roles.h"
 
 enum kind { NUMBERS, NUMBER, COUNT, FLAG, TEXT, PLANE };
@@ -118,26 +119,33 @@ enum { ROWS = sizeof rows / sizeof *rows };
 
 static json_t *number_list(const double *numbers, size_t count) {
     json_t *list = json_array();
-    for (size_t i = 0; i < count; i++) json_array_append_new(list, json_real(numbers[i]));
+    for (size_t i = 0; i < count; i++) record_append(&list, json_real(numbers[i]));
     return list;
+}
+
+/* Whether the attribute is of the type that the row wants. Text that is not UTF-8 is left out, too. */
+static bool fits(const struct row *row, const struct glint_exr_attribute *a) {
+    if (!a) return false;
+    if (row->kind == TEXT) return a->string && record_can_hold(a->string);
+    return a->numbers && (row->kind != PLANE || a->count == 16);
 }
 
 static json_t *value_of(const struct row *row, const struct glint_exr_attribute *a) {
     switch (row->kind) {
     case TEXT:
-        return a->string ? json_string(a->string) : NULL;
+        return json_string(a->string);
     case NUMBERS:
-        return a->numbers ? number_list(a->numbers, a->count) : NULL;
+        return number_list(a->numbers, a->count);
     case PLANE:
-        return a->numbers && a->count == 16 ? number_list(a->numbers, 4) : NULL;
+        return number_list(a->numbers, 4);
     case NUMBER:
-        return a->numbers ? json_real(a->numbers[0]) : NULL;
+        return json_real(a->numbers[0]);
     case COUNT:
-        return a->numbers ? json_integer((uint32_t)(int32_t)a->numbers[0]) : NULL;
+        return json_integer((uint32_t)(int32_t)a->numbers[0]);
     case FLAG:
         break;
     }
-    return a->numbers ? json_boolean(a->numbers[0] != 0) : NULL;
+    return json_boolean(a->numbers[0] != 0);
 }
 
 /* The name of a row's attribute, with the number of a light in place of NNN. */
@@ -148,15 +156,14 @@ static const char *name_of(const struct row *row, unsigned number, char name[64]
     return name;
 }
 
-/* The object that holds a scope's attributes, of lights those of one; empty if the part has none. */
+/* The object that holds a scope's attributes, of lights those of one; empty if the part has none; NULL when out of memory. */
 static json_t *numbered_of(const struct glint_exr_part_info *part, const char *scope, unsigned number) {
     json_t *object = json_object();
     char name[64];
     for (size_t i = 0; i < ROWS; i++) {
         const struct glint_exr_attribute *a =
             strcmp(rows[i].scope, scope) ? NULL : glint_exr_attribute(part, name_of(&rows[i], number, name));
-        json_t *value = a ? value_of(&rows[i], a) : NULL;
-        if (value) json_object_set_new(object, rows[i].key, value);
+        if (fits(&rows[i], a)) record_set(&object, rows[i].key, value_of(&rows[i], a));
     }
     return object;
 }
@@ -169,8 +176,8 @@ static json_t *lights_of(const struct glint_exr_part_info *part) {
     json_t *list = json_array();
     for (unsigned i = 0; i < GLINT_MAX_LIGHTS; i++) {
         json_t *light = numbered_of(part, "light", i);
-        if (json_object_size(light)) json_array_append(list, light);
-        json_decref(light);
+        if (!light || json_object_size(light)) record_append(&list, light);
+        else json_decref(light);
     }
     return list;
 }
@@ -182,31 +189,33 @@ static json_t *classes_of(const struct glint_exr_attribute *a) {
         const unsigned long value = strtoul(a->strings[i], &end, 10),
                             mask = *end == '/' ? strtoul(end + 1, &end, 10) : 0;
         if (*end == '=')
-            json_array_append_new(list, json_pack("{s:s, s:I, s:I}", "name", end + 1, "value", (json_int_t)value,
-                                                  "mask", (json_int_t)mask));
+            record_append(&list, json_pack("{s:s, s:I, s:I}", "name", end + 1, "value", (json_int_t)value, "mask",
+                                           (json_int_t)mask));
     }
     return list;
 }
 
+/* Adds an object or list unless it is empty. */
+static void set_filled(json_t **out, const char *key, json_t *value) {
+    if (!value || json_object_size(value) || json_array_size(value)) record_set(out, key, value);
+    else json_decref(value);
+}
+
 json_t *extract_frame(const struct glint_exr_part_info *gbuffer) {
     static const char *const objects[] = {"fog", "atmosphere", "clouds", "material", "sun"};
-    json_t *frame = scope_of(gbuffer, "frame"), *lights = lights_of(gbuffer);
+    json_t *frame = scope_of(gbuffer, "frame");
     const struct glint_exr_attribute *classes = glint_exr_attribute(gbuffer, "glint.stencilClasses");
-    json_object_set_new(frame, "layout", json_string("row_major"));
-    json_object_set_new(frame, "vectors", json_string("column"));
-    json_object_set_new(frame, "jitter_in_matrix", json_true());
-    for (size_t i = 0; i < sizeof objects / sizeof *objects; i++) {
-        json_t *object = scope_of(gbuffer, objects[i]);
-        if (json_object_size(object)) json_object_set(frame, objects[i], object);
-        json_decref(object);
-    }
-    if (classes) json_object_set_new(frame, "stencil_classes", classes_of(classes));
-    if (json_array_size(lights)) json_object_set(frame, "lights", lights);
-    json_decref(lights);
+    record_set(&frame, "layout", json_string("row_major"));
+    record_set(&frame, "vectors", json_string("column"));
+    record_set(&frame, "jitter_in_matrix", json_true());
+    for (size_t i = 0; i < sizeof objects / sizeof *objects; i++)
+        set_filled(&frame, objects[i], scope_of(gbuffer, objects[i]));
+    if (classes) record_set(&frame, "stencil_classes", classes_of(classes));
+    set_filled(&frame, "lights", lights_of(gbuffer));
     return frame;
 }
 
-static void add_planes(const struct glint_exr_part_info *part, json_t *cubemap) {
+static json_t *planes_of(const struct glint_exr_part_info *part) {
     json_t *planes = json_array();
     for (unsigned i = 0; i < GLINT_MAX_PLANES; i++) {
         char name[32];
@@ -214,10 +223,9 @@ static void add_planes(const struct glint_exr_part_info *part, json_t *cubemap) 
         const struct glint_exr_attribute *a = glint_exr_attribute(part, name);
         const double *plane = a && a->numbers && a->count == 16 ? a->numbers + 4 * (i % 4) : NULL;
         if (!plane || (plane[0] == 0 && plane[1] == 0 && plane[2] == 0 && plane[3] == 0)) break;
-        json_array_append_new(planes, number_list(plane, 4));
+        record_append(&planes, number_list(plane, 4));
     }
-    if (json_array_size(planes)) json_object_set(cubemap, "planes", planes);
-    json_decref(planes);
+    return planes;
 }
 
 /* ---- Attributes that glint does not know ---- */
@@ -230,14 +238,13 @@ static json_t *any_number(double number) {
 
 static json_t *any_numbers(const struct glint_exr_attribute *a) {
     json_t *list = json_array();
-    for (size_t i = 0; i < a->count; i++) json_array_append_new(list, any_number(a->numbers[i]));
+    for (size_t i = 0; i < a->count; i++) record_append(&list, any_number(a->numbers[i]));
     return list;
 }
 
 static json_t *texts_of(const struct glint_exr_attribute *a) {
     json_t *list = json_array();
-    for (size_t i = 0; i < a->count; i++)
-        if (json_array_append_new(list, json_string(a->strings[i]))) return json_decref(list), NULL;
+    for (size_t i = 0; i < a->count; i++) record_append(&list, json_string(a->strings[i]));
     return list;
 }
 
@@ -251,7 +258,7 @@ static json_t *bytes_of(const struct glint_exr_attribute *a) {
 }
 
 static json_t *typed(const char *type, json_t *value) {
-    return value ? json_pack("{s:s, s:o}", "type", type, "value", value) : NULL;
+    return json_pack("{s:s, s:o}", "type", type, "value", value);
 }
 
 static json_t *unknown_of(const struct glint_exr_attribute *a) {
@@ -281,7 +288,7 @@ static json_t *unknown_of(const struct glint_exr_attribute *a) {
         break;
     }
     bytes = typed("opaque", bytes_of(a));
-    if (bytes) json_object_set_new(bytes, "type_name", json_string(a->type_name));
+    record_set(&bytes, "type_name", json_string(a->type_name));
     return bytes;
 }
 
@@ -290,41 +297,49 @@ static bool follows_from_camera(const struct glint_exr_part_info *part, const st
     return !strcmp(part->name, "gbuffer") && (!strcmp(a->name, "worldToCamera") || !strcmp(a->name, "worldToNDC"));
 }
 
-static bool add_unknown(const struct glint_exr_part_info *part, json_t *out, struct glint_error *err) {
+/* Whether all of the attribute's text is UTF-8. */
+static bool is_text(const struct glint_exr_attribute *a) {
+    bool text = record_can_hold(a->name) && (a->type != GLINT_EXR_STRING || record_can_hold(a->string)) &&
+                (a->type != GLINT_EXR_OPAQUE || record_can_hold(a->type_name));
+    for (size_t i = 0; text && a->type == GLINT_EXR_STRINGS && i < a->count; i++) text = record_can_hold(a->strings[i]);
+    return text;
+}
+
+static json_t *unknown_attributes(const struct glint_exr_part_info *part, struct glint_error *err) {
     json_t *unknown = json_object();
-    bool ok = unknown != NULL;
-    for (size_t i = 0; ok && i < part->attribute_count; i++) {
+    for (size_t i = 0; i < part->attribute_count; i++) {
         const struct glint_exr_attribute *a = &part->attributes[i];
         if (!strncmp(a->name, "glint.", 6) || follows_from_camera(part, a)) continue;
-        json_t *value = unknown_of(a);
-        ok = value && !json_object_set_new(unknown, a->name, value);
-        if (!ok)
-            glint_fail(err, GLINT_ERROR_UNSUPPORTED, "part %s: %.100s: expected text in UTF-8, found other bytes",
-                       part->name, a->name);
+        if (!is_text(a))
+            return glint_fail(err, GLINT_ERROR_UNSUPPORTED, "part %s: %.100s: expected text in UTF-8, found other bytes",
+                              part->name, a->name),
+                   json_decref(unknown), NULL;
+        record_set(&unknown, a->name, unknown_of(a));
     }
-    if (json_object_size(unknown)) json_object_set(out, "attributes", unknown);
-    json_decref(unknown);
-    return ok;
+    if (!unknown) glint_fail(err, GLINT_ERROR_MEMORY, "part %s: out of memory", part->name);
+    return unknown;
 }
 
 bool extract_attributes(const struct glint_exr_part_info *part, json_t *out, struct glint_error *err) {
+    static const char *const objects[] = {"cubemap", "planar", "sky",     "probe", "indirect",
+                                          "shadow",  "volume", "froxels", "truth"};
     bool previous;
     const struct glint_role *role = role_of(part->name, &previous);
     const char *own = role ? role->name : "";
-    json_t *encodings = role ? scope_of(part, "encodings") : NULL;
-    if (json_object_size(encodings)) json_object_set(out, "encodings", encodings);
-    json_decref(encodings);
-    static const char *const objects[] = {"cubemap", "planar", "sky",     "probe", "indirect",
-                                          "shadow",  "volume", "froxels", "truth"};
+    json_t *unknown = unknown_attributes(part, err), *said = unknown ? json_object() : NULL;
+    if (!unknown) return false;
+    if (role) set_filled(&said, "encodings", scope_of(part, "encodings"));
     for (size_t i = 0; i < sizeof objects / sizeof *objects; i++) {
         const size_t length = strcspn(own, "."); /* truth.occlusion, truth.sun */
         if (strncmp(own, objects[i], length) || objects[i][length]) continue;
         json_t *object = scope_of(part, objects[i]);
-        if (!strcmp(own, "cubemap")) add_planes(part, object);
-        if (json_object_size(object)) json_object_set(out, objects[i], object);
-        json_decref(object);
+        if (!strcmp(own, "cubemap")) set_filled(&object, "planes", planes_of(part));
+        set_filled(&said, objects[i], object);
     }
-    return add_unknown(part, out, err);
+    set_filled(&said, "attributes", unknown);
+    const bool whole = said && json_object_update(out, said) == 0;
+    json_decref(said);
+    return whole || glint_fail(err, GLINT_ERROR_MEMORY, "part %s: out of memory", part->name);
 }
 
 const char *extract_storage(const struct glint_exr_part_info *part, const struct glint_channel_info *channel,

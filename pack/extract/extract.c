@@ -11,6 +11,7 @@
 #include "glint/exr.h"
 #include "glint/pack.h"
 #include "keys.h"
+#include "record.h"
 #include "roles.h"
 
 struct extract {
@@ -23,6 +24,13 @@ struct extract {
 
 static bool no_memory(const struct extract *x, struct glint_error *err) {
     return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", x->capture);
+}
+
+/* Adds to an object of the manifest, or fails without memory or for a key that is no text. */
+static bool set(const struct extract *x, json_t *object, const char *key, json_t *value, struct glint_error *err) {
+    if (json_object_set_new(object, key, value) == 0) return true;
+    if (record_can_hold(key)) return no_memory(x, err);
+    return glint_fail(err, GLINT_ERROR_UNSUPPORTED, "%s: expected names in UTF-8, found other bytes", x->capture);
 }
 
 static bool report(const struct extract *x, const char *what, double done, struct glint_error *err) {
@@ -137,14 +145,14 @@ static bool write_texture(struct extract *x, size_t p, const size_t *group, size
     const bool ok = glint_exr_read(x->exr, p, names, count, types[stored], texels, threads, err) &&
                     write_file(x, file, texels, size, err);
     free(texels);
+    if (!ok) return false;
     json_t *texture = json_pack("{s:s, s:s, s:i, s:i, s:s}", "file", file, "format", format_name(format, format_text),
                                 "width", (int)part->width, "height", (int)part->height, "rows", "top_first");
     bool previous;
     const struct glint_role *role = role_of(part->name, &previous);
     if (role && glint_shape_is_cube(role->shape))
-        json_object_set_new(texture, "cube", json_pack("{s:s}", "layout", "strip_vertical"));
-    json_object_set_new(x->textures, name, texture);
-    return ok;
+        record_set(&texture, "cube", json_pack("{s:s}", "layout", "strip_vertical"));
+    return set(x, x->textures, name, texture, err);
 }
 
 static bool is_key_of_part(const char *channel) {
@@ -153,25 +161,25 @@ static bool is_key_of_part(const char *channel) {
 }
 
 /* Adds the channels in the order of glint.storage, in which the engine had them, so that the same bytes can be packed again. */
-static bool add_channels(const struct glint_exr_part_info *part, json_t **values, json_t *out,
+static bool add_channels(const struct extract *x, const struct glint_exr_part_info *part, json_t **values, json_t *out,
                          struct glint_error *err) {
     const struct glint_exr_attribute *order = glint_exr_attribute(part, "glint.storage");
     const size_t named = order && order->strings ? order->count : 0;
     bool ok = true;
-    for (size_t k = 0; k < named + part->channel_count; k++)
-        for (size_t i = 0; i < part->channel_count; i++) {
+    for (size_t k = 0; ok && k < named + part->channel_count; k++)
+        for (size_t i = 0; ok && i < part->channel_count; i++) {
             const char *name = part->channels[i].name;
             const size_t length = strlen(name);
             if (!values[i] || (k < named ? strncmp(order->strings[k], name, length) || order->strings[k][length] != '='
                                          : k - named != i))
                 continue;
-            json_t *object = is_key_of_part(name) ? json_object_get(out, "channels") : out;
-            if (!object) json_object_set_new(out, "channels", object = json_object());
-            ok = !json_object_set_new(object, name, values[i]) && ok;
+            const bool keyed = is_key_of_part(name);
+            if (keyed && !json_object_get(out, "channels")) ok = set(x, out, "channels", json_object(), err);
+            ok = ok && set(x, keyed ? json_object_get(out, "channels") : out, name, json_incref(values[i]), err);
+            json_decref(values[i]);
             values[i] = NULL;
         }
-    return ok || glint_fail(err, GLINT_ERROR_UNSUPPORTED,
-                            "part %s: expected names of channels in UTF-8, found other bytes", part->name);
+    return ok;
 }
 
 static json_t *channel_value(const struct glint_exr_part_info *part, size_t channel, const char *texture,
@@ -199,12 +207,10 @@ static bool extract_channels(struct extract *x, size_t p, json_t *out, struct gl
         for (size_t k = 0; ok && k < count; k++) {
             done[group[k]] = true;
             values[group[k]] = channel_value(part, group[k], name, "rgba"[k]);
-            ok = values[group[k]] != NULL ||
-                 glint_fail(err, GLINT_ERROR_UNSUPPORTED, "part %s: expected names in UTF-8, found other bytes",
-                            part->name);
+            ok = values[group[k]] != NULL || no_memory(x, err);
         }
     }
-    ok = ok && add_channels(part, values, out, err);
+    ok = ok && add_channels(x, part, values, out, err);
     for (size_t i = 0; values && i < part->channel_count; i++) json_decref(values[i]);
     free(values);
     free(done);
@@ -219,7 +225,9 @@ static bool extract_sibling(const struct extract *x, const char *name, json_t *o
     if (ok && strchr(name, '/'))
         ok = glint_fail(err, GLINT_ERROR_FORMAT, "%s: sibling %s is no file name", x->capture, name);
     if (ok && !file_same(from, to) && !file_equal(from, to)) ok = file_copy(from, to, err);
-    json_object_set_new(out, "sibling", json_string(name));
+    if (ok && !record_can_hold(name))
+        ok = glint_fail(err, GLINT_ERROR_UNSUPPORTED, "%s: expected names in UTF-8, found other bytes", x->capture);
+    ok = ok && set(x, out, "sibling", json_string(name), err);
     free(from);
     free(to);
     return ok;
@@ -228,12 +236,10 @@ static bool extract_sibling(const struct extract *x, const char *name, json_t *o
 static bool extract_part(struct extract *x, size_t p, struct glint_error *err) {
     const struct glint_exr_part_info *part = glint_exr_part(x->exr, p);
     const struct glint_exr_attribute *sibling = glint_exr_attribute(part, "glint.sibling");
-    json_t *out = json_object();
-    if (!out || json_object_set_new(x->parts, part->name, out))
-        return glint_fail(err, GLINT_ERROR_UNSUPPORTED, "%s: expected names of parts in UTF-8, found other bytes",
-                          x->capture);
-    if (!strcmp(part->name, "gbuffer")) json_object_set_new(x->manifest, "frame", extract_frame(part));
-    return extract_attributes(part, out, err) &&
+    if (!set(x, x->parts, part->name, json_object(), err)) return false;
+    json_t *out = json_object_get(x->parts, part->name);
+    return (strcmp(part->name, "gbuffer") || set(x, x->manifest, "frame", extract_frame(part), err)) &&
+           extract_attributes(part, out, err) &&
            (sibling && sibling->string ? extract_sibling(x, sibling->string, out, err)
                                        : extract_channels(x, p, out, err));
 }
@@ -243,9 +249,10 @@ static bool extract_all(struct extract *x, struct glint_error *err) {
     for (size_t p = 0; p < count; p++)
         if (!report(x, glint_exr_part(x->exr, p)->name, (double)p / (double)count, err) || !extract_part(x, p, err))
             return false;
-    json_object_set(x->manifest, "textures", x->textures);
-    json_object_set(x->manifest, "parts", x->parts);
-    char *text = json_dumps(x->manifest, JSON_INDENT(1) | JSON_REAL_PRECISION(17));
+    if (!set(x, x->manifest, "textures", json_incref(x->textures), err) ||
+        !set(x, x->manifest, "parts", json_incref(x->parts), err))
+        return false;
+    char *text = record_text(x->manifest, JSON_INDENT(1) | JSON_REAL_PRECISION(17));
     if (!text) return no_memory(x, err);
     const bool ok = write_file(x, "manifest.json", text, strlen(text), err);
     free(text);

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <exception>
 #include <memory>
+#include <new>
 #include <string>
 
 namespace {
@@ -39,19 +40,20 @@ bool decode(const char *path, const char *kind, const uint8_t *data, size_t size
     if (bytes > most)
         return glint_fail(err, GLINT_ERROR_LIMIT, "%s: expected at most %llu bytes of pixels, found %llu", path,
                           static_cast<unsigned long long>(most), static_cast<unsigned long long>(bytes));
+    std::unique_ptr<void, decltype(&std::free)> pixels(std::malloc(size_t(bytes)), std::free);
+    if (!pixels) return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
+    if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc(type), pixels.get())) {
+        const std::string reason = input->geterror();
+        return glint_fail(err, GLINT_ERROR_FORMAT, "%s: expected whole pixels: %.300s", path, reason.c_str());
+    }
     *out = oiio_image{uint32_t(spec.width),
                       uint32_t(spec.height),
                       uint32_t(spec.nchannels),
                       unsigned(8 * spec.format.basesize()),
                       type == OIIO::TypeDesc::HALF || type == OIIO::TypeDesc::FLOAT,
-                      std::malloc(size_t(bytes)),
+                      pixels.release(),
                       size_t(bytes)};
-    if (!out->pixels) return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
-    if (input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc(type), out->pixels)) return true;
-    const std::string reason = input->geterror();
-    std::free(out->pixels);
-    *out = oiio_image{};
-    return glint_fail(err, GLINT_ERROR_FORMAT, "%s: expected whole pixels: %.300s", path, reason.c_str());
+    return true;
 }
 
 } // namespace
@@ -60,6 +62,8 @@ bool glint_oiio_decode(const char *path, const char *kind, const uint8_t *data, 
                        oiio_image *out, glint_error *err) {
     try {
         return decode(path, kind, data, size, most, out, err);
+    } catch (const std::bad_alloc &) {
+        return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
     } catch (const std::exception &e) {
         return glint_fail(err, GLINT_ERROR_FORMAT, "%s: OpenImageIO: %.300s", path, e.what());
     } catch (...) {

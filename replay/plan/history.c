@@ -47,7 +47,8 @@ static bool check_history(const struct frame_plan *plan, struct glint_error *err
                      width = json_integer_value(json_array_get(size, 0)),
                      height = json_integer_value(json_array_get(size, 1));
     bool ok = true;
-    if (width != plan->sizes.full[0] || height != plan->sizes.full[1])
+    if (!run) ok = glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", folder);
+    else if (width != plan->sizes.full[0] || height != plan->sizes.full[1])
         ok = glint_fail(err, GLINT_ERROR_USAGE,
                         "%s: cannot be the history of %s: expected %u x %u pixels, found %lld x %lld", folder, path,
                         plan->sizes.full[0], plan->sizes.full[1], (long long)width, (long long)height);

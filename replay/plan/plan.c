@@ -54,5 +54,6 @@ bool plan_frame(struct frame_plan *plan, struct planner *planner, const struct g
     struct glint_error ignored = {0}; /* a plan may also be made of a pipeline that cannot run */
     const bool sized =
         tables_fill(plan->tables, &plan->graph, plan->source, &ignored) && plan_find_sizes(plan, &ignored);
+    if (!sized && ignored.code == GLINT_ERROR_MEMORY) return glint_fail(err, ignored.code, "%s", ignored.message);
     return (!sized || plan_reach(plan, &planner->survey.figures, err)) && plan_workload(plan, &inputs, sized, err);
 }

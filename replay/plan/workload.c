@@ -69,8 +69,8 @@ static void count_cube_faces(const struct frame_plan *plan, struct glint_cube_fa
     }
 }
 
-/* Plans the same graph with all of its passes and without culling. */
-static void find_whole_work(struct frame_plan *plan, const struct graph_inputs *inputs) {
+/* Plans the same graph with all of its passes and without culling. What it needs stays unknown if it cannot be linked. */
+static bool find_whole_work(struct frame_plan *plan, const struct graph_inputs *inputs, struct glint_error *err) {
     struct glint_replay_options all = *plan->options;
     struct glint_error ignored = {0};
     struct glint_cube_faces faces = {0};
@@ -96,12 +96,13 @@ static void find_whole_work(struct frame_plan *plan, const struct graph_inputs *
     plan->faces = (struct glint_cube_faces){.uploaded_of = faces.uploaded, .filtered_of = faces.filtered};
     whole.inputs = NULL; /* owned by the plan */
     frame_plan_finish(&whole);
+    return ignored.code != GLINT_ERROR_MEMORY || glint_fail(err, ignored.code, "%s", ignored.message);
 }
 
 bool plan_workload(struct frame_plan *plan, const struct graph_inputs *inputs, bool sized, struct glint_error *err) {
     plan->whole = calloc(plan->graph.pass_count + 1, sizeof *plan->whole);
     if (!plan->whole) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    find_whole_work(plan, inputs); /* stays unknown if it cannot be linked */
+    if (!find_whole_work(plan, inputs, err)) return false;
     if (sized) count_cube_faces(plan, &plan->faces);
     return true;
 }

@@ -54,16 +54,6 @@ static json_t *device_record(const struct glint_device_info *info) {
                      info->driver_version, "times_are", info->is_cpu ? "CPU times of a software device" : "GPU times");
 }
 
-/* Whether the run folder of the inputs is a run of this capture. */
-static bool inputs_match(const struct run *run) {
-    char hash[33];
-    json_t *inputs = json_loads(glint_run_json(run->plan->inputs), 0, NULL);
-    const char *theirs = json_string_value(json_object_get(json_object_get(inputs, "capture"), "xxh3_128"));
-    bool match = theirs && glint_capture_hash(run->source->capture, hash, NULL) && strcmp(theirs, hash) == 0;
-    json_decref(inputs);
-    return match;
-}
-
 static bool makes_diagnostics(const struct run *run) {
     for (size_t i = 0; i < run->graph->image_count; i++)
         if (run->graph->images[i].row->kind == GLINT_ROW_DIAGNOSTIC && run->graph->images[i].source == SOURCE_MADE)
@@ -108,13 +98,23 @@ static json_t *sentence(const char *format, ...) {
     return text_or_null(text);
 }
 
+/* Warns if the run folder of the inputs is a run of another capture. */
+static void warn_of_inputs(const struct run *run, json_t **list) {
+    char hash[33];
+    json_t *inputs = json_loads(glint_run_json(run->plan->inputs), 0, NULL);
+    const char *theirs = json_string_value(json_object_get(json_object_get(inputs, "capture"), "xxh3_128"));
+    if (!inputs) *list = record_if(false, *list);
+    else if (!theirs || !glint_capture_hash(run->source->capture, hash, NULL) || strcmp(theirs, hash) != 0)
+        record_append(list, sentence("%s was made from another capture", run->options->inputs));
+    json_decref(inputs);
+}
+
 static json_t *warnings_record(const struct glint_replay *replay, const struct run *run) {
     json_t *list = json_array();
     warn_of_missing(replay, run, &list);
     if (run->options->diagnostics && !makes_diagnostics(run))
         record_append(&list, json_string("diagnostics were requested, but no pass that runs writes any"));
-    if (run->plan->inputs && !inputs_match(run))
-        record_append(&list, sentence("%s was made from another capture", run->options->inputs));
+    if (run->plan->inputs) warn_of_inputs(run, &list);
     const struct glint_frame *frame = glint_capture_frame(run->source->capture);
     if (run->sizes->history && !frame->has_previous)
         record_append(&list, json_string("the capture has no previous camera: the camera is assumed not to move"));
@@ -154,7 +154,7 @@ json_t *run_record(const struct glint_replay *replay, const struct run *run) {
     const bool surveyed = replay->planner.survey.done && !options->all;
     json_t *passes = json_array();
     for (size_t p = 0; p < run->graph->pass_count; p++)
-        json_array_append_new(passes, pass_record(&replay->results, run, p));
+        record_append(&passes, pass_record(&replay->results, run, p));
     return json_pack(
         "{si s{ssss} so sI s{so so ss} sI sI so s{s[ii]s[ii]} ss sb so so sI so sb so so so so}", "format", 1, "tool",
         "name", "glint", "version", GLINT_VERSION, "device", device_record(&run->gpu->info), "frame",

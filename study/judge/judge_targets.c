@@ -8,6 +8,8 @@
 #include <jansson.h>
 #include <xxhash.h>
 
+#include "no_memory.h"
+
 void targets_finish(struct target **targets) {
     for (struct target *target = *targets, *next; target; target = next) {
         next = target->next;
@@ -29,7 +31,7 @@ static bool read_run(const char *folder, const struct target_request *request, s
     const char *theirs = json_string_value(json_object_get(of, "xxh3_128"));
     const char *path = json_string_value(json_object_get(of, "path"));
     const struct glint_effect *effect = request->options->effect;
-    bool ok = glint_capture_hash(capture, hash, err);
+    bool ok = json ? glint_capture_hash(capture, hash, err) : no_memory(err, folder);
     if (ok && (!theirs || strcmp(theirs, hash) != 0))
         ok = glint_fail(err, GLINT_ERROR_USAGE, "%s: expected a run of %s (%s), found one of %s (%s)", folder,
                         glint_capture_path(capture), hash, path ? path : "another capture", theirs ? theirs : "?");

@@ -10,6 +10,7 @@
 
 #include "glint/exr.h"
 #include "no_memory.h"
+#include "record.h"
 #include "values.h"
 
 /* What follows the name of the result in the names of the images. The mean has the name of the result itself. */
@@ -59,6 +60,7 @@ static bool read_folder(struct glint_reference *reference, struct glint_run *run
     const json_t *own = json_object_get(reference->record, "reference");
     const json_int_t rays = json_integer_value(json_object_get(own, "rays"));
     struct glint_error differs = {0};
+    if (!reference->record) return no_memory(err, folder);
     if (!own)
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: holds a run that is not a reference; expected another folder",
                           folder);
@@ -133,23 +135,24 @@ bool reference_note(struct glint_reference *reference, struct glint_error *err) 
     json_t *record = text ? json_loads(text, 0, NULL) : NULL;
     free(text);
     if (!record) return text && no_memory(err, "reference");
-    json_t *own = reference_json(reference);
     json_t *list = json_array(), *last = last_run_pass(record);
     for (int i = 0; i < REFERENCE_IMAGES; i++) {
         const struct image_name name = image_name(reference->result->name, i);
-        json_array_append_new(
-            list,
+        record_append(
+            &list,
             json_pack("{ss ss* ss ss ss ss si si ss}", "name", name.text, "file", NULL, "part", name.text, "channels",
                       image_channels(reference, i), "unit", image_unit(reference, i), "meaning", images[i].meaning,
                       "width", (int)reference->halves.of[0].width, "height", (int)reference->halves.of[0].height,
                       "format", i == REFERENCE_ERROR || reference->channels.count == 1 ? "R32F" : "RGBA32F"));
     }
     json_object_del(record, "first_ray");
-    bool ok = own && last && json_object_set_new(record, "rays", json_integer(reference->state.rays)) == 0 &&
-              json_object_set_new(record, "reference", own) == 0 && json_object_set_new(last, "images", list) == 0;
+    record = record_if(json_object_set_new(last, "images", list) == 0, record);
+    record_set(&record, "rays", json_integer(reference->state.rays));
+    record_set(&record, "reference", reference_json(reference));
+    if (!record) return no_memory(err, "reference");
     json_decref(reference->record);
     reference->record = record;
-    return ok || no_memory(err, "reference");
+    return true;
 }
 
 /* An image of the file, with what its part refers to. */
@@ -202,9 +205,11 @@ bool reference_save(struct glint_reference *reference, struct glint_error *err) 
     char before[64] = "", file[64], path[4096];
     struct glint_run *run = glint_run_open(reference->folder, NULL);
     json_t *old = run ? json_loads(glint_run_json(run), 0, NULL) : NULL;
+    const bool known = old || !run;
     if (old) find_image_file(old, before);
     glint_run_close(&run);
     json_decref(old);
+    if (!known) return no_memory(err, "reference");
     snprintf(file, sizeof file, "reference-%u.exr", reference->state.rays);
     if (snprintf(path, sizeof path, "%s/%s", reference->folder, file) >= (int)sizeof path)
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", reference->folder);
@@ -213,9 +218,9 @@ bool reference_save(struct glint_reference *reference, struct glint_error *err) 
     json_t *image;
     size_t i;
     json_array_foreach(json_object_get(last_run_pass(reference->record), "images"), i, image) {
-        json_object_set_new(image, "file", json_string(file));
+        if (json_object_set_new(image, "file", json_string(file)) != 0) return no_memory(err, "reference");
     }
-    char *text = json_dumps(reference->record, JSON_REAL_PRECISION(17));
+    char *text = record_text(reference->record, JSON_REAL_PRECISION(17));
     const bool written = text ? glint_run_write_json(reference->folder, text, err) : no_memory(err, "reference");
     free(text);
     if (!written) return false;

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "no_memory.h"
+#include "record.h"
 
 static json_t *values_json(const struct glint_pipeline *pipeline, const struct glint_pass *pass) {
     json_t *values = json_object();
@@ -13,8 +14,7 @@ static json_t *values_json(const struct glint_pipeline *pipeline, const struct g
         const struct glint_row *row = &pass->rows[r];
         if (!glint_row_is_parameter(row)) continue;
         const double value = glint_pipeline_value(pipeline, pass, row);
-        json_object_set_new(values, row->name,
-                            row->choices ? json_string(row->choices[(size_t)value]) : json_real(value));
+        record_set(&values, row->name, row->choices ? json_string(row->choices[(size_t)value]) : json_real(value));
     }
     return values;
 }
@@ -35,23 +35,23 @@ bool reference_settings(struct glint_reference *reference, struct glint_error *e
     const struct glint_device_info *device = glint_device_get_info(glint_replay_device(reference->replay));
     char hash[33];
     json_t *passes = json_object();
-    bool ok = glint_replay_capture_hash(reference->replay, hash, err);
-    for (size_t i = 0; ok && i < glint_pipeline_pass_count(reference->pipeline); i++) {
+    if (!glint_replay_capture_hash(reference->replay, hash, err)) return json_decref(passes), false;
+    struct glint_error failed = {0};
+    for (size_t i = 0; passes && i < glint_pipeline_pass_count(reference->pipeline); i++) {
         const struct glint_pass *pass = glint_pipeline_pass(reference->pipeline, i);
-        json_t *settings = pass_settings(reference, pass, err);
-        ok = settings && json_object_set_new(passes, pass->slot, settings) == 0;
+        record_set(&passes, pass->slot, pass_settings(reference, pass, &failed));
     }
-    json_t *all = ok ? json_pack("{ss ss ss ss ss sb sO}", "effect", reference->effect->name, "capture", hash, "device",
-                                 device->name, "driver", device->driver_version, "tool", GLINT_VERSION, "all",
-                                 reference->all, "passes", passes)
-                     : NULL;
+    json_t *all = json_pack("{ss ss ss ss ss sb so}", "effect", reference->effect->name, "capture", hash, "device",
+                            device->name, "driver", device->driver_version, "tool", GLINT_VERSION, "all",
+                            reference->all, "passes", passes);
     /* Written and read once, so that numbers are rounded as in a file. */
-    char *text = all ? json_dumps(all, JSON_REAL_PRECISION(REFERENCE_DIGITS)) : NULL;
+    char *text = record_text(all, JSON_REAL_PRECISION(REFERENCE_DIGITS));
     reference->settings = text ? json_loads(text, 0, NULL) : NULL;
     free(text);
     json_decref(all);
-    json_decref(passes);
-    return reference->settings || (ok && no_memory(err, "reference"));
+    if (reference->settings) return true;
+    if (failed.code && err) *err = failed;
+    return !failed.code && no_memory(err, "reference");
 }
 
 static json_t *noise_json(const struct glint_reference *reference) {
@@ -59,19 +59,18 @@ static json_t *noise_json(const struct glint_reference *reference) {
     const struct glint_effect *effect = reference->effect;
     json_t *rows = json_array();
     for (size_t k = 0; k <= glint_effect_class_count(effect); k++)
-        json_array_append_new(rows,
-                              json_pack("{ss sI sf sf sf}", "surfaces", glint_effect_class_name(effect, k), "pixels",
-                                        (json_int_t)state->noise[k].pixels, "mean", state->noise[k].mean, "error",
-                                        state->noise[k].error, "relative", state->noise[k].relative));
+        record_append(&rows, json_pack("{ss sI sf sf sf}", "surfaces", glint_effect_class_name(effect, k), "pixels",
+                                       (json_int_t)state->noise[k].pixels, "mean", state->noise[k].mean, "error",
+                                       state->noise[k].error, "relative", state->noise[k].relative));
     return rows;
 }
 
 static json_t *changes_json(const struct glint_effect *effect, const struct glint_reference_assumption *row) {
     json_t *rows = json_array();
     for (size_t k = 0; k <= glint_effect_class_count(effect); k++)
-        json_array_append_new(rows, json_pack("{ss sf sf sf sf}", "surfaces", glint_effect_class_name(effect, k),
-                                              "mean", row->of[k].mean, "rmse", row->of[k].rmse, "noise",
-                                              row->of[k].noise, "relative", row->of[k].relative));
+        record_append(&rows, json_pack("{ss sf sf sf sf}", "surfaces", glint_effect_class_name(effect, k), "mean",
+                                       row->of[k].mean, "rmse", row->of[k].rmse, "noise", row->of[k].noise, "relative",
+                                       row->of[k].relative));
     return rows;
 }
 
@@ -80,10 +79,11 @@ json_t *reference_sensitivity_json(const struct glint_effect *effect,
     json_t *rows = json_array();
     for (size_t i = 0; i < sensitivity->count; i++) {
         const struct glint_reference_assumption *row = &sensitivity->rows[i];
-        json_array_append_new(rows, json_pack("{ss ss sf sf sb so* ss*}", "slot", row->pass->slot, "parameter",
-                                              row->row->name, "value", row->value, "tried", row->tried, "ran", row->ran,
-                                              "change", row->ran ? changes_json(effect, row) : NULL, "reason",
-                                              row->ran ? NULL : row->reason));
+        json_t *json = json_pack("{ss ss sf sf sb}", "slot", row->pass->slot, "parameter", row->row->name, "value",
+                                 row->value, "tried", row->tried, "ran", row->ran);
+        if (row->ran) record_set(&json, "change", changes_json(effect, row));
+        else record_set(&json, "reason", json_string(row->reason));
+        record_append(&rows, json);
     }
     return json_pack("{si so}", "rays", (int)sensitivity->rays, "rows", rows);
 }
@@ -96,7 +96,7 @@ json_t *reference_json(const struct glint_reference *reference) {
 
 char *glint_reference_json(const struct glint_reference *reference) {
     json_t *json = reference_json(reference);
-    char *text = json ? json_dumps(json, JSON_REAL_PRECISION(REFERENCE_DIGITS)) : NULL;
+    char *text = record_text(json, JSON_REAL_PRECISION(REFERENCE_DIGITS));
     json_decref(json);
     return text;
 }
@@ -104,9 +104,8 @@ char *glint_reference_json(const struct glint_reference *reference) {
 /* ---- Comparing settings ---- */
 
 static void json_text(const json_t *value, char text[80]) {
-    char *dumped =
-        value ? json_dumps(value, JSON_ENCODE_ANY | JSON_COMPACT | JSON_REAL_PRECISION(REFERENCE_DIGITS)) : NULL;
-    snprintf(text, 80, "%.70s", dumped ? dumped : "nothing");
+    char *dumped = record_text(value, JSON_ENCODE_ANY | JSON_COMPACT | JSON_REAL_PRECISION(REFERENCE_DIGITS));
+    snprintf(text, 80, "%.70s", dumped ? dumped : value ? "something" : "nothing");
     free(dumped);
 }
 

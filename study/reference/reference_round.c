@@ -9,6 +9,8 @@
 #include <unistd.h>
 
 #include "glint/exr.h"
+#include "no_memory.h"
+#include "record.h"
 
 enum { ATTRIBUTES = 4 };
 static const char *const part_names[2] = {"batch_a", "batch_b"};
@@ -33,7 +35,7 @@ bool reference_save_round(struct glint_reference *reference, struct glint_error 
     struct glint_exr_attribute attributes[2][ATTRIBUTES];
     struct glint_exr_part parts[2];
     char path[4096];
-    char *settings = json_dumps(reference->settings, JSON_REAL_PRECISION(REFERENCE_DIGITS));
+    char *settings = record_text(reference->settings, JSON_REAL_PRECISION(REFERENCE_DIGITS));
     bool ok = settings || glint_fail(err, GLINT_ERROR_MEMORY, "reference: out of memory");
     size_t count = 0;
     for (int h = 0; h < 2 && halves->batched[h]; h++, count++) {
@@ -74,7 +76,9 @@ static double number_of(const struct glint_exr_part_info *part, const char *name
 static bool same_settings(const struct glint_reference *reference, const struct glint_exr_part_info *part,
                           struct glint_error *err) {
     const struct glint_exr_attribute *a = glint_exr_attribute(part, "settings");
-    json_t *settings = a && a->type == GLINT_EXR_STRING ? json_loads(a->string, 0, NULL) : NULL;
+    json_error_t fault = {0};
+    json_t *settings = a && a->type == GLINT_EXR_STRING ? json_loads(a->string, 0, &fault) : NULL;
+    if (a && !settings && !fault.text[0]) return no_memory(err, "reference"); /* not what the text says */
     struct glint_error differs = {0};
     const bool same = reference_same_settings("", settings, reference->settings, &differs);
     json_decref(settings);

@@ -7,6 +7,8 @@
 
 #include <jansson.h>
 
+#include "no_memory.h"
+
 bool study_parameter_text(const struct glint_pipeline *pipeline, const char *slot, const char *name, char text[64]) {
     const struct glint_pass *pass = glint_pipeline_find(pipeline, slot);
     const struct glint_row *row = pass ? glint_pass_parameter(pass, name) : NULL;
@@ -61,7 +63,7 @@ bool glint_study_fits(const struct glint_run *run, const char *folder, const str
     const struct glint_pass *pass;
     const struct glint_row *row;
     json_t *json = json_loads(glint_run_json(run), 0, NULL), *theirs;
-    bool ok = true;
+    bool ok = json || no_memory(err, folder);
     for (size_t i = 0, p; ok && (row = question_row(pipeline, effect, i, &pass)); i++) {
         char value[64], other[64];
         if (!study_parameter_text(pipeline, pass->slot, row->image, value)) continue;

@@ -56,7 +56,9 @@ static void handle(int signal, siginfo_t *info, void *user) {
     long a[6] = {r[REG_RDI], r[REG_RSI], r[REG_RDX], r[REG_R10], r[REG_R8], r[REG_R9]};
     const struct call *call = calls;
     while (call < calls + CALLS - 1 && call->number != info->si_syscall) call++;
-    const bool fails = fail_now(call->kind, NULL);
+    /* Where all fail, as on a full disk, there still is a terminal for messages. */
+    const bool terminal = fail_all() && call->kind == FAIL_WRITE && a[0] == STDERR_FILENO;
+    const bool fails = !terminal && fail_now(call->kind, fail_site(NULL));
     if (fails && fail_short() && call->bytes >= 0) a[call->bytes] = (a[call->bytes] + 1) / 2;
     if (fails && !fail_short()) r[REG_RAX] = -fail_error(call->error);
     else r[REG_RAX] = fail_make_call(info->si_syscall, a[0], a[1], a[2], a[3], a[4], a[5]);

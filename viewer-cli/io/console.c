@@ -1,6 +1,7 @@
 /* Wraps lines at the width of the terminal, and colours. */
 #include "io/console.h"
 
+#include <errno.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -39,6 +40,7 @@ static bool write_out(struct wrapping *w) {
     size_t done = 0;
     while (done < w->filled) {
         const ssize_t n = write(w->file, w->out + done, w->filled - done);
+        if (n < 0 && errno == EINTR) continue;
         if (n < 0) return false;
         done += (size_t)n;
     }

@@ -4,6 +4,7 @@
 #include <jansson.h>
 #include <stdarg.h>
 #include <stdatomic.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -31,29 +32,38 @@ static void *noted(void *memory) {
 }
 
 /* ---- Jansson: 2.14 writes past the end of a string that it reads when its buffer cannot grow, and passes over what it cannot store. It
-   has to get its memory: from a reserve that is given back when there is none, once, and then the command fails at its end. ---- */
+   has to get its memory: without any from a reserve, whose parts stay taken, and then the command fails at its end. ---- */
 
 enum { RESERVE_BYTES = 1 << 20 };
-static _Atomic(void *) reserve;
+static char *reserve;
+static atomic_size_t reserve_taken;
+
+static bool in_reserve(const void *memory) {
+    return reserve && (const char *)memory >= reserve && (const char *)memory < reserve + RESERVE_BYTES;
+}
 
 static void *take_for_json(size_t bytes) {
     void *memory = malloc(bytes);
     if (memory) return memory;
-    free(atomic_exchange(&reserve, NULL));
-    memory = malloc(bytes);
-    if (memory) return memory;
+    const size_t align = _Alignof(max_align_t);
+    if (reserve && bytes < RESERVE_BYTES) {
+        const size_t needed = (bytes + align) / align * align, at = atomic_fetch_add(&reserve_taken, needed);
+        if (at <= RESERVE_BYTES - needed) return reserve + at;
+    }
     static const char text[] = "glint: out of memory\n";
     const ssize_t written = write(STDERR_FILENO, text, sizeof text - 1);
     _exit(written < 0 ? STATUS_USAGE : STATUS_CHECK); /* rather than wrong texts, or worse */
 }
 
 void memory_begin(void) {
-    atomic_store(&reserve, malloc(RESERVE_BYTES));
+    reserve = malloc(RESERVE_BYTES);
     json_set_alloc_funcs(take_for_json, free);
 }
 
 void memory_end(void) {
-    free(atomic_exchange(&reserve, NULL));
+    char *memory = reserve;
+    reserve = NULL;
+    free(memory);
 }
 
 /* ---- What the linker has the program call in place of the C library's functions (__wrap_), and these themselves (__real_) ---- */
@@ -61,6 +71,7 @@ void memory_end(void) {
 void *__real_malloc(size_t bytes);
 void *__real_calloc(size_t count, size_t bytes);
 void *__real_realloc(void *memory, size_t bytes);
+void __real_free(void *memory);
 char *__real_strdup(const char *text);
 char *__real_strndup(const char *text, size_t length);
 int __real_vasprintf(char **text, const char *format, va_list args);
@@ -68,6 +79,7 @@ int __real_vasprintf(char **text, const char *format, va_list args);
 void *__wrap_malloc(size_t bytes);
 void *__wrap_calloc(size_t count, size_t bytes);
 void *__wrap_realloc(void *memory, size_t bytes);
+void __wrap_free(void *memory);
 char *__wrap_strdup(const char *text);
 char *__wrap_strndup(const char *text, size_t length);
 int __wrap_vasprintf(char **text, const char *format, va_list args);
@@ -84,6 +96,11 @@ void *__wrap_calloc(size_t count, size_t bytes) {
 
 void *__wrap_realloc(void *memory, size_t bytes) {
     return noted(__real_realloc(memory, bytes ? bytes : 1));
+}
+
+/* Also what json_dumps returned, which may be of the reserve. */
+void __wrap_free(void *memory) {
+    if (!in_reserve(memory)) __real_free(memory);
 }
 
 char *__wrap_strdup(const char *text) {

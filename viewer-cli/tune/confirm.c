@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "io/memory.h"
 #include "tune/tune.h"
 
 const char *const tune_contenders[TUNE_CONTENDERS] = {"start", "tuned", "scaled"};
@@ -162,9 +163,12 @@ bool tune_confirm(struct tune *tune, struct glint_error *err) {
 bool tune_difference(const struct tune *tune, size_t subject, int a, int b, size_t row,
                      struct glint_figure *difference) {
     const struct tune_measured *measured = tune->measured + subject * TUNE_CONTENDERS;
-    struct glint_error ignored = {0};
-    return tune->contenders[a] && tune->contenders[b] && measured[a].errors.rows[row].pixels &&
-           glint_metrics_difference(&measured[a].errors, &measured[b].errors, row, tune->metric, difference, &ignored);
+    struct glint_error none = {0};
+    const bool ok =
+        tune->contenders[a] && tune->contenders[b] && measured[a].errors.rows[row].pixels &&
+        glint_metrics_difference(&measured[a].errors, &measured[b].errors, row, tune->metric, difference, &none);
+    if (none.code == GLINT_ERROR_MEMORY) memory_note();
+    return ok;
 }
 
 const char *tune_verdict(const struct glint_figure *difference) {

@@ -15,12 +15,12 @@ static json_t *limit_json(const struct tune *tune) {
                      tune->slots.count ? strings_json(tune->slots.items) : json_null());
 }
 
-static json_t *captures_list(const struct tune *tune) {
+/* NULL if one of them cannot be read any more. */
+static json_t *captures_list(const struct tune *tune, struct glint_error *err) {
     json_t *list = json_array(), *hashes;
-    struct glint_error ignored = {0};
     for (int held_out = 0; held_out < 2; held_out++) {
         const struct list *captures = held_out ? &tune->held_out : &tune->captures;
-        if (!(hashes = captures_json(captures, &ignored))) continue;
+        if (!(hashes = captures_json(captures, err))) return json_decref(list), NULL;
         for (size_t i = 0; i < captures->count; i++)
             json_array_append_new(list, json_pack("{s:s, s:O, s:b}", "path", captures->items[i], "xxh3_128",
                                                   json_array_get(hashes, i), "held_out", held_out));
@@ -108,29 +108,33 @@ static json_t *references_json(const struct tune *tune) {
     return json_pack("{s:I}", "rays", (json_int_t)tune->against.rays);
 }
 
-static json_t *provenance_json(const struct tune *tune) {
+static json_t *provenance_json(const struct tune *tune, struct glint_error *err) {
     const struct glint_device_info *device = glint_device_get_info(tune->device);
     const struct glint_search_figures *found = &tune->found.points[tune->chosen].figures;
     return json_pack(
         "{s:s, s:s, s:s, s:o, s:s, s:[ss], s:I, s:I, s:o, s:o, s:s, s:o, s:f, s:f, s:b, s:o}", "tool",
         "glint tune " GLINT_VERSION, "command", tune->command_line, "start", glint_pipeline_name(tune->base),
-        "captures", captures_list(tune), "over", tune->worst ? "worst" : "mean", "device", device->name,
+        "captures", captures_list(tune, err), "over", tune->worst ? "worst" : "mean", "device", device->name,
         device->driver_version, "seed", (json_int_t)tune->seed, "points", (json_int_t)tune->found.count, "limit",
         limit_json(tune), "against", references_json(tune), "metric", glint_metric(tune->metric)->name, "shaders",
         strings_json(tune->shaders->items), "error", tune->by_error ? found->constraint : found->objective, "cost",
         tune->by_error ? found->objective : found->constraint, "confirmed", tune->confirmed, "moved", moved_json(tune));
 }
 
-bool tune_write_preset(const struct tune *tune, struct glint_error *err) {
+bool tune_write_preset(struct tune *tune, struct glint_error *err) {
     char name[128], title[300];
     const char *base = strrchr(tune->out, '/') ? strrchr(tune->out, '/') + 1 : tune->out;
     snprintf(name, sizeof name, "%.*s", (int)(strlen(base) - strlen(".json")), base);
     snprintf(title, sizeof title, "%.100s, tuned to %.4g %s at most", glint_pipeline_name(tune->base), tune->within,
              tune->by_error ? glint_metric(tune->metric)->title : tune_cost_unit(tune));
+    struct glint_error unread = {0};
+    json_decref(tune->provenance);
+    if (!(tune->provenance = provenance_json(tune, &unread)))
+        return unread.code ? glint_fail(err, unread.code, "%s", unread.message) : fail_memory(err);
     struct glint_pipeline *pipeline = tune_pipeline(tune, tune->found.points[tune->chosen].values, err);
     if (!pipeline) return false;
     json_t *json = preset_json(pipeline, name, title);
-    json_object_set_new(json, "provenance", provenance_json(tune));
+    json_object_set(json, "provenance", tune->provenance);
     char *text = json_dumps(json, JSON_INDENT(4));
     const bool ok = text ? output_text(tune->out, text, err) : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     free(text);
@@ -154,8 +158,8 @@ json_t *tune_json(const struct tune *tune) {
                          ? json_null()
                          : json_pack("{s:f, s:f, s:f, s:b}", "factor", tune->factor, "error", tune->scaled.error,
                                      "cost", tune->scaled.cost, "within", tune->scaled_within);
-    return json_pack("{s:s, s:o, s:{s:f, s:f}, s:b, s:I, s:o, s:o, s:o}", "preset", tune->out, "provenance",
-                     provenance_json(tune), "start", "error", tune->start.error, "cost", tune->start.cost, "within",
+    return json_pack("{s:s, s:O, s:{s:f, s:f}, s:b, s:I, s:o, s:o, s:o}", "preset", tune->out, "provenance",
+                     tune->provenance, "start", "error", tune->start.error, "cost", tune->start.cost, "within",
                      tune->confirmed_within, "fresh", (json_int_t)tune->fresh, "left", left_json(tune), "scaled",
                      scaled, "confirmed", confirmed_json(tune));
 }

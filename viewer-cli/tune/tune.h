@@ -92,6 +92,7 @@ struct tune {
     struct tune_figures scaled;
     bool scaled_within;                                 /* false: no factor meets the limit, and this is the nearest */
     struct glint_pipeline *contenders[TUNE_CONTENDERS]; /* NULL: none */
+    json_t *provenance; /* how the preset was found, as last written */
     struct tune_measured *measured;                     /* subject · TUNE_CONTENDERS + contender */
 };
 void tune_finish(struct tune *tune);
@@ -171,7 +172,7 @@ bool tune_difference(const struct tune *tune, size_t subject, int a, int b, size
 bool tune_fail_least(struct tune *tune, struct glint_error *err);
 
 /* preset.c: writes the preset with a record of how it was found. */
-bool tune_write_preset(const struct tune *tune, struct glint_error *err);
+bool tune_write_preset(struct tune *tune, struct glint_error *err);
 json_t *tune_json(const struct tune *tune);
 
 /* report.c */

@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "io/memory.h"
+
 /* RGBA with the exposure applied; a single channel becomes grey. */
 static float *linear_rgba(const struct source *s, double exposure_ev) {
     size_t texels = (size_t)s->width * s->height;
@@ -116,7 +118,10 @@ static bool render_level(struct picture *picture, const struct source_choice *ch
     size_t found = 0;
     snprintf(name, sizeof name, "%.280s.level%zu", finest->title, number);
     of_level.image = name;
-    if (!source_open(&source, &of_level, &none)) return false;
+    if (!source_open(&source, &of_level, &none)) {
+        if (none.code == GLINT_ERROR_MEMORY) memory_note(); /* there may be such a level */
+        return false;
+    }
     const bool ok = render_plain(picture, &unused, &source, options, &found, err);
     *invalid += found;
     source_finish(&source);

@@ -1,4 +1,4 @@
-/* Records as text. */
+/* Records as text, and text in records. */
 #include "record.h"
 
 #include <stdlib.h>
@@ -31,4 +31,25 @@ char *record_text(const json_t *record, size_t flags) {
     if (whole) return text.bytes;
     free(text.bytes);
     return NULL;
+}
+
+/* The bytes that follow the first one of a character, and the least and the greatest that the next one may be; -1 of no first one. */
+static int following(unsigned char first, unsigned char *least, unsigned char *greatest) {
+    *least = first == 0xE0 ? 0xA0 : first == 0xF0 ? 0x90 : 0x80;
+    *greatest = first == 0xED ? 0x9F : first == 0xF4 ? 0x8F : 0xBF;
+    if (first < 0x80) return 0;
+    return first < 0xC2 ? -1 : first < 0xE0 ? 1 : first < 0xF0 ? 2 : first < 0xF5 ? 3 : -1;
+}
+
+bool record_can_hold(const char *text) {
+    for (const unsigned char *at = (const unsigned char *)text; *at;) {
+        unsigned char least, greatest;
+        const int count = following(*at++, &least, &greatest);
+        if (count < 0) return false;
+        for (int i = 0; i < count; i++, at++) {
+            if (*at < least || *at > greatest) return false;
+            least = 0x80, greatest = 0xBF;
+        }
+    }
+    return true;
 }
