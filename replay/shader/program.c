@@ -83,9 +83,9 @@ static bool create_sampler(struct gpu *gpu, VkFilter filter, const char *name, V
 }
 
 static void program_destroy(struct program *program, struct gpu *gpu) {
-    vkDestroyPipeline(gpu->device, program->pipeline, NULL);
-    vkDestroyPipelineLayout(gpu->device, program->layout, NULL);
-    vkDestroyDescriptorSetLayout(gpu->device, program->images, NULL);
+    GPU_DESTROY(gpu, vkDestroyPipeline, program->pipeline);
+    GPU_DESTROY(gpu, vkDestroyPipelineLayout, program->layout);
+    GPU_DESTROY(gpu, vkDestroyDescriptorSetLayout, program->images);
     free(program);
 }
 
@@ -110,10 +110,10 @@ void programs_finish(struct programs *programs, struct gpu *gpu) {
         free(one);
     }
     if (gpu->device) {
-        vkDestroyDescriptorSetLayout(gpu->device, programs->frame, NULL);
-        vkDestroyDescriptorSetLayout(gpu->device, programs->values, NULL);
-        vkDestroySampler(gpu->device, programs->linear, NULL);
-        vkDestroySampler(gpu->device, programs->nearest, NULL);
+        GPU_DESTROY(gpu, vkDestroyDescriptorSetLayout, programs->frame);
+        GPU_DESTROY(gpu, vkDestroyDescriptorSetLayout, programs->values);
+        GPU_DESTROY(gpu, vkDestroySampler, programs->linear);
+        GPU_DESTROY(gpu, vkDestroySampler, programs->nearest);
     }
     *programs = (struct programs){0};
 }
@@ -176,13 +176,14 @@ static bool create_layouts(struct program *program, struct gpu *gpu, const struc
 struct module {
     const uint32_t *words;
     size_t bytes;
+    bool foreign; /* a user's */
 };
 
 /* A CPU device compiles the shader without the code of probes in a third of the time; a GPU runs some passes up to a tenth slower from it. */
 static struct module module_of(const struct gpu *gpu, const struct spirv *spirv, const struct constants *constants) {
     const bool whole = constants->probed || !gpu->info.is_cpu;
-    return whole ? (struct module){spirv->words, spirv->bytes}
-                 : (struct module){spirv->unprobed, spirv->unprobed_bytes};
+    return whole ? (struct module){spirv->words, spirv->bytes, spirv->from != NULL}
+                 : (struct module){spirv->unprobed, spirv->unprobed_bytes, spirv->from != NULL};
 }
 
 static bool create_pipeline(struct program *program, struct gpu *gpu, struct module from,
@@ -208,8 +209,11 @@ static bool create_pipeline(struct program *program, struct gpu *gpu, struct mod
                                                         .pSpecializationInfo = &values},
                                               .layout = program->layout};
     const bool ok =
-        gpu_ok(gpu, vkCreateComputePipelines(gpu->device, gpu->cache, 1, &info, NULL, &program->pipeline), name, err);
-    vkDestroyShaderModule(gpu->device, module, NULL);
+        from.foreign
+            ? pipeline_create_patiently(gpu, &info, constants, name, &program->pipeline, err)
+            : gpu_ok(gpu, vkCreateComputePipelines(gpu->device, gpu->cache, 1, &info, NULL, &program->pipeline), name,
+                     err);
+    GPU_DESTROY(gpu, vkDestroyShaderModule, module);
     if (ok) device_set_name(gpu, VK_OBJECT_TYPE_PIPELINE, (uint64_t)(uintptr_t)program->pipeline, name);
     return ok;
 }
@@ -299,5 +303,6 @@ struct program *programs_get(struct programs *programs, struct gpu *gpu, const s
         if (generic->turned >> i & 1) left.data[i] = 0;
     const uint64_t shared = program_key(pass, &left, ~spirv->hash);
     if ((program = find_program(programs, gpu, shared))) return program;
-    return add_program(programs, gpu, pass, (struct module){generic->words, generic->bytes}, &left, shared, true, err);
+    return add_program(programs, gpu, pass, (struct module){generic->words, generic->bytes, from.foreign}, &left,
+                       shared, true, err);
 }
