@@ -170,8 +170,8 @@ static bool read_all(int file, void *data, size_t bytes, double until) {
 }
 
 /* Ends the process, of which `status` receives how it ended; 0 also where the caller's program collects all of its processes by itself. */
-static void end_process(pid_t process, bool done, int *status) {
-    if (!done) kill(process, SIGKILL);
+static void end_process(pid_t process, bool by_force, int *status) {
+    if (by_force) kill(process, SIGKILL);
     *status = 0;
     while (waitpid(process, status, 0) < 0 && errno == EINTR) continue;
 }
@@ -186,53 +186,46 @@ static bool fail_ended(const char *path, bool timed_out, int status, struct glin
                       path, MEMORY_MIB, number ? ": " : "", number ? strsignal(number) : "");
 }
 
-static bool read_answer(struct compiled_text *out, int from, double until, const char *path, bool *done,
-                        struct glint_error *err) {
+/* False without an error if the process ended, or the time did, before it was read. */
+static bool read_answer(struct compiled_text *out, int from, double until, const char *path, struct glint_error *err) {
     struct answer answer;
     char message[sizeof err->message] = "";
-    *done = false;
     if (!read_all(from, &answer, sizeof answer, until)) return false;
-    if (answer.code != GLINT_OK) {
-        if (answer.bytes >= sizeof message || !read_all(from, message, answer.bytes, until)) return false;
-        *done = true;
-        return glint_fail(err, (enum glint_code)answer.code, "%s", message);
-    }
-    if (answer.bytes > SPIRV_MIB << 20) {
-        *done = true;
+    if (answer.code != GLINT_OK)
+        return answer.bytes < sizeof message && read_all(from, message, answer.bytes, until) &&
+               glint_fail(err, (enum glint_code)answer.code, "%s", message);
+    if (answer.bytes > SPIRV_MIB << 20)
         return glint_fail(err, GLINT_ERROR_LIMIT, "%s: compiled it has %u bytes, more than %d MiB, the limit", path,
                           answer.bytes, SPIRV_MIB);
-    }
-    if (!(out->words = malloc(answer.bytes))) {
-        *done = true;
-        return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
-    }
     out->bytes = answer.bytes;
-    return *done = read_all(from, out->words, answer.bytes, until);
+    if (!(out->words = malloc(answer.bytes))) return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
+    return read_all(from, out->words, answer.bytes, until);
 }
 
 static bool compile_apart(struct compiled_text *out, const char *path, const char *code, bool clamp,
                           struct glint_error *err) {
     int ends[2], status;
-    bool done;
+    struct glint_error own = {0};
     if (pipe2(ends, O_CLOEXEC) != 0)
         return glint_fail(err, GLINT_ERROR_IO, "%s: the compiler cannot start: %s", path, strerror(errno));
     const rlim_t in_use = space_in_use();
-    const double start = glint_now_seconds();
+    const double until = glint_now_seconds() + WALL_SECONDS;
     const pid_t process = fork();
-    if (process == 0) compile_and_exit(ends[1], in_use, path, code, clamp);
+    if (process == 0) {
+        close(ends[0]);
+        compile_and_exit(ends[1], in_use, path, code, clamp);
+    }
     const int error = errno;
     close(ends[1]);
-    if (process < 0) {
-        close(ends[0]);
-        return glint_fail(err, GLINT_ERROR_IO, "%s: the compiler cannot start: %s", path, strerror(error));
-    }
-    const bool ok = read_answer(out, ends[0], start + WALL_SECONDS, path, &done, err);
-    const bool timed_out = !done && glint_now_seconds() >= start + WALL_SECONDS;
+    const bool ok = process > 0 && read_answer(out, ends[0], until, path, &own);
+    const bool timed_out = glint_now_seconds() >= until;
     close(ends[0]);
-    end_process(process, done || !timed_out, &status);
-    if (!done) fail_ended(path, timed_out, status, err);
-    if (!ok) free(out->words), *out = (struct compiled_text){0};
-    return ok;
+    if (process < 0) return glint_fail(err, GLINT_ERROR_IO, "%s: the compiler cannot start: %s", path, strerror(error));
+    end_process(process, timed_out || own.code == GLINT_ERROR_LIMIT, &status);
+    if (ok) return true;
+    free(out->words);
+    *out = (struct compiled_text){0};
+    return own.code ? glint_fail(err, own.code, "%s", own.message) : fail_ended(path, timed_out, status, err);
 }
 
 /* Initialising and finalising glslang is global to the process, counted, and not thread-safe. The first compilation after it parses GLSL's built-in

@@ -23,9 +23,11 @@ enum {
     OP_TYPE_POINTER = 32,
     OP_CONSTANT = 43,
     OP_SPEC_CONSTANT = 50,
+    OP_SPEC_CONSTANT_COMPOSITE = 51,
     OP_SPEC_CONSTANT_OP = 52,
     OP_VARIABLE = 59,
     OP_DECORATE = 71,
+    OP_COMPOSITE_EXTRACT = 81,
     OP_I_ADD = 128,
     OP_I_SUB = 130,
     OP_I_MUL = 132,
@@ -82,8 +84,8 @@ static const uint32_t *made(const struct module *m, uint32_t id) {
 /* The word that holds the result's id; 0: of no interest. */
 static uint32_t result_word(uint32_t code) {
     if (code >= OP_TYPE_BOOL && code <= OP_TYPE_POINTER) return 1;
-    return code == OP_CONSTANT || code == OP_SPEC_CONSTANT || code == OP_SPEC_CONSTANT_OP || code == OP_VARIABLE ? 2
-                                                                                                                 : 0;
+    return code == OP_CONSTANT || (code >= OP_SPEC_CONSTANT && code <= OP_SPEC_CONSTANT_OP) || code == OP_VARIABLE ? 2
+                                                                                                                   : 0;
 }
 
 static bool module_read(struct module *m, const struct spirv *spirv) {
@@ -117,8 +119,14 @@ static void module_finish(struct module *m) {
 /* The value of a constant, of those of parameters the default. UINT32_MAX: unknown. */
 static uint32_t constant(const struct module *m, uint32_t id, int depth) {
     const uint32_t *op = made(m, id);
-    if (opcode(op) != OP_SPEC_CONSTANT_OP) return opcode(op) ? op[3] : UINT32_MAX;
+    if (opcode(op) == OP_CONSTANT || opcode(op) == OP_SPEC_CONSTANT) return op[3];
+    if (opcode(op) != OP_SPEC_CONSTANT_OP) return UINT32_MAX;
     if (depth == NESTING_MAX || op_words(op) != 6) return UINT32_MAX;
+    if (op[3] == OP_COMPOSITE_EXTRACT) { /* a side of the workgroup */
+        const uint32_t *whole = made(m, op[4]);
+        const bool fits = opcode(whole) == OP_SPEC_CONSTANT_COMPOSITE && op[5] < op_words(whole) - 3;
+        return fits ? constant(m, whole[3 + op[5]], depth + 1) : UINT32_MAX;
+    }
     const uint32_t a = constant(m, op[4], depth + 1), b = constant(m, op[5], depth + 1);
     if (a == UINT32_MAX || b == UINT32_MAX) return UINT32_MAX;
     switch (op[3]) {
