@@ -52,6 +52,7 @@ static bool create_logical(struct gpu *gpu, struct glint_error *err) {
     gpu->timestamp_mask = bits >= 64 ? UINT64_MAX : (UINT64_C(1) << bits) - 1;
     VkPhysicalDeviceProperties properties;
     vkGetPhysicalDeviceProperties(gpu->physical, &properties);
+    gpu->limits = properties.limits;
     gpu->timestamp_ns = (double)properties.limits.timestampPeriod;
     vkGetPhysicalDeviceMemoryProperties(gpu->physical, &gpu->memory);
     const float priority = 1;

@@ -34,6 +34,7 @@ struct gpu {
     VkDevice device;
     VkQueue queue;
     uint32_t family;
+    VkPhysicalDeviceLimits limits;
     double timestamp_ns;     /* nanoseconds a tick */
     uint64_t timestamp_mask; /* 0: no timestamps */
     VkPhysicalDeviceMemoryProperties memory;

@@ -149,6 +149,30 @@ VkDescriptorType row_descriptor(const struct glint_row *row) {
     return row_is_sampled(row) ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
 }
 
+/* Each device has these limits, and few of them come near what passes need. */
+static bool check_limits(const struct gpu *gpu, const struct glint_pass *pass,
+                         const VkDescriptorSetLayoutBinding *bindings, uint32_t count, const char *name,
+                         struct glint_error *err) {
+    const struct workgroup group = pass_workgroup(pass);
+    uint32_t sampled = 0;
+    for (uint32_t i = 0; i < count; i++)
+        sampled += bindings[i].descriptorType == VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE ||
+                   bindings[i].descriptorType == VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+    const struct {
+        uint32_t needed, has;
+        const char *limit;
+    } needs[] = {
+        {sampled, gpu->limits.maxPerStageDescriptorSampledImages, "maxPerStageDescriptorSampledImages"},
+        {count - sampled, gpu->limits.maxPerStageDescriptorStorageImages, "maxPerStageDescriptorStorageImages"},
+        {group.width * group.height, gpu->limits.maxComputeWorkGroupInvocations, "maxComputeWorkGroupInvocations"},
+    };
+    for (size_t i = 0; i < sizeof needs / sizeof *needs; i++)
+        if (needs[i].needed > needs[i].has)
+            return glint_fail(err, GLINT_ERROR_UNSUPPORTED, "%s: the device's limit %s is %u, and the pass needs %u",
+                              name, needs[i].limit, needs[i].has, needs[i].needed);
+    return true;
+}
+
 static bool create_layouts(struct program *program, struct gpu *gpu, const struct programs *programs,
                            const struct glint_pass *pass, const struct constants *constants, const char *name,
                            struct glint_error *err) {
@@ -160,7 +184,9 @@ static bool create_layouts(struct program *program, struct gpu *gpu, const struc
         bindings[count++] =
             (VkDescriptorSetLayoutBinding){row->id, row_descriptor(row), 1, VK_SHADER_STAGE_COMPUTE_BIT, NULL};
     }
-    if (!create_set_layout(gpu, bindings, count, name, &program->images, err)) return false;
+    if (!check_limits(gpu, pass, bindings, count, name, err) ||
+        !create_set_layout(gpu, bindings, count, name, &program->images, err))
+        return false;
     const VkDescriptorSetLayout sets[] = {program->images, programs->frame, programs->values};
     const VkPushConstantRange push = {VK_SHADER_STAGE_COMPUTE_BIT, 0, constants->push_count * 4};
     const VkPipelineLayoutCreateInfo layout = {.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
