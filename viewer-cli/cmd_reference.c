@@ -35,6 +35,7 @@ static const struct argp_option options[] = {
     ALL_OPTION,
     {"overwrite",   KEY_OVERWRITE,   NULL,   0, "Delete an existing reference in the folder first", 0},
     DEVICE_OPTION,
+    LIMIT_OPTION,
     PROGRESS_OPTION,
     {"json",        'j',             NULL,   0, "Print JSON", 0},
     {0},
@@ -210,6 +211,11 @@ static void print_all(const struct glint_reference *reference, const struct glin
     else puts("\nnothing written (-o RUN keeps it)");
 }
 
+static uint32_t rays_of(const struct glint_reference *reference) {
+    const struct glint_reference_state *state = glint_reference_state(reference);
+    return state->rays + state->begun;
+}
+
 static void note_interrupted(const struct glint_reference_state *state, const char *folder) {
     const uint32_t traced = state->rays + state->begun;
     if (state->kept)
@@ -221,8 +227,36 @@ static void note_interrupted(const struct glint_reference_state *state, const ch
     else if (!traced) command_note(&cmd_reference, "interrupted before the first ray of all pixels: nothing is kept");
 }
 
-static enum status trace_reference(const struct arguments *a, const struct glint_effect *effect,
-                                   const struct opened *opened, struct glint_error *err) {
+/* Opens a device that was lost again. */
+static bool continue_reference(struct glint_reference *reference, struct opened *opened, struct glint_error *err) {
+    command_note(&cmd_reference, "%s; going on after %u rays per pixel", err->message, rays_of(reference));
+    *err = (struct glint_error){0};
+    glint_replay_destroy(&opened->replay);
+    if (!glint_device_reopen(opened->device, err) || !(opened->replay = glint_replay_create(opened->device, err)) ||
+        !glint_replay_load(opened->replay, opened->capture, err))
+        return false;
+    glint_reference_continue(reference, opened->replay);
+    return true;
+}
+
+/* Goes on with a new device when it is lost, unless it has traced no ray since it was lost before. */
+static bool trace_rays(const struct arguments *a, struct glint_reference *reference, struct opened *opened,
+                       struct progress *progress, struct glint_error *err) {
+    uint32_t lost_at = UINT32_MAX;
+    while (!glint_reference_trace(reference, a->rays, a->noise, progress_report, progress, err)) {
+        if (!glint_device_lost(opened->device) || glint_device_given_up(opened->device)) return false;
+        if (rays_of(reference) == lost_at) {
+            const struct glint_error own = *err;
+            return glint_fail(err, own.code, "after %u rays per pixel, tried twice: %s", lost_at, own.message);
+        }
+        lost_at = rays_of(reference);
+        if (!continue_reference(reference, opened, err)) return false;
+    }
+    return true;
+}
+
+static enum status trace_reference(const struct arguments *a, const struct glint_effect *effect, struct opened *opened,
+                                   struct glint_error *err) {
     struct glint_replay *replay = opened->replay;
     struct glint_capture *capture = opened->capture;
     const struct glint_pipeline *pipeline = opened->pipeline;
@@ -238,7 +272,7 @@ static enum status trace_reference(const struct arguments *a, const struct glint
     struct glint_reference *reference = glint_replay_load(replay, capture, err)
                                             ? glint_reference_create(replay, capture, pipeline, &options, err)
                                             : NULL;
-    bool ok = reference && glint_reference_trace(reference, a->rays, a->noise, progress_report, &progress, err) &&
+    bool ok = reference && trace_rays(a, reference, opened, &progress, err) &&
               (!a->sensitivity ||
                glint_reference_sensitivity(reference, a->sensitivity, progress_report, &progress, &sensitivity, err)) &&
               compare_with_truth(reference, capture, effect, pipeline, &missing, err);
@@ -246,7 +280,8 @@ static enum status trace_reference(const struct arguments *a, const struct glint
     if (!ok) status = command_fail(&cmd_reference, err);
     else if (a->json) status = print_as_json(reference, effect, a, &missing);
     else print_all(reference, effect, a, glint_device_get_info(opened->device), &missing, &sensitivity);
-    if (reference && status == STATUS_INTERRUPTED && a->out) note_interrupted(glint_reference_state(reference), a->out);
+    if (reference && (status == STATUS_INTERRUPTED || glint_device_lost(opened->device)) && a->out)
+        note_interrupted(glint_reference_state(reference), a->out);
     glint_reference_destroy(&reference);
     return status;
 }

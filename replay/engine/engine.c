@@ -75,8 +75,8 @@ bool engine_run(struct run *run, struct engine *engine, const struct frame_plan 
 void engine_release(struct run *run) {
     if (!run->engine) return;
     rays_release(run);
-    vkDestroyQueryPool(run->gpu->device, run->queries, NULL);
-    vkDestroyDescriptorPool(run->gpu->device, run->descriptors, NULL);
+    GPU_DESTROY(run->gpu, vkDestroyQueryPool, run->queries);
+    GPU_DESTROY(run->gpu, vkDestroyDescriptorPool, run->descriptors);
     for (size_t p = 0; run->steps && p < run->graph->pass_count; p++) {
         free(run->steps[p].ns);
         for (size_t d = 0; d < run->steps[p].dispatch_count; d++) free(run->steps[p].dispatches[d].layers);

@@ -15,7 +15,7 @@ static bool begin_commands(struct run *run, struct glint_error *err) {
     struct gpu *gpu = run->gpu;
     if (!device_begin(gpu, err)) return false;
     if (run->queries) vkCmdResetQueryPool(gpu->commands, run->queries, 0, (uint32_t)run->graph->pass_count + 1);
-    run->stamps = 0;
+    run->stamps = run->recorded = 0;
     write_stamp(run);
     return true;
 }
@@ -28,6 +28,7 @@ static void record_step(struct run *run, struct step *step) {
     device_begin_label(gpu, label);
     step_record(run, step);
     step->stamp = run->stamps;
+    run->recorded++;
     write_stamp(run);
     device_end_label(gpu);
 }
@@ -51,7 +52,7 @@ static bool read_times(struct run *run, struct glint_error *err) {
 }
 
 static bool submit_commands(struct run *run, const char *what, struct glint_error *err) {
-    return device_submit(run->gpu, what, err) && read_times(run, err);
+    return device_submit(run->gpu, what, run->recorded, err) && read_times(run, err);
 }
 
 /* What is running, for messages: the passes in the current command buffer, by the first and the last of them. */

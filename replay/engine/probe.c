@@ -173,7 +173,7 @@ bool probes_finish(struct run *run, struct glint_error *err) {
     if (run->options->probe_count == 0) return true;
     if (!device_begin(run->gpu, err)) return false;
     record_host_barrier(run->gpu);
-    return device_submit(run->gpu, "reading the probes", err);
+    return device_submit(run->gpu, "reading the probes", 1, err);
 }
 
 /* The records of one place. find_records adds the number of dropped ones to *dropped. */

@@ -64,7 +64,7 @@ static bool read_level(struct run *run, struct pooled *image, uint32_t l, struct
         !device_begin(run->gpu, err))
         return false;
     image_record_upload(&image->image, run->gpu, &pool->staging, 0, l, 0, image_layers(&image->image.desc), l == 0);
-    return device_submit(run->gpu, "uploading an image of the cache folder", err);
+    return device_submit(run->gpu, "uploading an image of the cache folder", 1, err);
 }
 
 bool run_restore(struct run *run, struct step *step) {

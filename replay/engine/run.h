@@ -75,8 +75,8 @@ struct run {
     VkDescriptorSet frame_set;
     VkDescriptorSet values_set; /* the constants of all steps; VK_NULL_HANDLE if no step has a generic program */
     VkQueryPool queries;
-    uint32_t stamps;   /* timestamps in the current command buffer */
-    struct rays *rays; /* NULL with a single ray */
+    uint32_t stamps, recorded; /* timestamps and passes in the current command buffer */
+    struct rays *rays;         /* NULL with a single ray */
     glint_progress progress;
     void *user;
     bool touched; /* images may have changed */

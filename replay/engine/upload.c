@@ -9,7 +9,7 @@
 static bool submit_upload(struct run *run, const char *name, struct glint_error *err) {
     char what[288];
     snprintf(what, sizeof what, "uploading %s", name);
-    return device_submit(run->gpu, what, err);
+    return device_submit(run->gpu, what, 1, err);
 }
 
 /* Whether the image comes from parts of this role. Ids are read as integers and therefore separately. */

@@ -28,12 +28,31 @@ static size_t choose_device(const struct glint_device_info *infos, size_t count,
     return count;
 }
 
+/* What keeps shaders from memory outside of their buffers and images, as far as the device has it. Chained after `f13`. */
+static bool find_robustness(const struct gpu *gpu, VkPhysicalDeviceFeatures *features,
+                            VkPhysicalDeviceVulkan13Features *f13, VkPhysicalDeviceRobustness2FeaturesEXT *two) {
+    VkPhysicalDeviceRobustness2FeaturesEXT has2 = {.sType =
+                                                       VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ROBUSTNESS_2_FEATURES_EXT};
+    VkPhysicalDeviceVulkan13Features has13 = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+    VkPhysicalDeviceFeatures2 has = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &has13};
+    const bool extension = device_has_extension(gpu->physical, VK_EXT_ROBUSTNESS_2_EXTENSION_NAME);
+    if (extension) has13.pNext = &has2;
+    vkGetPhysicalDeviceFeatures2(gpu->physical, &has);
+    features->robustBufferAccess = has.features.robustBufferAccess;
+    f13->robustImageAccess = has13.robustImageAccess;
+    two->robustBufferAccess2 = has2.robustBufferAccess2 && has.features.robustBufferAccess;
+    two->robustImageAccess2 = has2.robustImageAccess2;
+    if (extension) f13->pNext = two;
+    return extension;
+}
+
 static bool create_logical(struct gpu *gpu, struct glint_error *err) {
     uint32_t bits = 0;
     gpu->family = device_family(gpu->physical, &bits);
     gpu->timestamp_mask = bits >= 64 ? UINT64_MAX : (UINT64_C(1) << bits) - 1;
     VkPhysicalDeviceProperties properties;
     vkGetPhysicalDeviceProperties(gpu->physical, &properties);
+    gpu->limits = properties.limits;
     gpu->timestamp_ns = (double)properties.limits.timestampPeriod;
     vkGetPhysicalDeviceMemoryProperties(gpu->physical, &gpu->memory);
     const float priority = 1;
@@ -48,10 +67,15 @@ static bool create_logical(struct gpu *gpu, struct glint_error *err) {
         .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2,
         .pNext = &f13,
         .features = {.imageCubeArray = VK_TRUE, .shaderStorageImageWriteWithoutFormat = VK_TRUE}};
+    VkPhysicalDeviceRobustness2FeaturesEXT two = {.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ROBUSTNESS_2_FEATURES_EXT};
+    static const char *const extensions[] = {VK_EXT_ROBUSTNESS_2_EXTENSION_NAME};
+    const bool extended = find_robustness(gpu, &features.features, &f13, &two);
     const VkDeviceCreateInfo info = {.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                      .pNext = &features,
                                      .queueCreateInfoCount = 1,
-                                     .pQueueCreateInfos = &queue};
+                                     .pQueueCreateInfos = &queue,
+                                     .enabledExtensionCount = extended,
+                                     .ppEnabledExtensionNames = extensions};
     if (!vk_ok(vkCreateDevice(gpu->physical, &info, NULL, &gpu->device), "creating the device", err)) return false;
     vkGetDeviceQueue(gpu->device, gpu->family, 0, &gpu->queue);
     return true;
@@ -89,7 +113,13 @@ static void load_debug_names(struct gpu *gpu) {
         (PFN_vkCmdEndDebugUtilsLabelEXT)(void (*)(void))vkGetInstanceProcAddr(instance, "vkCmdEndDebugUtilsLabelEXT");
 }
 
-bool gpu_init(struct gpu *gpu, const char *select, bool validate, struct glint_error *err) {
+/* The driver of a GPU usually ends what takes longer than some seconds by itself. A CPU that is shared with other programs may need minutes for a
+   pass over a large frame. */
+static double usual_pass_limit_s(const struct glint_device_info *info) {
+    return info->is_cpu ? 600 : 60;
+}
+
+bool gpu_init(struct gpu *gpu, const char *select, bool validate, uint32_t pass_limit_s, struct glint_error *err) {
     VkPhysicalDevice *physical = NULL;
     struct glint_device_info *infos = NULL;
     size_t count = 0;
@@ -102,6 +132,7 @@ bool gpu_init(struct gpu *gpu, const char *select, bool validate, struct glint_e
     if (ok) {
         gpu->physical = physical[chosen];
         gpu->info = infos[chosen];
+        gpu->pass_limit_s = pass_limit_s ? pass_limit_s : usual_pass_limit_s(&gpu->info);
         ok = create_logical(gpu, err);
     }
     if (ok) load_debug_names(gpu);
@@ -115,18 +146,18 @@ bool gpu_init(struct gpu *gpu, const char *select, bool validate, struct glint_e
 }
 
 void gpu_wait(struct gpu *gpu) {
-    if (gpu->device && vkDeviceWaitIdle(gpu->device) == VK_ERROR_DEVICE_LOST) gpu->lost = true;
+    if (gpu->device && !gpu->given_up && vkDeviceWaitIdle(gpu->device) == VK_ERROR_DEVICE_LOST) gpu->lost = true;
 }
 
 void gpu_finish(struct gpu *gpu) {
     gpu_wait(gpu);
     if (gpu->device) {
-        vkDestroyPipelineCache(gpu->device, gpu->cache, NULL);
-        vkDestroyFence(gpu->device, gpu->fence, NULL);
-        vkDestroyCommandPool(gpu->device, gpu->pool, NULL);
-        vkDestroyDevice(gpu->device, NULL);
+        GPU_DESTROY(gpu, vkDestroyPipelineCache, gpu->cache);
+        GPU_DESTROY(gpu, vkDestroyFence, gpu->fence);
+        GPU_DESTROY(gpu, vkDestroyCommandPool, gpu->pool);
+        if (!gpu->given_up) vkDestroyDevice(gpu->device, NULL);
     }
-    instance_finish(&gpu->instance);
+    if (!gpu->given_up) instance_finish(&gpu->instance);
     pthread_mutex_destroy(&gpu->messages.lock);
     *gpu = (struct gpu){0};
 }
@@ -155,13 +186,23 @@ bool device_allocate(struct gpu *gpu, const VkMemoryRequirements *need, VkMemory
 }
 
 bool device_begin(struct gpu *gpu, struct glint_error *err) {
+    if (gpu->given_up) return gpu_fail(gpu, err, "beginning commands", VK_ERROR_DEVICE_LOST);
     if (!gpu_ok(gpu, vkResetCommandPool(gpu->device, gpu->pool, 0), "resetting the command pool", err)) return false;
     const VkCommandBufferBeginInfo info = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
                                            .flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT};
     return gpu_ok(gpu, vkBeginCommandBuffer(gpu->commands, &info), "beginning commands", err);
 }
 
-bool device_submit(struct gpu *gpu, const char *what, struct glint_error *err) {
+/* Waits a second at a time, so that the time in which the process was stopped does not count. */
+static VkResult wait_within(const struct gpu *gpu, double limit_s) {
+    const uint64_t second_ns = 1000000000;
+    VkResult result = VK_TIMEOUT;
+    for (double waited_s = 0; result == VK_TIMEOUT && waited_s < limit_s; waited_s++)
+        result = vkWaitForFences(gpu->device, 1, &gpu->fence, VK_TRUE, second_ns);
+    return result;
+}
+
+bool device_submit(struct gpu *gpu, const char *what, uint32_t passes, struct glint_error *err) {
     if (!gpu_ok(gpu, vkEndCommandBuffer(gpu->commands), what, err)) return false;
     const VkCommandBufferSubmitInfo commands = {.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
                                                 .commandBuffer = gpu->commands};
@@ -170,7 +211,15 @@ bool device_submit(struct gpu *gpu, const char *what, struct glint_error *err) {
     if (!gpu_ok(gpu, vkResetFences(gpu->device, 1, &gpu->fence), what, err) ||
         !gpu_ok(gpu, vkQueueSubmit2(gpu->queue, 1, &info, gpu->fence), what, err))
         return false;
-    const VkResult result = vkWaitForFences(gpu->device, 1, &gpu->fence, VK_TRUE, UINT64_MAX);
+    const double limit_s = gpu->pass_limit_s * (passes ? passes : 1);
+    const VkResult result = wait_within(gpu, limit_s);
+    if (result == VK_TIMEOUT) {
+        gpu->lost = gpu->given_up = true;
+        return glint_fail(err, GLINT_ERROR_DEVICE,
+                          "Vulkan: %s: not done within %.0f s, so the device was given up; --dispatch-limit or "
+                          "$GLINT_DISPATCH_LIMIT allows a pass more than %.0f s",
+                          what, limit_s, gpu->pass_limit_s);
+    }
     if (result != VK_SUCCESS) gpu_wait(gpu); /* the commands may still execute */
     return gpu_ok(gpu, result, what, err);
 }
@@ -225,7 +274,7 @@ bool host_buffer_init(struct host_buffer *buffer, struct gpu *gpu, enum host_buf
 }
 
 void host_buffer_finish(struct host_buffer *buffer, struct gpu *gpu) {
-    vkDestroyBuffer(gpu->device, buffer->buffer, NULL);
-    vkFreeMemory(gpu->device, buffer->memory, NULL);
+    GPU_DESTROY(gpu, vkDestroyBuffer, buffer->buffer);
+    GPU_DESTROY(gpu, vkFreeMemory, buffer->memory);
     *buffer = (struct host_buffer){0};
 }

@@ -34,6 +34,7 @@ struct gpu {
     VkDevice device;
     VkQueue queue;
     uint32_t family;
+    VkPhysicalDeviceLimits limits;
     double timestamp_ns;     /* nanoseconds a tick */
     uint64_t timestamp_mask; /* 0: no timestamps */
     VkPhysicalDeviceMemoryProperties memory;
@@ -41,7 +42,9 @@ struct gpu {
     VkCommandBuffer commands;
     VkFence fence;
     VkPipelineCache cache;
-    bool lost; /* a call has returned VK_ERROR_DEVICE_LOST */
+    double pass_limit_s; /* how long the device may execute a pass */
+    bool lost;           /* a call has returned VK_ERROR_DEVICE_LOST, or the device was given up */
+    bool given_up;       /* it has executed a pass for too long, and perhaps still does: nothing of it is destroyed */
     struct glint_device_info info;
 };
 
@@ -54,6 +57,8 @@ bool instance_devices(VkInstance instance, VkPhysicalDevice **physical, struct g
 /* The queue family for compute and copies, one with timestamps if possible; UINT32_MAX if there is none. */
 uint32_t device_family(VkPhysicalDevice physical, uint32_t *timestamp_bits);
 
+bool device_has_extension(VkPhysicalDevice physical, const char *name);
+
 /* Fails with a message that names the operation and the result. */
 bool vk_fail_no_driver(struct glint_error *err);
 bool vk_fail(struct glint_error *err, const char *what, VkResult result);
@@ -64,9 +69,12 @@ bool gpu_fail(struct gpu *gpu, struct glint_error *err, const char *what, VkResu
 bool gpu_ok(struct gpu *gpu, VkResult result, const char *what, struct glint_error *err);
 VkFormat format_vulkan(enum glint_format format);
 
-/* `select` is that of struct glint_device_options; `validate` enables the validation layer. The struct must not be moved afterwards. */
-bool gpu_init(struct gpu *gpu, const char *select, bool validate, struct glint_error *err);
+/* `select` is that of struct glint_device_options; `validate` enables the validation layer; `pass_limit_s` 0: the usual one of such a device.
+   The struct must not be moved afterwards. */
+bool gpu_init(struct gpu *gpu, const char *select, bool validate, uint32_t pass_limit_s, struct glint_error *err);
 void gpu_finish(struct gpu *gpu);
+/* Destroys or frees an object by this function of Vulkan. What a device that was given up may still use is left to the end of the process. */
+#define GPU_DESTROY(gpu, destroy, object) ((gpu)->given_up ? (void)0 : destroy((gpu)->device, object, NULL))
 /* Waits until the device is idle, or lost. */
 void gpu_wait(struct gpu *gpu);
 
@@ -74,10 +82,10 @@ bool device_allocate(struct gpu *gpu, const VkMemoryRequirements *need, VkMemory
                      VkMemoryPropertyFlags preferred, const char *name, VkDeviceMemory *memory,
                      struct glint_error *err);
 
-/* Begins the command buffer; submits it and waits for it. `what` is used in error messages. Whatever they return, the device then executes
-   nothing, so that what the commands used may be released. */
+/* Begins the command buffer; submits it and waits for it. `what` is used in error messages, and each of the `passes` that were recorded has its
+   time (0 counts as 1). Whatever they return, the device then executes nothing, so that what the commands used may be released; or it was given up. */
 bool device_begin(struct gpu *gpu, struct glint_error *err);
-bool device_submit(struct gpu *gpu, const char *what, struct glint_error *err);
+bool device_submit(struct gpu *gpu, const char *what, uint32_t passes, struct glint_error *err);
 
 void device_set_name(struct gpu *gpu, VkObjectType type, uint64_t handle, const char *name);
 void device_begin_label(struct gpu *gpu, const char *text);

@@ -84,7 +84,7 @@ struct block *block_create(struct gpu *gpu, const VkMemoryRequirements *need, co
 static void block_release(struct block *block, const struct image *image, struct gpu *gpu) {
     if (block->owner == image) block->owner = NULL;
     if (--block->images > 0) return;
-    vkFreeMemory(gpu->device, block->memory, NULL);
+    GPU_DESTROY(gpu, vkFreeMemory, block->memory);
     free(block);
 }
 
@@ -141,13 +141,13 @@ bool image_own_memory(struct image *image, struct gpu *gpu, struct glint_error *
 }
 
 void image_finish(struct image *image, struct gpu *gpu) {
-    for (uint32_t i = 0; i < image->desc.levels; i++) vkDestroyImageView(gpu->device, image->levels[i], NULL);
-    vkDestroyImageView(gpu->device, image->view, NULL);
-    vkDestroyImageView(gpu->device, image->array_view, NULL);
-    vkDestroyImageView(gpu->device, image->faces_view, NULL);
-    vkDestroyImage(gpu->device, image->image, NULL);
-    vkDestroyBufferView(gpu->device, image->buffer_view, NULL);
-    vkDestroyBuffer(gpu->device, image->buffer, NULL);
+    for (uint32_t i = 0; i < image->desc.levels; i++) GPU_DESTROY(gpu, vkDestroyImageView, image->levels[i]);
+    GPU_DESTROY(gpu, vkDestroyImageView, image->view);
+    GPU_DESTROY(gpu, vkDestroyImageView, image->array_view);
+    GPU_DESTROY(gpu, vkDestroyImageView, image->faces_view);
+    GPU_DESTROY(gpu, vkDestroyImage, image->image);
+    GPU_DESTROY(gpu, vkDestroyBufferView, image->buffer_view);
+    GPU_DESTROY(gpu, vkDestroyBuffer, image->buffer);
     if (image->block) block_release(image->block, image, gpu);
     *image = (struct image){0};
 }

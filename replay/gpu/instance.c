@@ -110,6 +110,15 @@ uint32_t device_family(VkPhysicalDevice physical, uint32_t *timestamp_bits) {
     return UINT32_MAX;
 }
 
+bool device_has_extension(VkPhysicalDevice physical, const char *name) {
+    VkExtensionProperties extensions[512];
+    uint32_t count = 512;
+    bool found = false;
+    vkEnumerateDeviceExtensionProperties(physical, NULL, &count, extensions);
+    for (uint32_t i = 0; i < count; i++) found |= !strcmp(extensions[i].extensionName, name);
+    return found;
+}
+
 /* False with the reason if the device lacks a feature that passes need. */
 static bool check_usable(VkPhysicalDevice physical, uint32_t api_version, char *reason, size_t size) {
     if (api_version < VK_API_VERSION_1_3) {

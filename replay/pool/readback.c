@@ -39,7 +39,7 @@ bool pool_readback(struct pool *pool, const struct image_part *parts, size_t cou
     char what[192];
     snprintf(what, sizeof what, "reading back %s%s", count ? parts[0].info->name : "nothing",
              count > 1 ? " and others" : "");
-    bool ok = device_submit(pool->gpu, what, err);
+    bool ok = device_submit(pool->gpu, what, 1, err);
     for (size_t i = 0; ok && i < count; i++)
         if (parts[i].image->image.desc.buffer)
             clear_unused_words(parts[i].image, (uint32_t *)((char *)buffer->map + offsets[i]));

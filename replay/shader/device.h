@@ -10,6 +10,9 @@ struct glint_device {
     struct gpu gpu;
     struct shaders shaders;
     struct programs programs;
+    char *select; /* which device; NULL: the best one */
+    uint32_t limit_s;
+    bool validate;
 };
 
 #endif

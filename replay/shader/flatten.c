@@ -14,15 +14,18 @@ struct flatten {
     FILE *stream;
     char *text;
     size_t size, stream_size;
-    const char *pass_folder; /* folder of the pass under passes/: "reflection/blur" */
-    const char *folder;      /* the user's copy of passes/, or NULL */
-    bool versioned;          /* #version, which must come first, has been seen */
-    bool foreign;            /* a file came from `folder` */
+    const char *path;                /* of the file that is flattened */
+    const char *open[DEPTH_MAX + 2]; /* that file, and those whose includes are being inlined */
+    const char *pass_folder;         /* folder of the pass under passes/: "reflection/blur" */
+    const char *folder;              /* the user's copy of passes/, or NULL */
+    bool versioned;                  /* #version, which must come first, has been seen */
+    bool foreign;                    /* a file came from `folder` */
 };
 
 static bool append_text(struct flatten *out, const char *text, size_t length, struct glint_error *err) {
     return ((out->size += length) <= TEXT_MAX && fwrite(text, 1, length, out->stream) == length) ||
-           glint_fail(err, GLINT_ERROR_LIMIT, "shader: more than %d bytes with its includes", TEXT_MAX);
+           glint_fail(err, GLINT_ERROR_LIMIT, "%s: more than %d bytes with its includes, the limit", out->path,
+                      TEXT_MAX);
 }
 
 static bool append_line_directive(struct flatten *out, size_t line, const char *file, struct glint_error *err) {
@@ -98,7 +101,8 @@ static bool flatten_include(struct flatten *out, const char *file, size_t line, 
                             int depth, struct glint_error *err) {
     char path[PATH_SIZE], in_slot[PATH_SIZE];
     if (depth >= DEPTH_MAX)
-        return glint_fail(err, GLINT_ERROR_LIMIT, "%s:%zu: includes nest deeper than %d", file, line, DEPTH_MAX);
+        return glint_fail(err, GLINT_ERROR_LIMIT, "%s:%zu: includes nest deeper than %d, the limit", file, line,
+                          DEPTH_MAX);
     if (on_disk &&
         (name[0] == '/' ? snprintf(path, sizeof path, "%s", name) < PATH_SIZE : join_sibling(path, file, name)) &&
         access(path, R_OK) == 0)
@@ -115,6 +119,10 @@ static bool flatten_include(struct flatten *out, const char *file, size_t line, 
 
 static bool flatten_text(struct flatten *out, const char *file, const char *text, bool on_disk, int depth,
                          struct glint_error *err) {
+    for (int i = 0; i < depth; i++)
+        if (!strcmp(out->open[i], file))
+            return glint_fail(err, GLINT_ERROR_FORMAT, "%s: %s includes itself", out->open[depth - 1], file);
+    out->open[depth] = file;
     static const char names_in_lines[] = "#extension GL_GOOGLE_cpp_style_line_directive : require\n";
     if (out->versioned && !append_line_directive(out, 1, file, err)) return false;
     for (size_t line = 1; *text; line++) {
@@ -140,6 +148,7 @@ static bool flatten_text(struct flatten *out, const char *file, const char *text
 
 /* Flattens a user's file, or a pass's shader. */
 static char *flatten_file(struct flatten *out, const char *path, bool on_disk, struct glint_error *err) {
+    out->path = path;
     if (!(out->stream = open_memstream(&out->text, &out->stream_size))) {
         glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
         return NULL;

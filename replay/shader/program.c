@@ -83,9 +83,9 @@ static bool create_sampler(struct gpu *gpu, VkFilter filter, const char *name, V
 }
 
 static void program_destroy(struct program *program, struct gpu *gpu) {
-    vkDestroyPipeline(gpu->device, program->pipeline, NULL);
-    vkDestroyPipelineLayout(gpu->device, program->layout, NULL);
-    vkDestroyDescriptorSetLayout(gpu->device, program->images, NULL);
+    GPU_DESTROY(gpu, vkDestroyPipeline, program->pipeline);
+    GPU_DESTROY(gpu, vkDestroyPipelineLayout, program->layout);
+    GPU_DESTROY(gpu, vkDestroyDescriptorSetLayout, program->images);
     free(program);
 }
 
@@ -110,10 +110,10 @@ void programs_finish(struct programs *programs, struct gpu *gpu) {
         free(one);
     }
     if (gpu->device) {
-        vkDestroyDescriptorSetLayout(gpu->device, programs->frame, NULL);
-        vkDestroyDescriptorSetLayout(gpu->device, programs->values, NULL);
-        vkDestroySampler(gpu->device, programs->linear, NULL);
-        vkDestroySampler(gpu->device, programs->nearest, NULL);
+        GPU_DESTROY(gpu, vkDestroyDescriptorSetLayout, programs->frame);
+        GPU_DESTROY(gpu, vkDestroyDescriptorSetLayout, programs->values);
+        GPU_DESTROY(gpu, vkDestroySampler, programs->linear);
+        GPU_DESTROY(gpu, vkDestroySampler, programs->nearest);
     }
     *programs = (struct programs){0};
 }
@@ -149,6 +149,30 @@ VkDescriptorType row_descriptor(const struct glint_row *row) {
     return row_is_sampled(row) ? VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE : VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
 }
 
+/* Each device has these limits, and few of them come near what passes need. */
+static bool check_limits(const struct gpu *gpu, const struct glint_pass *pass,
+                         const VkDescriptorSetLayoutBinding *bindings, uint32_t count, const char *name,
+                         struct glint_error *err) {
+    const struct workgroup group = pass_workgroup(pass);
+    uint32_t sampled = 0;
+    for (uint32_t i = 0; i < count; i++)
+        sampled += bindings[i].descriptorType == VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE ||
+                   bindings[i].descriptorType == VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+    const struct {
+        uint32_t needed, has;
+        const char *limit;
+    } needs[] = {
+        {sampled, gpu->limits.maxPerStageDescriptorSampledImages, "maxPerStageDescriptorSampledImages"},
+        {count - sampled, gpu->limits.maxPerStageDescriptorStorageImages, "maxPerStageDescriptorStorageImages"},
+        {group.width * group.height, gpu->limits.maxComputeWorkGroupInvocations, "maxComputeWorkGroupInvocations"},
+    };
+    for (size_t i = 0; i < sizeof needs / sizeof *needs; i++)
+        if (needs[i].needed > needs[i].has)
+            return glint_fail(err, GLINT_ERROR_UNSUPPORTED, "%s: the device's limit %s is %u, and the pass needs %u",
+                              name, needs[i].limit, needs[i].has, needs[i].needed);
+    return true;
+}
+
 static bool create_layouts(struct program *program, struct gpu *gpu, const struct programs *programs,
                            const struct glint_pass *pass, const struct constants *constants, const char *name,
                            struct glint_error *err) {
@@ -160,7 +184,9 @@ static bool create_layouts(struct program *program, struct gpu *gpu, const struc
         bindings[count++] =
             (VkDescriptorSetLayoutBinding){row->id, row_descriptor(row), 1, VK_SHADER_STAGE_COMPUTE_BIT, NULL};
     }
-    if (!create_set_layout(gpu, bindings, count, name, &program->images, err)) return false;
+    if (!check_limits(gpu, pass, bindings, count, name, err) ||
+        !create_set_layout(gpu, bindings, count, name, &program->images, err))
+        return false;
     const VkDescriptorSetLayout sets[] = {program->images, programs->frame, programs->values};
     const VkPushConstantRange push = {VK_SHADER_STAGE_COMPUTE_BIT, 0, constants->push_count * 4};
     const VkPipelineLayoutCreateInfo layout = {.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO,
@@ -176,13 +202,14 @@ static bool create_layouts(struct program *program, struct gpu *gpu, const struc
 struct module {
     const uint32_t *words;
     size_t bytes;
+    bool foreign; /* a user's */
 };
 
 /* A CPU device compiles the shader without the code of probes in a third of the time; a GPU runs some passes up to a tenth slower from it. */
 static struct module module_of(const struct gpu *gpu, const struct spirv *spirv, const struct constants *constants) {
     const bool whole = constants->probed || !gpu->info.is_cpu;
-    return whole ? (struct module){spirv->words, spirv->bytes}
-                 : (struct module){spirv->unprobed, spirv->unprobed_bytes};
+    return whole ? (struct module){spirv->words, spirv->bytes, spirv->from != NULL}
+                 : (struct module){spirv->unprobed, spirv->unprobed_bytes, spirv->from != NULL};
 }
 
 static bool create_pipeline(struct program *program, struct gpu *gpu, struct module from,
@@ -208,8 +235,11 @@ static bool create_pipeline(struct program *program, struct gpu *gpu, struct mod
                                                         .pSpecializationInfo = &values},
                                               .layout = program->layout};
     const bool ok =
-        gpu_ok(gpu, vkCreateComputePipelines(gpu->device, gpu->cache, 1, &info, NULL, &program->pipeline), name, err);
-    vkDestroyShaderModule(gpu->device, module, NULL);
+        from.foreign
+            ? pipeline_create_patiently(gpu, &info, constants, name, &program->pipeline, err)
+            : gpu_ok(gpu, vkCreateComputePipelines(gpu->device, gpu->cache, 1, &info, NULL, &program->pipeline), name,
+                     err);
+    GPU_DESTROY(gpu, vkDestroyShaderModule, module);
     if (ok) device_set_name(gpu, VK_OBJECT_TYPE_PIPELINE, (uint64_t)(uintptr_t)program->pipeline, name);
     return ok;
 }
@@ -299,5 +329,6 @@ struct program *programs_get(struct programs *programs, struct gpu *gpu, const s
         if (generic->turned >> i & 1) left.data[i] = 0;
     const uint64_t shared = program_key(pass, &left, ~spirv->hash);
     if ((program = find_program(programs, gpu, shared))) return program;
-    return add_program(programs, gpu, pass, (struct module){generic->words, generic->bytes}, &left, shared, true, err);
+    return add_program(programs, gpu, pass, (struct module){generic->words, generic->bytes, from.foreign}, &left,
+                       shared, true, err);
 }

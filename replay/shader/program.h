@@ -61,6 +61,10 @@ struct programs {
 };
 bool programs_init(struct programs *programs, struct gpu *gpu, struct glint_error *err);
 void programs_finish(struct programs *programs, struct gpu *gpu);
+/* patience.c: creates a pipeline from a user's shader, which the driver may compile for as long as a pass may take. */
+bool pipeline_create_patiently(struct gpu *gpu, const VkComputePipelineCreateInfo *info,
+                               const struct constants *constants, const char *name, VkPipeline *pipeline,
+                               struct glint_error *err);
 /* Finds or creates the program of a pass with these constants, which differ between its phases. With `quick` it is a generic one unless there
    is one for the values of the parameters already. */
 struct program *programs_get(struct programs *programs, struct gpu *gpu, const struct glint_pass *pass,

@@ -1,10 +1,7 @@
-/* Reflects SPIR-V: the bindings of a module, which words of the uniform block it reads, whether it records probes. */
+/* Reflects SPIR-V: which words of the uniform block it reads, whether it records probes. */
 #include "shader.h"
 
-#include <stdlib.h>
 #include <string.h>
-
-#include "graph.h"
 
 enum {
     HEADER = 5,
@@ -38,31 +35,6 @@ static const uint32_t *first_op(const struct spirv *spirv) {
 }
 static const uint32_t *next_op(const struct spirv *spirv, const uint32_t *op) {
     return checked_op(spirv, op + op_words(op));
-}
-
-static bool is_declared(const struct glint_pass *pass, uint32_t set, uint32_t binding) {
-    if (set == 1) return binding <= 3; /* passes/shared/interface.glsl */
-    for (size_t r = 0; set == 0 && r < pass->row_count; r++)
-        if (row_is_image(&pass->rows[r]) && pass->rows[r].id == binding) return true;
-    return false;
-}
-
-/* A user's shader may declare bindings by hand. A binding without a row would have no image. */
-bool spirv_check_bindings(const struct spirv *spirv, const struct glint_pass *pass, const char *path,
-                          struct glint_error *err) {
-    const uint32_t bound = spirv->words[3]; /* ids are below it */
-    uint32_t *sets = calloc(bound, sizeof *sets);
-    bool ok = sets || glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
-    for (int round = 0; ok && round < 2; round++) /* twice, since the set may be decorated after the binding */
-        for (const uint32_t *op = first_op(spirv); ok && op; op = next_op(spirv, op)) {
-            if (opcode(op) != OP_DECORATE || op_words(op) != 4 || op[1] >= bound) continue;
-            if (round == 0 && op[2] == DESCRIPTOR_SET) sets[op[1]] = op[3];
-            if (round == 1 && op[2] == BINDING && !is_declared(pass, sets[op[1]], op[3]))
-                ok = glint_fail(err, GLINT_ERROR_USAGE, "%s: binding %u of set %u is not an image that %s/%s declares",
-                                path, op[3], sets[op[1]], pass->slot, pass->variant);
-        }
-    free(sets);
-    return ok;
 }
 
 /* The variable of set 1 with this binding (passes/shared/interface.glsl), or 0. */

@@ -17,6 +17,8 @@ struct shaders {
     struct spirv *
         built_in; /* what is known of the modules of passes, in the order of glint_passes(); without words: nothing yet */
     bool compiler; /* glslang is initialised */
+    bool
+        clamp; /* indices of compiled shaders cannot leave arrays: a device that runs them in this process needs that */
 };
 bool shaders_init(struct shaders *shaders, const char *folder, struct glint_error *err);
 void shaders_finish(struct shaders *shaders);
@@ -36,10 +38,10 @@ struct spirv {
 bool spirv_find(struct spirv *spirv, struct shaders *shaders, const struct pipeline_pass *pass,
                 struct glint_error *err);
 
+/* vet.c: fails if a user's shader holds what could make a driver crash, such as a binding that no row declares. */
+bool spirv_vet(const struct spirv *spirv, const struct glint_pass *pass, const char *path, struct glint_error *err);
+
 /* reflect.c */
-/* Fails if a user's shader declares a binding that no row declares. */
-bool spirv_check_bindings(const struct spirv *spirv, const struct glint_pass *pass, const char *path,
-                          struct glint_error *err);
 /* Sets frame_words and probes. */
 void spirv_find_uses(struct spirv *spirv);
 

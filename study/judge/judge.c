@@ -78,6 +78,16 @@ bool glint_judge_load(struct glint_judge *judge, struct glint_capture *capture, 
     return (judge->labels = glint_study_labels(capture, judge->options.effect, err)) != NULL;
 }
 
+void glint_judge_leave(struct glint_judge *judge) {
+    glint_replay_destroy(&judge->replay);
+    judge->measured_count = 0;
+}
+
+bool glint_judge_return(struct glint_judge *judge, struct glint_error *err) {
+    return (judge->replay = glint_replay_create(judge->device, err)) &&
+           glint_replay_load(judge->replay, judge->capture, err);
+}
+
 void glint_judge_override(struct glint_judge *judge, const char *const *skip, const char *const *force) {
     judge->skip = skip;
     judge->force = force;

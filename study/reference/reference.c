@@ -59,6 +59,10 @@ struct glint_reference *glint_reference_create(struct glint_replay *replay, stru
     return reference;
 }
 
+void glint_reference_continue(struct glint_reference *reference, struct glint_replay *replay) {
+    reference->replay = replay;
+}
+
 void glint_reference_destroy(struct glint_reference **pointer) {
     struct glint_reference *reference = *pointer;
     *pointer = NULL;

@@ -4,6 +4,7 @@
    GLINT_FAULT_RESULT  what it returns, such as VK_ERROR_OUT_OF_DEVICE_MEMORY; VK_ERROR_DEVICE_LOST without it
    GLINT_FAULT_FROM    the number of its first call that fails, 1 without it, counted in the process since one of these variables changed
    GLINT_FAULT_TIMES   how many calls fail; all from the first on without it
+   GLINT_FAULT_SECONDS instead of failing they take so many seconds longer
    GLINT_FAULT_FILE    while a file of this name exists, devices are lost at the next call that a lost device fails, and none can be created
    GLINT_FAULT_COUNTS  a file to which each process appends how often it called each function, when its last instance is destroyed
 
@@ -202,6 +203,8 @@ static VkResult fault_of(enum call call) {
     const unsigned long number = since += named;
     pthread_mutex_unlock(&lock);
     if (!named || number < from || (times && number >= from + times)) return VK_SUCCESS;
+    const unsigned long seconds = number_of("GLINT_FAULT_SECONDS", 0);
+    if (seconds) return sleep((unsigned)seconds), VK_SUCCESS;
     return result_of_name(getenv("GLINT_FAULT_RESULT"));
 }
 

@@ -226,7 +226,7 @@ static void a_file_that_includes_itself_is_an_error(void **state) {
     struct glint_error err;
     char *path = write_text(state, "mine.comp", "#version 460\n#include \"mine.comp\"\n");
     assert_false(compile(path, &spirv, &err));
-    fixture_says(&err, "includes nest deeper");
+    fixture_says(&err, "mine.comp includes itself");
 }
 
 static void what_is_no_shader_is_an_error(void **state) {

@@ -4,12 +4,14 @@
 #include <string.h>
 
 #include "blame/blame.h"
+#include "journal/again.h"
 
 /* State of the work on one capture. */
 struct work {
     struct blame *blame;
     size_t capture;
     struct glint_judge *judge;
+    struct again again;
     struct glint_capture *open, **before; /* blame->before.count of them */
     size_t done, total;
     char label[64];
@@ -76,8 +78,12 @@ static bool replay_coalition(struct work *work, uint32_t coalition, struct glint
     struct glint_verdict verdict = {0};
     struct glint_error own = {0};
     if (!pipeline) return false;
-    bool ok = run_before(work, pipeline, &own) &&
-              glint_judge_evaluate(work->judge, pipeline, 0, &verdict, report, work, &own);
+    bool ok;
+    work->again.tried = false;
+    do
+        ok = run_before(work, pipeline, &own) &&
+             glint_judge_evaluate(work->judge, pipeline, 0, &verdict, report, work, &own);
+    while (!ok && again_try(&work->again, &own, "pipeline %u", coalition));
     if (ok && work->blame->against.truth && verdict.no_truth.code != GLINT_OK)
         ok = glint_fail(&own, verdict.no_truth.code, "%s", verdict.no_truth.message);
     for (int k = 0; ok && k < GLINT_TARGET_COUNT; k++)
@@ -111,8 +117,12 @@ static bool play(void *user, uint32_t coalition, double *values, struct glint_er
 static bool time_one(struct work *work, uint32_t coalition, uint32_t round, struct glint_error *err) {
     struct glint_pipeline *pipeline = glint_players_pipeline(work->blame->players, coalition, err);
     struct glint_cost cost;
-    bool ok = pipeline && run_before(work, pipeline, err) &&
-              glint_judge_time(work->judge, pipeline, 0, work->blame->shot, &cost, report, work, err);
+    bool ok;
+    work->again.tried = false;
+    do
+        ok = pipeline && run_before(work, pipeline, err) &&
+             glint_judge_time(work->judge, pipeline, 0, work->blame->shot, &cost, report, work, err);
+    while (!ok && again_try(&work->again, err, "pipeline %u, round %u", coalition, round + 1));
     if (ok) {
         ok = place_line(work, coalition, cost_json(&cost, round), err);
         glint_cost_finish(&cost);
@@ -147,8 +157,13 @@ static bool take_turns(struct work *work, struct glint_error *err) {
 static bool find_answer(struct work *work, struct glint_error *err) {
     const float *error;
     name_phase(work, "reference");
-    return work->blame->against.truth || glint_judge_target(work->judge, GLINT_TARGET_REFERENCE, work->blame->base,
-                                                            &error, progress_report, work->blame->progress, err);
+    bool ok = work->blame->against.truth;
+    work->again.tried = false;
+    do
+        ok = ok || glint_judge_target(work->judge, GLINT_TARGET_REFERENCE, work->blame->base, &error, progress_report,
+                                      work->blame->progress, err);
+    while (!ok && again_try(&work->again, err, "reference"));
+    return ok;
 }
 
 static bool tell_progress(void *user, struct glint_error *err) {
@@ -196,6 +211,7 @@ static bool on_capture(struct blame *blame, size_t c, bool (*task)(struct work *
     options.truth = true;
     options.all = blame->all;
     options.metrics = blame->metrics;
+    work.again = (struct again){&cmd_blame, blame->device, &work.judge, 1, 0, false};
     const bool ok = (work.open = glint_capture_open(blame->captures.items[c], NULL, err)) && open_shot(&work, err) &&
                     (work.judge = glint_judge_create(blame->device, &options, err)) &&
                     glint_judge_load(work.judge, work.open, err) && task(&work, err);

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "glint/sort.h"
+#include "journal/again.h"
 #include "options/pipeline_args.h"
 #include "draw/view/pixels.h"
 
@@ -179,11 +180,17 @@ static bool measure_contestant(const struct contest *contest, size_t i, struct s
     const struct glint_pipeline *pipeline = contest->contestants[i].pipeline;
     const uint8_t *labels = glint_judge_labels(contest->judge);
     progress_phase(contest->progress, "%.32s", contest->contestants[i].label);
-    if (!glint_judge_evaluate(contest->judge, pipeline, (uint32_t)i, &a->verdict, progress_report, contest->progress,
-                              err))
-        return false;
+    struct again again = {&cmd_compare, contest->device, &contest->judge, 1, 0, false};
+    bool ok;
+    do {
+        answer_finish(a);
+        ok = glint_judge_evaluate(contest->judge, pipeline, (uint32_t)i, &a->verdict, progress_report,
+                                  contest->progress, err) &&
+             read_picture(contest->judge, s, a, err);
+    } while (!ok && again_try(&again, err, "preset %s", contest->contestants[i].label));
+    if (!ok) return false;
     missing_add(contest->missing, glint_judge_replay(contest->judge));
-    if (!note_passes(s, &a->verdict, err) || !read_picture(contest->judge, s, a, err)) return false;
+    if (!note_passes(s, &a->verdict, err)) return false;
     s->ends = a->verdict.ends;
     s->steps_px = a->verdict.steps_px;
     s->fetches_px = a->verdict.fetches_px;
@@ -200,9 +207,13 @@ static bool time_round(const struct contest *contest, size_t i, struct showing *
                        struct glint_error *err) {
     struct glint_cost cost;
     progress_phase(contest->progress, "%.24s, times", contest->contestants[i].label);
-    if (!glint_judge_time(contest->judge, contest->contestants[i].pipeline, (uint32_t)i, true, &cost, progress_report,
-                          contest->progress, err))
-        return false;
+    struct again again = {&cmd_compare, contest->device, &contest->judge, 1, 0, false};
+    bool ok;
+    do
+        ok = glint_judge_time(contest->judge, contest->contestants[i].pipeline, (uint32_t)i, true, &cost,
+                              progress_report, contest->progress, err);
+    while (!ok && again_try(&again, err, "preset %s, round %u", contest->contestants[i].label, round + 1));
+    if (!ok) return false;
     s->frame_ms[round] = (double)cost.frame_ns * 1e-6;
     s->cubemaps_ms[round] = (double)cost.cubemaps_ns * 1e-6;
     glint_cost_finish(&cost);
@@ -215,9 +226,9 @@ static struct contest_time statistics(double *ms, uint32_t n) {
 }
 
 /* Whether a failure ends the comparison; other failures are recorded for the preset. */
-static bool fail_alone(struct showing *s, const struct contestant *c, const struct glint_error *own,
-                       struct glint_error *err) {
-    if (own->code == GLINT_ERROR_INTERRUPTED || own->code == GLINT_ERROR_MEMORY)
+static bool fail_alone(const struct contest *contest, struct showing *s, const struct contestant *c,
+                       const struct glint_error *own, struct glint_error *err) {
+    if (own->code == GLINT_ERROR_INTERRUPTED || own->code == GLINT_ERROR_MEMORY || glint_device_lost(contest->device))
         return glint_fail(err, own->code, "preset %s: %s", c->label, own->message);
     s->ran = s->compared = false;
     snprintf(s->failure, sizeof s->failure, "%s", own->message);
@@ -236,7 +247,7 @@ static bool take_turns(const struct contest *contest, struct showing *showings, 
                 if (!s->frame_ms || !s->cubemaps_ms) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
             }
             if (s->ran && !time_round(contest, i, s, round, &own) &&
-                !fail_alone(s, &contest->contestants[i], &own, err))
+                !fail_alone(contest, s, &contest->contestants[i], &own, err))
                 return false;
         }
     for (size_t i = 0; i < contest->count; i++) {
@@ -271,7 +282,7 @@ static bool look_at_all(const struct contest *contest, struct showing *showings,
         struct glint_error own = {0};
         showings[i].ran = measure_contestant(contest, i, &showings[i], &answers[i], &own) &&
                           (!pictures || contest_draw(pictures, i + 1, c, &answers[i], labels, &own));
-        if (!showings[i].ran && !fail_alone(&showings[i], c, &own, err)) return false;
+        if (!showings[i].ran && !fail_alone(contest, &showings[i], c, &own, err)) return false;
         if (!truth && showings[i].compared) truth = answers[i].truth;
     }
     return !pictures || contest_draw_truth(pictures, truth, glint_judge_capture(contest->judge), err);

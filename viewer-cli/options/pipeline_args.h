@@ -10,6 +10,7 @@ struct command;
 struct pipeline_args {
     const char *preset; /* NULL: mafia3 */
     const char *device; /* NULL: the preferred one */
+    uint32_t limit_s;   /* of a dispatch; 0: the usual one */
     struct list use, set, shader;
     struct list passes, outputs, skip, force;
     struct glint_replay_options replay; /* pipeline_args_options fills its lists */
@@ -26,12 +27,15 @@ enum {
     KEY_OUTPUTS,
     KEY_SKIP,
     KEY_FORCE,
-    KEY_ALL
+    KEY_ALL,
+    KEY_DISPATCH_LIMIT
 };
 
 /* clang-format off */
 #define DEVICE_OPTION \
     {"device",  'd',         "INDEX|NAME",     0, "Vulkan device to use; glint devices lists them (default: $GLINT_DEVICE, else the first usable one in that list)", 0}
+#define LIMIT_OPTION \
+    {"dispatch-limit", KEY_DISPATCH_LIMIT, "SECONDS", 0, "Give up when the device takes longer than this for a pass (default: $GLINT_DISPATCH_LIMIT, else 60, or 600 on a CPU)", 0}
 #define USE_OPTION \
     {"use",     KEY_USE,     "SLOT=VARIANT",   0, "Use this variant of a slot; the variant none removes the slot", 0}
 #define ALL_OPTION \
@@ -42,7 +46,7 @@ enum {
     USE_OPTION, \
     {"set",     KEY_SET,     "SLOT.PARAM=VALUE", 0, "Set a parameter (glint passes SLOT lists them); pipeline.PARAM sets it in all passes that have it", 0}, \
     {"shader",  KEY_SHADER,  "SLOT=FILE",      0, "Compile the slot's shader from this file instead of the built-in one", 0}, \
-    ALL_OPTION, DEVICE_OPTION
+    ALL_OPTION, DEVICE_OPTION, LIMIT_OPTION
 #define SKIP_OPTION \
     {"skip",    KEY_SKIP,    "SLOT,...",       0, "Never run these passes; passes that read their images get fallback values instead, so the image changes", 0}
 /* Also which part of it runs. */
@@ -58,6 +62,7 @@ enum {
 #define PIPELINE_TARGETS(type, args) \
     STORED('p', type, args.preset), \
     STORED('d', type, args.device), \
+    STORED_NUMBER(KEY_DISPATCH_LIMIT, type, args.limit_s, 1, UINT32_MAX), \
     STORED(KEY_USE, type, args.use), \
     STORED(KEY_SET, type, args.set), \
     STORED(KEY_SHADER, type, args.shader), \

@@ -6,6 +6,7 @@
 
 #include "draw/view/pixels.h"
 #include "draw/view/png_file.h"
+#include "journal/again.h"
 #include "sweep/sweep.h"
 
 /* State of the work on one capture. */
@@ -13,6 +14,7 @@ struct work {
     struct sweep *sweep;
     size_t capture;
     struct glint_judge *judge;
+    struct again again;
     size_t done, total; /* number of results in this call, over all captures */
     char label[64];
 };
@@ -90,7 +92,8 @@ static bool place_line(const struct work *work, size_t point, json_t *line, stru
 
 /* Whether a failure ends the sweep; other failures are recorded in the point's row. */
 static bool fail_point(const struct work *work, size_t point, const struct glint_error *own, struct glint_error *err) {
-    if (own->code == GLINT_ERROR_INTERRUPTED || own->code == GLINT_ERROR_MEMORY || own->code == GLINT_ERROR_IO)
+    if (own->code == GLINT_ERROR_INTERRUPTED || own->code == GLINT_ERROR_MEMORY || own->code == GLINT_ERROR_IO ||
+        glint_device_lost(work->sweep->device))
         return glint_fail(err, own->code, "%s", own->message);
     return place_line(work, point, json_pack("{s:s}", "failed", own->message), err);
 }
@@ -107,10 +110,16 @@ static bool measure_point(struct work *work, size_t point, struct glint_error *e
     struct glint_error own = {0};
     if (!pipeline) return false;
     label(work, "point", point + 1);
-    bool ok = glint_judge_evaluate(work->judge, pipeline, 0, &verdict, report, work, &own);
+    double start = 0;
+    bool ok;
+    work->again.tried = false;
+    do {
+        glint_verdict_finish(&verdict);
+        ok = glint_judge_evaluate(work->judge, pipeline, 0, &verdict, report, work, &own);
+        start = now_seconds();
+        ok = ok && draw_point(work, point, &own);
+    } while (!ok && again_try(&work->again, &own, "point %zu", point + 1));
     if (ok) missing_add(&work->sweep->missing, glint_judge_replay(work->judge));
-    const double start = now_seconds();
-    ok = ok && draw_point(work, point, &own);
     if (ok && work->sweep->against.truth && verdict.no_truth.code != GLINT_OK) /* the truth is missing for all points */
         ok = glint_fail(err, verdict.no_truth.code, "%s", verdict.no_truth.message);
     else if (ok) ok = place_line(work, point, look_json(work->sweep, &verdict, now_seconds() - start), err);
@@ -130,7 +139,10 @@ static bool time_point(struct work *work, size_t point, uint32_t round, struct g
     struct glint_cost cost;
     if (!pipeline) return false;
     label(work, "times, round", round + 1);
-    bool ok = glint_judge_time(work->judge, pipeline, 0, work->sweep->whole, &cost, report, work, err);
+    bool ok;
+    work->again.tried = false;
+    do ok = glint_judge_time(work->judge, pipeline, 0, work->sweep->whole, &cost, report, work, err);
+    while (!ok && again_try(&work->again, err, "point %zu, round %u", point + 1, round + 1));
     if (ok) {
         ok = place_line(work, point, cost_json(&cost, round), err);
         glint_cost_finish(&cost);
@@ -167,8 +179,12 @@ static bool find_answer(struct work *work, struct glint_error *err) {
     const enum glint_target answer = answer_args_kind(&sweep->against);
     struct glint_pipeline *pipeline = glint_space_pipeline(sweep->space, 0, err);
     if (answer == GLINT_TARGET_REFERENCE) name_phase(work, "reference");
-    const bool ok =
-        pipeline && glint_judge_target(work->judge, answer, pipeline, &error, progress_report, sweep->progress, err);
+    bool ok;
+    work->again.tried = false;
+    do
+        ok = pipeline &&
+             glint_judge_target(work->judge, answer, pipeline, &error, progress_report, sweep->progress, err);
+    while (!ok && again_try(&work->again, err, "%s", glint_target_name(answer)));
     if (pipeline) glint_pipeline_destroy(&pipeline);
     name_phase(work, "points");
     return ok;
@@ -199,6 +215,7 @@ static bool on_capture(struct work *work, size_t c, task task, struct glint_erro
     options.metrics = sweep->metrics;
     struct glint_capture *capture = glint_capture_open(sweep->captures.items[c], NULL, err);
     work->capture = c;
+    work->again = (struct again){&cmd_sweep, sweep->device, &work->judge, 1, 0, false};
     bool ok = capture && (work->judge = glint_judge_create(sweep->device, &options, err)) &&
               glint_judge_load(work->judge, capture, err) && find_answer(work, err) && task(work, err);
     if (work->judge) glint_judge_destroy(&work->judge);
@@ -253,10 +270,13 @@ static bool draw_errors(struct work *work, struct glint_pixels *results, struct 
         char name[96];
         label(work, "picture", p + 1);
         sweep_picture_name("error", work->capture, p, name);
-        bool ok = pipeline && glint_judge_evaluate(work->judge, pipeline, 0, &verdict, report, work, err) &&
-                  (answer = glint_judge_target(work->judge, kind, pipeline, &noise, NULL, NULL, err)) &&
-                  pixels_difference(&verdict.result, answer, noise, glint_judge_labels(work->judge), &error, err) &&
-                  draw_picture(sweep, name, &error, "error", err);
+        bool ok;
+        work->again.tried = false;
+        do ok = pipeline && glint_judge_evaluate(work->judge, pipeline, 0, &verdict, report, work, err);
+        while (!ok && again_try(&work->again, err, "picture of point %zu", p + 1));
+        ok = ok && (answer = glint_judge_target(work->judge, kind, pipeline, &noise, NULL, NULL, err)) &&
+             pixels_difference(&verdict.result, answer, noise, glint_judge_labels(work->judge), &error, err) &&
+             draw_picture(sweep, name, &error, "error", err);
         results[p] = verdict.result;
         verdict.result = (struct glint_pixels){0};
         glint_pixels_finish(&error);

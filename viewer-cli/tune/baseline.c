@@ -53,8 +53,7 @@ static bool is_dearer(struct tune *tune, size_t s, struct glint_pipeline *scaled
     *dearer = false;
     for (int k = TUNE_TUNED; tune->fetches && k < TUNE_CONTENDERS; k++) {
         struct glint_verdict verdict;
-        if (!glint_judge_evaluate(tune->subjects[s].judge, pipelines[k], 0, &verdict, tune_report, tune, err))
-            return false;
+        if (!tune_judge(tune, &tune->subjects[s], pipelines[k], &verdict, err)) return false;
         fetches[k] = verdict.fetches_px;
         glint_verdict_finish(&verdict);
     }

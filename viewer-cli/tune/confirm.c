@@ -114,8 +114,7 @@ static bool look_at(struct tune *tune, size_t s, int k, struct glint_error *err)
     struct tune_measured *measured = &tune->measured[s * TUNE_CONTENDERS + (size_t)k];
     struct glint_verdict verdict;
     snprintf(tune->label, sizeof tune->label, "%s", tune_contenders[k]);
-    if (!glint_judge_evaluate(tune->subjects[s].judge, tune->contenders[k], 0, &verdict, tune_report, tune, err))
-        return false;
+    if (!tune_judge(tune, &tune->subjects[s], tune->contenders[k], &verdict, err)) return false;
     measured->errors = verdict.errors[answer];
     measured->steps_px = verdict.steps_px;
     measured->fetches_px = verdict.fetches_px;

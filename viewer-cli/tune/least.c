@@ -41,7 +41,7 @@ static bool measure_passes(struct tune *tune, const struct glint_pipeline *pipel
         for (uint32_t r = 0; ok && r < tune->rounds; r++) {
             struct glint_cost cost;
             glint_judge_next_round(tune->subjects[s].judge);
-            ok = glint_judge_time(tune->subjects[s].judge, pipeline, 0, true, &cost, tune_report, tune, err);
+            ok = tune_cost(tune, &tune->subjects[s], pipeline, true, &cost, err);
             for (size_t i = 0; ok && i < cost.pass_count; i++)
                 if (!cost.passes[i].cached_work && tune_slot_counts(tune, cost.passes[i].pass->slot))
                     ok = add_part(parts, cost.passes[i].pass, (double)cost.passes[i].ns * 1e-6 / rounds, err);

@@ -18,6 +18,17 @@ void tune_unload_subject(struct tune *tune, size_t s) {
     if (subject->capture) glint_capture_close(&subject->capture);
 }
 
+static bool find_target(struct tune *tune, struct tune_subject *subject, struct glint_error *err) {
+    const float *error;
+    bool ok;
+    tune->again.tried = false;
+    do
+        ok = glint_judge_target(subject->judge, answer_args_kind(&tune->against), tune->base, &error, progress_report,
+                                tune->progress, err);
+    while (!ok && again_try(&tune->again, err, "reference"));
+    return ok;
+}
+
 bool tune_load_subject(struct tune *tune, size_t s, uint32_t resamples, struct glint_error *err) {
     struct tune_subject *subject = &tune->subjects[s];
     struct glint_judge_options options = answer_args_judge(&tune->against, tune->folder, s);
@@ -26,19 +37,18 @@ bool tune_load_subject(struct tune *tune, size_t s, uint32_t resamples, struct g
     options.resamples = resamples;
     options.keep_resampled = resamples != 0;
     options.seed = 1;
-    const enum glint_target answer = answer_args_kind(&tune->against);
-    const float *error;
-    if (answer == GLINT_TARGET_REFERENCE) progress_phase(tune->progress, "reference, %.24s", base_name(subject->path));
+    if (!tune->against.truth) progress_phase(tune->progress, "reference, %.24s", base_name(subject->path));
     return (subject->capture = glint_capture_open(subject->path, NULL, err)) &&
            (subject->judge = glint_judge_create(tune->device, &options, err)) &&
-           glint_judge_load(subject->judge, subject->capture, err) &&
-           glint_judge_target(subject->judge, answer, tune->base, &error, progress_report, tune->progress, err);
+           glint_judge_load(subject->judge, subject->capture, err) && find_target(tune, subject, err);
 }
 
 bool tune_load(struct tune *tune, struct glint_error *err) {
     tune->subject_count = tune->captures.count + tune->held_out.count;
     tune->subjects = calloc(tune->subject_count + 1, sizeof *tune->subjects);
     if (!tune->subjects) return fail_memory(err);
+    tune->again = (struct again){&cmd_tune,           tune->device,           &tune->subjects->judge,
+                                 tune->subject_count, sizeof *tune->subjects, false};
     for (size_t s = 0; s < tune->subject_count; s++) {
         struct tune_subject *subject = &tune->subjects[s];
         subject->held_out = s >= tune->captures.count;
@@ -47,19 +57,35 @@ bool tune_load(struct tune *tune, struct glint_error *err) {
         struct glint_verdict verdict;
         progress_phase(tune->progress, "start");
         snprintf(tune->label, sizeof tune->label, "%s", glint_pipeline_name(tune->base));
-        if (!tune_load_subject(tune, s, 0, err) ||
-            !glint_judge_evaluate(subject->judge, tune->base, 0, &verdict, tune_report, tune, err))
-            return false;
+        if (!tune_load_subject(tune, s, 0, err) || !tune_judge(tune, subject, tune->base, &verdict, err)) return false;
         glint_verdict_finish(&verdict);
     }
     return true;
+}
+
+bool tune_judge(struct tune *tune, struct tune_subject *subject, const struct glint_pipeline *pipeline,
+                struct glint_verdict *verdict, struct glint_error *err) {
+    bool ok;
+    tune->again.tried = false;
+    do ok = glint_judge_evaluate(subject->judge, pipeline, 0, verdict, tune_report, tune, err);
+    while (!ok && again_try(&tune->again, err, "%s", tune->label));
+    return ok;
+}
+
+bool tune_cost(struct tune *tune, struct tune_subject *subject, const struct glint_pipeline *pipeline, bool whole,
+               struct glint_cost *cost, struct glint_error *err) {
+    bool ok;
+    tune->again.tried = false;
+    do ok = glint_judge_time(subject->judge, pipeline, 0, whole, cost, tune_report, tune, err);
+    while (!ok && again_try(&tune->again, err, "%s, times", tune->label));
+    return ok;
 }
 
 bool tune_time(struct tune *tune, struct tune_subject *subject, const struct glint_pipeline *pipeline, bool whole,
                double *ms, struct glint_error *err) {
     struct glint_cost cost;
     uint64_t ns = 0;
-    if (!glint_judge_time(subject->judge, pipeline, 0, whole, &cost, tune_report, tune, err)) return false;
+    if (!tune_cost(tune, subject, pipeline, whole, &cost, err)) return false;
     for (size_t i = 0; i < cost.pass_count; i++)
         if (!cost.passes[i].cached_work && tune_slot_counts(tune, cost.passes[i].pass->slot)) ns += cost.passes[i].ns;
     glint_cost_finish(&cost);

@@ -96,7 +96,7 @@ static bool evaluate_on(struct tune *tune, struct tune_subject *subject, const s
     struct glint_verdict verdict;
     struct glint_error own = {0};
     double error = NAN, cost = NAN;
-    bool ok = glint_judge_evaluate(subject->judge, pipeline, 0, &verdict, tune_report, tune, &own);
+    bool ok = tune_judge(tune, subject, pipeline, &verdict, &own);
     if (ok) {
         const struct glint_metric_table *table = &verdict.errors[answer];
         const struct glint_error no_truth = verdict.no_truth;
@@ -107,7 +107,8 @@ static bool evaluate_on(struct tune *tune, struct tune_subject *subject, const s
         glint_verdict_finish(&verdict);
     }
     ok = ok && (tune->fetches || time_beside_start(tune, subject, pipeline, &cost, &own));
-    if (!ok && (own.code == GLINT_ERROR_INTERRUPTED || own.code == GLINT_ERROR_MEMORY || own.code == GLINT_ERROR_IO))
+    if (!ok && (own.code == GLINT_ERROR_INTERRUPTED || own.code == GLINT_ERROR_MEMORY || own.code == GLINT_ERROR_IO ||
+                glint_device_lost(tune->device)))
         return glint_fail(err, own.code, "%s", own.message);
     json_t *figures = json_pack("{s:o, s:o}", "error", json_number(ok ? error : NAN), "cost", json_number(cost));
     if (!ok) json_object_set_new(figures, "failed", json_string(own.message));

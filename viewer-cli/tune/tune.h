@@ -7,6 +7,7 @@
 #include "options/args.h"
 #include "glint/judge.h"
 #include "glint/search.h"
+#include "journal/again.h"
 #include "journal/journal.h"
 #include "io/progress.h"
 
@@ -73,6 +74,7 @@ struct tune {
 
     struct tune_subject *subjects; /* captures, then held-out ones */
     size_t subject_count;
+    struct again again;
     struct tune_axis *axes;
     size_t axis_count;
     struct tune_left *left;
@@ -118,6 +120,11 @@ bool tune_load(struct tune *tune, struct glint_error *err);
 /* Loads one more capture, with its own judge. */
 bool tune_load_subject(struct tune *tune, size_t subject, uint32_t resamples, struct glint_error *err);
 void tune_unload_subject(struct tune *tune, size_t subject);
+/* Evaluates a pipeline, and measures the cost of one round, as glint_judge_evaluate and glint_judge_time do, once more if the device is lost. */
+bool tune_judge(struct tune *tune, struct tune_subject *subject, const struct glint_pipeline *pipeline,
+                struct glint_verdict *verdict, struct glint_error *err);
+bool tune_cost(struct tune *tune, struct tune_subject *subject, const struct glint_pipeline *pipeline, bool whole,
+               struct glint_cost *cost, struct glint_error *err);
 /* Times one round of the counted passes; `whole`: all passes of the frame in one submission. */
 bool tune_time(struct tune *tune, struct tune_subject *subject, const struct glint_pipeline *pipeline, bool whole,
                double *ms, struct glint_error *err);

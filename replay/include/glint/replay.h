@@ -59,6 +59,10 @@ struct glint_device_options {
     const char *passes;
     /* Enables the Khronos validation layer with synchronisation validation, as does $GLINT_VALIDATION=1. */
     bool validation;
+    /* A device that executes a pass longer than this is given up: a shader may loop for ever. Passes that are submitted together have the sum of their
+       limits, and time in which the process is stopped does not count. Seconds; 0: $GLINT_DISPATCH_LIMIT, else 600 on a device of type "cpu" and 60 on others, whose
+       drivers mostly end such a pass earlier themselves. */
+    uint32_t dispatch_limit_s;
 };
 /* Devices may be used by a thread each, but open and close none meanwhile: releases of the loader and of the validation layer up to 2023
    race there. */
@@ -70,6 +74,12 @@ const struct glint_device_info *glint_device_get_info(const struct glint_device 
    may work at once, later or never. Captures and pipelines stay valid. After other errors, also GLINT_ERROR_DEVICE and GLINT_ERROR_MEMORY, device and replay may be used
    again: a replay then computes everything anew. */
 bool glint_device_lost(const struct glint_device *device);
+/* Whether it counts as lost because it did not end a pass within the limit. It may still execute that pass, so what it has in memory is left until the process
+   ends, and on a device of type "cpu" threads that keep the processors busy. */
+bool glint_device_given_up(const struct glint_device *device);
+/* Opens a device that was lost again, with its options. All replays on it must have been destroyed. Fails if it does not come back, or if another one has taken its place,
+   so that results of both are never mixed; the device can then only be destroyed. */
+bool glint_device_reopen(struct glint_device *device, struct glint_error *err);
 /* The number of validation warnings and errors so far. *last receives the text of the last one, "" if there was none. */
 uint32_t glint_device_messages(const struct glint_device *device, const char **last);
 

@@ -43,6 +43,10 @@ void glint_judge_destroy(struct glint_judge **judge);
 /* The caller keeps the capture; NULL unloads. When the frames of a shot are loaded one after the other, each pipeline keeps its own
    history, by the number `lineage` that its calls pass. */
 bool glint_judge_load(struct glint_judge *judge, struct glint_capture *capture, struct glint_error *err);
+/* When the device was lost: leaves it, and comes back after glint_device_reopen, with the capture and what is known of it but without history. Nothing but these two and
+   glint_judge_destroy may be called in between. */
+void glint_judge_leave(struct glint_judge *judge);
+bool glint_judge_return(struct glint_judge *judge, struct glint_error *err);
 /* The judge's replay, for reading results: its last run is that of the pipeline evaluated or timed last. Do not load or destroy it. */
 struct glint_replay *glint_judge_replay(struct glint_judge *judge);
 struct glint_capture *glint_judge_capture(const struct glint_judge *judge);

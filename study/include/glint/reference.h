@@ -52,6 +52,8 @@ struct glint_reference *glint_reference_create(struct glint_replay *replay, stru
                                                const struct glint_reference_options *options, struct glint_error *err);
 void glint_reference_destroy(struct glint_reference **reference);
 
+/* Traces with another replay from here on, of the same device, which was lost and opened again; it must have the same capture loaded. The rays so far are kept. */
+void glint_reference_continue(struct glint_reference *reference, struct glint_replay *replay);
 /* Traces until each pixel has `rays` rays, rounded up to whole rounds, or until the relative noise over all pixels is at most `noise`
    (0: no such limit). From the first round on the folder always holds a complete reference of the rays so far, and in unfinished.exr the
    rays of the unfinished round. Both are updated every few seconds, at the end and when the call is interrupted; the folder is created with
