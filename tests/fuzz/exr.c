@@ -10,14 +10,17 @@ static volatile size_t seen; /* what is read has to be there */
 static void look_at(const struct glint_exr_attribute *a) {
     seen += strlen(a->name) + strlen(a->type_name);
     switch (a->type) {
-    case GLINT_EXR_STRING: seen += strlen(a->string); break;
+    case GLINT_EXR_STRING:
+        seen += strlen(a->string);
+        break;
     case GLINT_EXR_STRINGS:
         for (size_t i = 0; i < a->count; i++) seen += strlen(a->strings[i]);
         break;
     case GLINT_EXR_OPAQUE:
         for (size_t i = 0; i < a->count; i++) seen += ((const uint8_t *)a->bytes)[i];
         break;
-    default: seen += a->numbers[0] > 0;
+    default:
+        seen += a->numbers[0] > 0;
     }
 }
 

@@ -40,7 +40,7 @@ def seeds(target, made):
 
 
 class Fuzzed:
-    """One process of libFuzzer: its exit status, what it printed, and its own figures."""
+    """One process of libFuzzer: its exit status, the processor's seconds, what it printed, and its own figures."""
     running = set()  # processes
 
     def __init__(self, program, options, folders):
@@ -48,9 +48,11 @@ class Fuzzed:
             env = {**os.environ, **ENV, "TMPDIR": memory}
             process = subprocess.Popen([program, *options, *folders], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, errors="replace", env=env)
             Fuzzed.running.add(process)
-            self.text = process.communicate()[1]
+            self.text = process.stderr.read()
+            _, status, used = os.wait4(process.pid, 0)
             Fuzzed.running.discard(process)
-        self.status = process.returncode
+        process.returncode = self.status = os.waitstatus_to_exitcode(status)
+        self.seconds = used.ru_utime + used.ru_stime
         number = re.search(r"stat::number_of_executed_units: (\d+)", self.text)
         self.executions = int(number[1]) if number else 0
         self.found = re.findall(r"Test unit written to (\S+)", self.text)
@@ -121,27 +123,24 @@ class Record:
     def write(self):
         self.path.parent.mkdir(parents=True, exist_ok=True)
         new = self.path.with_suffix(".tmp")
-        new.write_text(json.dumps(self.json, indent=1, sort_keys=True) + "\n")
+        new.write_text(re.sub(r"\[\s+(\d+),\s+(\d+)\s+\]", r"[\1, \2]", json.dumps(self.json, indent=1, sort_keys=True)) + "\n")
         new.replace(self.path)
 
 
-def seconds_of(text):
-    """The processor's time would be better, but libFuzzer tells whole seconds of wall time alone."""
-    last = re.findall(r"Done \d+ runs in (\d+) second", text)
-    return int(last[-1]) if last else 0
-
-
 def coverage(text):
-    """Edges and functions of glint's own files in which something is reached, from -print_coverage."""
-    files = {}
+    """Edges and functions of glint's own files in which something is reached, from -print_coverage. What is linked twice counts once."""
+    functions = {}
     for line in text.splitlines():
-        match = re.match(r"(?:UN)?COVERED_FUNC: hits: (\d+) edges: (\d+)/(\d+) \S+ (.*?):\d+", line)
+        match = re.match(r"(?:UN)?COVERED_FUNC: hits: \d+ edges: (\d+)/(\d+) (\S+) (.*?):\d+", line)
         path = match and os.path.relpath(match[4], ROOT)
-        if not match or path.split("/")[0] not in FOLDERS:
-            continue
-        file = files.setdefault(path, [0, 0, 0, 0])
-        for i, more in enumerate((int(match[2]), int(match[3]), int(match[1]) > 0, 1)):
-            file[i] += more
+        if match and path.split("/")[0] in FOLDERS:
+            key = (path, match[3])
+            functions[key] = max(functions.get(key, (0, 0)), (int(match[1]), int(match[2])))
+    files = {}
+    for (path, _), (reached, everything) in functions.items():
+        sums = files.setdefault(path, [0, 0, 0, 0])
+        for i, more in enumerate((reached, everything, reached > 0, 1)):
+            sums[i] += more
     files = {path: sums for path, sums in files.items() if sums[0]}
     keys = ("edges", "edges_all", "functions", "functions_all")
     return {**{key: sum(sums[i] for sums in files.values()) for i, key in enumerate(keys)},
@@ -167,7 +166,7 @@ class Runs:
             return
         artifacts = self.corpus(target, "found")
         run = Fuzzed(self.programs[target], options(target, self.made, artifacts, f"-max_total_time={seconds}"), [str(self.corpus(target)), *seeds(target, self.made)])
-        self.record.add(target, executions=run.executions, seconds=seconds_of(run.text) or seconds, found=len(run.found))
+        self.record.add(target, executions=run.executions, seconds=round(run.seconds), found=len(run.found))
         print(f"{target}: {run.executions:,} executions{', ' + run.found[0] if run.found else ''}", flush=True)
         if run.found:
             print(run.end(), flush=True)

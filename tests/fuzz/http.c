@@ -11,9 +11,9 @@ static const char token[] = "0123456789abcdef";
 static void read_line(struct http_headers *headers, const char *line) {
     const struct {
         const char *name, **value;
-    } known[] = {{"Host: ", &headers->host},          {"Origin: ", &headers->origin},
-                 {"Site: ", &headers->site},          {"Authorization: ", &headers->authorization},
-                 {"Length: ", &headers->length},      {"Encoding: ", &headers->encoding}};
+    } known[] = {{"Host: ", &headers->host},     {"Origin: ", &headers->origin},
+                 {"Site: ", &headers->site},     {"Authorization: ", &headers->authorization},
+                 {"Length: ", &headers->length}, {"Encoding: ", &headers->encoding}};
     for (size_t i = 0; i < sizeof known / sizeof *known; i++)
         if (!strncmp(line, known[i].name, strlen(known[i].name))) *known[i].value = line + strlen(known[i].name);
 }

@@ -30,7 +30,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         journal_close(&journal);
         journal = (struct journal){.folder = fuzz_folder(), .kind = "sweep", .keep = keep_line, .user = &last};
         fuzz_must(journal_open(&journal, definition, &err), err.message);
-        fuzz_must(journal.results == results + 1, "a journal that was read can be read again, with the line that was added");
+        fuzz_must(journal.results == results + 1,
+                  "a journal that was read can be read again, with the line that was added");
     }
     journal_close(&journal);
     json_decref(last);

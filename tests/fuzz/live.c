@@ -33,7 +33,8 @@ static void check_canonical(const json_t *json) {
     struct glint_error err = {0};
     if (fuzz_reason(state_read(&state, &live, json, &err), &err)) {
         fuzz_must(state_read(&again, &live, state.json, &err), err.message);
-        fuzz_must(json_equal(state.json, again.json) && state.key == again.key, "a canonical state is its own canonical form");
+        fuzz_must(json_equal(state.json, again.json) && state.key == again.key,
+                  "a canonical state is its own canonical form");
         state_finish(&again);
     }
     state_finish(&state);

@@ -78,11 +78,11 @@ static bool read_header(const uint8_t **at, const uint8_t *end) {
 
 static void read_chunk(const uint8_t *start, const uint8_t *end, uint64_t offset, size_t part) {
     const size_t head = is_multipart() ? 12 : 8;
-    if (file.chunk_count == CHUNKS || offset > (uint64_t)(end - start) || (uint64_t)(end - start) - offset < head) return;
+    if (file.chunk_count == CHUNKS || offset > (uint64_t)(end - start) || (uint64_t)(end - start) - offset < head)
+        return;
     const uint8_t *at = start + offset;
     const size_t size = number(at + head - 4);
-    if (size <= (size_t)(end - at) - head)
-        file.chunks[file.chunk_count++] = (struct chunk){at, head + size, part};
+    if (size <= (size_t)(end - at) - head) file.chunks[file.chunk_count++] = (struct chunk){at, head + size, part};
 }
 
 /* False for what does not look like a file of parts in scan lines. */
@@ -161,7 +161,8 @@ static uint8_t *room_for(size_t size) {
 }
 
 static void odd_number(uint8_t *at, size_t width, uint64_t *state) {
-    static const float floats[] = {0, -0.f, 1, -1, 1e-40f, 3.4e38f, -3.4e38f, INFINITY, -INFINITY, NAN, 65504, 65536, 0.5f};
+    static const float floats[] = {0,        -0.f,      1,   -1,    1e-40f, 3.4e38f, -3.4e38f,
+                                   INFINITY, -INFINITY, NAN, 65504, 65536,  0.5f};
     static const uint64_t words[] = {0, 1, UINT64_MAX, 0x7fffffff, 0x80000000u, 0x7fffffffffffffff, 255, 65535, 32768};
     const float real = floats[draw(state, sizeof floats / sizeof *floats)];
     const double precise = draw(state, 4) ? (double)real : 1e308;
@@ -234,11 +235,21 @@ static void change_file(uint64_t *state) {
     const size_t at = draw(state, file.count), other = draw(state, file.count), part = draw(state, file.parts);
     struct attribute *a = &file.attributes[at], *b = &file.attributes[other];
     switch (draw(state, 16)) {
-    case 0: remove_attribute(at); break;
-    case 1: add_attribute(at, part); break;
-    case 2: memcpy(a->name, b->name, NAME); break;
-    case 3: memcpy(a->type, b->type, NAME); break;
-    case 4: change_name(draw(state, 4) ? a->name : a->type); break;
+    case 0:
+        remove_attribute(at);
+        break;
+    case 1:
+        add_attribute(at, part);
+        break;
+    case 2:
+        memcpy(a->name, b->name, NAME);
+        break;
+    case 3:
+        memcpy(a->type, b->type, NAME);
+        break;
+    case 4:
+        change_name(draw(state, 4) ? a->name : a->type);
+        break;
     case 5:
         a->value = b->value;
         a->size = b->size;
@@ -251,7 +262,8 @@ static void change_file(uint64_t *state) {
     case 9:
         if (file.chunk_count) change_chunk(&file.chunks[draw(state, file.chunk_count)], state);
         break;
-    default: change_value(a, state);
+    default:
+        change_value(a, state);
     }
 }
 

@@ -35,19 +35,26 @@ static void list_places(struct places *places, json_t *holder, size_t depth) {
 
 static json_t *odd_value(uint64_t *state) {
     static const double reals[] = {0.5, -0.0, 1e-300, -1e300, 1e308, 3.4e38, 65504, 16777217, 4294967296.5, 1e19};
-    static const json_int_t integers[] = {0, 1, -1, 2, 255, 65535, 65536, INT32_MAX, INT32_MIN, UINT32_MAX, INT64_MAX, INT64_MIN};
+    static const json_int_t integers[] = {0,     1,         -1,        2,          255,       65535,
+                                          65536, INT32_MAX, INT32_MIN, UINT32_MAX, INT64_MAX, INT64_MIN};
     static char text[5000];
     switch (draw(state, 8)) {
-    case 0: return json_real(reals[draw(state, sizeof reals / sizeof *reals)]);
+    case 0:
+        return json_real(reals[draw(state, sizeof reals / sizeof *reals)]);
     case 1:
-    case 2: return json_integer(integers[draw(state, sizeof integers / sizeof *integers)]);
-    case 3: return json_boolean(draw(state, 2));
-    case 4: return json_null();
-    case 5: return draw(state, 2) ? json_array() : json_object();
+    case 2:
+        return json_integer(integers[draw(state, sizeof integers / sizeof *integers)]);
+    case 3:
+        return json_boolean(draw(state, 2));
+    case 4:
+        return json_null();
+    case 5:
+        return draw(state, 2) ? json_array() : json_object();
     case 6:
         memset(text, 'a', sizeof text);
         return json_stringn(text, draw(state, 4) ? draw(state, 300) : sizeof text);
-    default: return json_string("");
+    default:
+        return json_string("");
     }
 }
 
@@ -108,9 +115,15 @@ static void mutate_tree(json_t *root, uint64_t *state) {
     }
     const struct place at = places.all[draw(state, places.count)], other = places.all[draw(state, places.count)];
     switch (draw(state, 8)) {
-    case 0: put(&at, odd_value(state)); break;
-    case 1: put(&at, json_deep_copy(other.value)); break;
-    case 2: add(json_is_object(other.value) || json_is_array(other.value) ? other.value : other.holder, at.key, at.value); break;
+    case 0:
+        put(&at, odd_value(state));
+        break;
+    case 1:
+        put(&at, json_deep_copy(other.value));
+        break;
+    case 2:
+        add(json_is_object(other.value) || json_is_array(other.value) ? other.value : other.holder, at.key, at.value);
+        break;
     case 3:
         if (at.key) rename_key(&at, &other, state);
         else json_array_remove(at.holder, at.index);
@@ -119,7 +132,9 @@ static void mutate_tree(json_t *root, uint64_t *state) {
         if (at.key) json_object_del(at.holder, at.key);
         else json_array_append_new(at.holder, json_deep_copy(other.value));
         break;
-    default: put(&at, json_is_object(at.value) || json_is_array(at.value) ? json_deep_copy(other.value) : mutated_scalar(at.value, state));
+    default:
+        put(&at, json_is_object(at.value) || json_is_array(at.value) ? json_deep_copy(other.value)
+                                                                     : mutated_scalar(at.value, state));
     }
 }
 

@@ -77,10 +77,68 @@ static void write_images(enum glint_compression compression) {
         {.name = "texts", .type = GLINT_EXR_STRINGS, .strings = texts, .count = 2},
         {.name = "bytes", .type = GLINT_EXR_OPAQUE, .type_name = "own", .bytes = "abc", .count = 3}};
     for (size_t i = 0; i < sizeof values / sizeof *values; i++) values[i] = (float)(i % 7);
-    const struct glint_exr_part part = {.name = "image", .width = 9, .height = 19, .channels = channels, .channel_count = 3,
-                                        .attributes = attributes, .attribute_count = 6, .compression = compression};
+    const struct glint_exr_part part = {.name = "image",
+                                        .width = 9,
+                                        .height = 19,
+                                        .channels = channels,
+                                        .channel_count = 3,
+                                        .attributes = attributes,
+                                        .attribute_count = 6,
+                                        .compression = compression};
     snprintf(name, sizeof name, "compression%d.exr", (int)compression);
     check(glint_exr_write(path_of("exr", name), &part, 1, 1, &err), err.message);
+}
+
+/* A file of one part in tiles of 4 x 4 pixels, not compressed: glint reads such files and writes none. */
+static uint8_t tiled[2048];
+static size_t tiled_size;
+
+static void put(const void *bytes, size_t size) {
+    check(tiled_size + size <= sizeof tiled, "a tiled file is larger");
+    memcpy(tiled + tiled_size, bytes, size);
+    tiled_size += size;
+}
+
+static void put_attribute(const char *name, const char *type, const void *value, uint32_t size) {
+    put(name, strlen(name) + 1);
+    put(type, strlen(type) + 1);
+    put(&size, 4);
+    put(value, size);
+}
+
+static void write_tiled(void) {
+    static const uint32_t magic[] = {20000630, 0x202}, window[] = {0, 0, 5, 3};
+    /* A channel's name, then the type float, four bytes, and 1 x 1 pixels a sample. */
+    static const char channels[] = "Z\0\2\0\0\0\0\0\0\0\1\0\0\0\1\0\0\0";
+    static const uint8_t tiles[9] = {4, 0, 0, 0, 4};
+    static const float one = 1, center[2] = {0, 0}, pixels[16] = {1, 2, 3};
+    enum { TILES = 2 };
+    static const uint32_t widths[TILES] = {4, 2};
+    put(magic, sizeof magic);
+    put_attribute("channels", "chlist", channels, sizeof channels);
+    put_attribute("compression", "compression", "", 1);
+    put_attribute("dataWindow", "box2i", window, sizeof window);
+    put_attribute("displayWindow", "box2i", window, sizeof window);
+    put_attribute("lineOrder", "lineOrder", "", 1);
+    put_attribute("pixelAspectRatio", "float", &one, sizeof one);
+    put_attribute("screenWindowCenter", "v2f", center, sizeof center);
+    put_attribute("screenWindowWidth", "float", &one, sizeof one);
+    put_attribute("tiles", "tiledesc", tiles, sizeof tiles);
+    put("", 1);
+    uint64_t offset = tiled_size + TILES * sizeof offset;
+    for (size_t i = 0; i < TILES; offset += 20 + 16 * widths[i++]) put(&offset, sizeof offset);
+    for (uint32_t i = 0; i < TILES; i++) {
+        const uint32_t head[] = {i, 0, 0, 0, 16 * widths[i]};
+        put(head, sizeof head);
+        put(pixels, 16 * widths[i]);
+    }
+    FILE *out = fopen(path_of("exr", "tiled.exr"), "wb");
+    check(out && fwrite(tiled, 1, tiled_size, out) == tiled_size && !fclose(out), "a tiled file cannot be written");
+    struct glint_error err = {0};
+    float read[24];
+    struct glint_exr *exr = glint_exr_open(path_of("exr", "tiled.exr"), NULL, &err);
+    check(exr && glint_exr_read(exr, 0, (const char *const[]){"Z"}, 1, GLINT_F32, read, 1, &err), err.message);
+    glint_exr_close(&exr);
 }
 
 /* ---- Textures ---- */
@@ -94,23 +152,25 @@ static void write_texture(const char *name, const uint8_t *bytes, size_t size) {
     check(out && fwrite(bytes, 1, size, out) == size && !fclose(out), "a texture cannot be written");
 }
 
-/* A cube map of 2 x 2 texels of VK_FORMAT_R32G32B32A32_SFLOAT, and a picture of BC1 blocks. */
+/* Cube maps of 4 x 4 and 2 x 2 texels. */
 static void write_textures(void) {
     uint8_t file[1024] = "DDS ";
-    const uint32_t dds[][2] = {{4, 124}, {12, 4}, {16, 4}, {76, 32}, {80, 4}, {84, 0x30315844}, {128, 10}, {132, 3}, {140, 1}};
+    const uint32_t dds[][2] = {{4, 124},         {12, 24},  {16, 4},  {76, 32}, {80, 4},
+                               {84, 0x30315844}, {128, 10}, {132, 3}, {140, 1}};
     for (size_t i = 0; i < sizeof dds / sizeof *dds; i++) put_u32(file + dds[i][0], dds[i][1]);
-    write_texture("half.dds", file, 148 + 8 * 16);
+    write_texture("half.dds", file, 148 + 8 * 96);
     put_u32(file + 128, 71);
-    write_texture("bc1.dds", file, 148 + 8);
+    write_texture("bc1.dds", file, 148 + 48);
     put_u32(file + 84, 0x31545844);
-    write_texture("dxt1.dds", file, 128 + 8);
+    write_texture("dxt1.dds", file, 128 + 48);
     memset(file, 0, sizeof file);
     memcpy(file, "\xabKTX 20\xbb\r\n\x1a\n", 12);
     const uint32_t ktx[][2] = {{12, 109}, {16, 4}, {20, 2}, {24, 2}, {36, 6}, {40, 1}, {80, 104}, {88, 384}, {96, 384}};
     for (size_t i = 0; i < sizeof ktx / sizeof *ktx; i++) put_u32(file + ktx[i][0], ktx[i][1]);
     write_texture("cube.ktx2", file, 104 + 384);
     memset(file, 0, sizeof file);
-    const int head = snprintf((char *)file + 10, 200, "{'descr': '<f2', 'fortran_order': False, 'shape': (12, 2, 4), }\n");
+    const int head =
+        snprintf((char *)file + 10, 200, "{'descr': '<f2', 'fortran_order': False, 'shape': (12, 2, 4), }\n");
     memcpy(file, "\x93NUMPY\1\0", 8);
     file[8] = (uint8_t)head;
     write_texture("half.npy", file, 10 + (size_t)head + 192);
@@ -158,9 +218,11 @@ static void write_roles(FILE *out) {
 static void write_exr_words(const char *name) {
     FILE *out = dictionary(name);
     struct glint_edit_key key;
-    static const char *const types[] = {"box2i", "chlist", "compression", "double", "float", "floatvector", "int", "lineOrder", "m44d", "m44f",
-                                        "string", "stringvector", "tiledesc", "tiledimage", "scanlineimage", "deepscanline", "v2d", "v2f",
-                                        "v3d", "v3f", "chunkCount", "dataWindow", "displayWindow", "channels", "tiles", "name", "type", "version"};
+    static const char *const types[] = {
+        "box2i",         "chlist",        "compression", "double", "float",        "floatvector", "int",
+        "lineOrder",     "m44d",          "m44f",        "string", "stringvector", "tiledesc",    "tiledimage",
+        "scanlineimage", "deepscanline",  "v2d",         "v2f",    "v3d",          "v3f",         "chunkCount",
+        "dataWindow",    "displayWindow", "channels",    "tiles",  "name",         "type",        "version"};
     for (size_t i = 0; i < sizeof types / sizeof *types; i++) put_word(out, types[i]);
     for (size_t i = 0; glint_edit_key(i, &key); i++) {
         char full[64];
@@ -201,7 +263,8 @@ static void write_manifest_words(void) {
             put_words(out, key->detail);
         }
     write_roles(out);
-    put_words(out, "VK_FORMAT_R8_UNORM VK_FORMAT_R16G16B16A16_SFLOAT DXGI_FORMAT_D32_FLOAT half float uint one.npy one.bin manifest.json bottom_first");
+    put_words(out, "VK_FORMAT_R8_UNORM VK_FORMAT_R16G16B16A16_SFLOAT DXGI_FORMAT_D32_FLOAT half float uint one.npy "
+                   "one.bin manifest.json bottom_first");
     check(!fclose(out), "a dictionary cannot be written");
 }
 
@@ -217,14 +280,17 @@ int main(int argc, char **argv) {
         write_capture(&f, FIXTURE_SCENE, (enum glint_compression)compression);
         write_images((enum glint_compression)compression);
     }
+    write_tiled();
     write_textures();
     write_exr_words("capture");
     write_exr_words("exr");
     write_pipeline_words("preset", "slots set name title source provenance pipeline.rays pipeline.first_ray");
     write_pipeline_words("assign", "pipeline.rays= pipeline.first_ray= =true =false =none");
-    write_pipeline_words("live", "state capture preset use set skip force draft quick urgent reference client effect name of against metrics image "
+    write_pipeline_words("live", "state capture preset use set skip force draft quick urgent reference client effect "
+                                 "name of against metrics image "
                                  "x y run pipeline.rays");
-    write_pipeline_words("run", "format passes images slot variant name unit meaning channels encoding file part width height compared images.exr "
+    write_pipeline_words("run", "format passes images slot variant name unit meaning channels encoding file part width "
+                                "height compared images.exr "
                                 "srgb R16F R32UI .level1 R G B A");
     write_manifest_words();
     return 0;
