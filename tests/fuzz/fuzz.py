@@ -86,7 +86,7 @@ def test(program, made, seconds):
         corpus = os.path.join(new, "corpus")
         os.mkdir(corpus)
         run = Fuzzed(program, options(target, made, artifacts, f"-max_total_time={seconds}"), [corpus, *folders])
-        found = run.status != 0 or run.executions <= count
+        found = run.status != 0 or run.executions < count
         print(f"{'not ok' if found else 'ok'} 2 - {run.executions} executions from there")
         for failed in [plain] * (not ok) + [run] * found:
             print("".join(f"# {line}\n" for line in failed.end().splitlines()))

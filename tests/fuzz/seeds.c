@@ -168,6 +168,12 @@ static void write_textures(void) {
     const uint32_t ktx[][2] = {{12, 109}, {16, 4}, {20, 2}, {24, 2}, {36, 6}, {40, 1}, {80, 104}, {88, 384}, {96, 384}};
     for (size_t i = 0; i < sizeof ktx / sizeof *ktx; i++) put_u32(file + ktx[i][0], ktx[i][1]);
     write_texture("cube.ktx2", file, 104 + 384);
+    /* The same, of which zstd stores a byte and that it comes 384 times. */
+    static const uint8_t packed[] = {0x28, 0xb5, 0x2f, 0xfd, 0x60, 0x80, 0, 3, 12, 0, 0x3c};
+    put_u32(file + 44, 2);
+    put_u32(file + 88, sizeof packed);
+    memcpy(file + 104, packed, sizeof packed);
+    write_texture("zstd.ktx2", file, 104 + sizeof packed);
     memset(file, 0, sizeof file);
     const int head =
         snprintf((char *)file + 10, 200, "{'descr': '<f2', 'fortran_order': False, 'shape': (12, 2, 4), }\n");
