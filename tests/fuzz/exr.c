@@ -20,7 +20,7 @@ static void look_at(const struct glint_exr_attribute *a) {
         for (size_t i = 0; i < a->count; i++) seen += ((const uint8_t *)a->bytes)[i];
         break;
     default:
-        seen += a->numbers[0] > 0;
+        for (size_t i = 0; i < a->count; i++) seen += a->numbers[i] > 0;
     }
 }
 

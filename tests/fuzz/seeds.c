@@ -36,11 +36,48 @@ static void shrink(struct glint_part *part) {
     else if (part->width == FIX_SHADOW) part->width = part->height = 3;
 }
 
-static void write_capture(const struct fixture *f, enum fixture_part third, enum glint_compression compression) {
+/* Declares the e-th encoding of each kind; the values are then others, in their range or not. */
+static void encode(const struct fixture *f, struct glint_part *part, struct fixture_channels *channels, int e) {
+    size_t kept = 0;
+    part->encodings = (struct glint_encodings){.depth = (enum glint_depth_encoding)e,
+                                               .normal = (enum glint_normal_encoding)(e % 5),
+                                               .vertex_normal = (enum glint_normal_encoding)((e + 1) % 5),
+                                               .normal_space = (enum glint_normal_space)(e % 2),
+                                               .roughness = (enum glint_roughness_encoding)(e % 5),
+                                               .motion = (enum glint_motion_encoding)(e % 4),
+                                               .motion_depth = (enum glint_motion_depth_encoding)(e % 2),
+                                               .color = (enum glint_color_encoding)(e % 3)};
+    for (size_t c = 0; c < part->channel_count; c++) {
+        struct glint_channel *channel = &channels->all[c];
+        const bool depth = !strcmp(channel->name, "motion.Z"), motion = !strncmp(channel->name, "motion.", 7);
+        if ((depth && part->encodings.motion_depth == GLINT_MOTION_DEPTH_PACKED16) ||
+            (motion && !depth && part->encodings.motion == GLINT_MOTION_PACKED16))
+            *channel = (struct glint_channel){.name = channel->name, .type = GLINT_U32, .data = f->stencil};
+        const enum glint_normal_encoding normal =
+            strstr(channel->name, "vertex") ? part->encodings.vertex_normal : part->encodings.normal;
+        if (strstr(channel->name, "ormal.Z") && normal >= GLINT_NORMAL_OCTAHEDRAL) continue;
+        channels->all[kept++] = *channel;
+    }
+    part->channel_count = kept;
+}
+
+/* Depth of these encodings is 1 at the near plane. */
+static void fit_depth(struct glint_camera *camera, int encoding) {
+    const double near = 0.1, far = 500;
+    if (encoding != GLINT_DEPTH_REVERSED && encoding != GLINT_DEPTH_REVERSED_INFINITE) return;
+    camera->view_to_clip[10] = encoding == GLINT_DEPTH_REVERSED ? near / (far - near) : 0;
+    camera->view_to_clip[11] = encoding == GLINT_DEPTH_REVERSED ? near * far / (far - near) : near;
+}
+
+enum { ENCODINGS = 6 };
+static void write_capture(const struct fixture *f, enum fixture_part third, enum glint_compression compression,
+                          int encoding) {
     struct glint_error err = {0};
     char name[64];
-    const struct glint_frame frame = fixture_frame();
-    snprintf(name, sizeof name, "%02d-%d.exr", (int)third, (int)compression);
+    struct glint_frame frame = fixture_frame();
+    fit_depth(&frame.camera, encoding);
+    fit_depth(&frame.previous, encoding);
+    snprintf(name, sizeof name, "%02d-%d-%d.exr", (int)third, (int)compression, encoding);
     struct glint_writer *writer = glint_writer_create(
         path_of("capture", name), &(struct glint_writer_options){.compression = compression, .threads = 1}, &err);
     check(writer && glint_writer_set_frame(writer, &frame, &err), err.message);
@@ -50,6 +87,7 @@ static void write_capture(const struct fixture *f, enum fixture_part third, enum
         struct glint_part part = fixture_part(f, parts[i], &channels);
         /* A level is half of the one before it. */
         if (parts[i] == FIXTURE_PROBE && third != FIXTURE_PROBE_1) continue;
+        if (encoding) encode(f, &part, &channels, encoding);
         shrink(&part);
         if (parts[i] == FIXTURE_PROBE_1) part.width = 1, part.height = 6;
         if (!glint_writer_add_part(writer, &part, &err)) check(false, err.message);
@@ -281,11 +319,13 @@ int main(int argc, char **argv) {
     mkdir(base, 0777);
     fixture_init(&f);
     for (int third = FIXTURE_LIT + 1; third < FIXTURE_PARTS; third++)
-        if (third != FIXTURE_PROBE) write_capture(&f, (enum fixture_part)third, GLINT_NONE);
+        if (third != FIXTURE_PROBE) write_capture(&f, (enum fixture_part)third, GLINT_NONE, 0);
     for (int compression = GLINT_ZIP; compression <= GLINT_RLE; compression++) {
-        write_capture(&f, FIXTURE_SCENE, (enum glint_compression)compression);
+        write_capture(&f, FIXTURE_SCENE, (enum glint_compression)compression, 0);
         write_images((enum glint_compression)compression);
     }
+    for (int encoding = 1; encoding < ENCODINGS; encoding++)
+        write_capture(&f, FIXTURE_PREVIOUS_GBUFFER, GLINT_NONE, encoding);
     write_tiled();
     write_textures();
     write_exr_words("capture");
