@@ -272,6 +272,7 @@ static void write_exr_words(const char *name) {
         char full[64];
         snprintf(full, sizeof full, "glint.%s", key.name);
         put_word(out, full);
+        put_word(out, key.name);
         for (size_t k = 0; glint_edit_value_name(i, k); k++) put_word(out, glint_edit_value_name(i, k));
     }
     write_roles(out);
@@ -330,6 +331,7 @@ int main(int argc, char **argv) {
     write_textures();
     write_exr_words("capture");
     write_exr_words("exr");
+    write_exr_words("edit");
     write_pipeline_words("preset", "slots set name title source provenance pipeline.rays pipeline.first_ray");
     write_pipeline_words("assign", "pipeline.rays= pipeline.first_ray= =true =false =none");
     write_pipeline_words("live", "state capture preset use set skip force draft quick urgent reference client effect "
