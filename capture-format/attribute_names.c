@@ -48,11 +48,13 @@ static bool known_at(size_t i, const struct glint_part_info *part, const char *n
     }
     if ((i -= encodings) >= rows * HULLS) return false;
     row += i / HULLS;
-    glint_light_number(name, &number);
-    known->name = i % HULLS ? NULL : glint_attribute_name(row, number, known->text);
+    known->name = NULL;
     if (row->kind == GLINT_KIND_PLANES) {
         snprintf(known->text, sizeof known->text, "%s.%02zu", row->name, i % HULLS);
         known->name = known->text;
+    } else if (i % HULLS == 0) {
+        glint_light_number(name, &number);
+        known->name = glint_attribute_name(row, number, known->text);
     }
     if (!known->name) return true;
     known->here = glint_scope_is_on(row->scope, part->role, part->previous);

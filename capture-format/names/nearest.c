@@ -6,6 +6,7 @@
 #include <string.h>
 
 #define LONGEST 64
+#define FAR ((size_t)-1)
 
 static size_t min_distance(size_t a, size_t b) {
     return a < b ? a : b;
@@ -13,7 +14,7 @@ static size_t min_distance(size_t a, size_t b) {
 
 static size_t edit_distance(const char *a, const char *b) {
     size_t na = strlen(a), nb = strlen(b);
-    if (na > LONGEST || nb > LONGEST) return LONGEST;
+    if (na > LONGEST || nb > LONGEST) return FAR;
     size_t row[3][LONGEST + 1] = {{0}};
     for (size_t j = 0; j <= nb; j++) row[0][j] = j;
     for (size_t i = 1; i <= na; i++) {
@@ -44,9 +45,11 @@ void glint_nearest_offer(struct glint_nearest *nearest, const char *candidate) {
     if (!candidate || !*candidate || (nearest->last && !strcmp(nearest->last, candidate))) return;
     nearest->last = candidate;
     text_list(nearest->known, sizeof nearest->known, candidate);
-    size_t distance = edit_distance(nearest->wanted, candidate);
-    /* A prefix or substring is a likely abbreviation. */
-    if (strlen(nearest->wanted) >= 3 && strstr(candidate, nearest->wanted)) distance = min_distance(distance, 1);
+    /* A prefix or substring is a likely abbreviation. Names whose lengths differ by more than the best distance cannot be nearer. */
+    const size_t wanted = strlen(nearest->wanted), length = strlen(candidate);
+    size_t distance = wanted >= 3 && strstr(candidate, nearest->wanted) ? 1 : FAR;
+    if ((wanted > length ? wanted - length : length - wanted) < nearest->distance)
+        distance = min_distance(distance, edit_distance(nearest->wanted, candidate));
     if (distance >= nearest->distance) return;
     nearest->best = candidate;
     nearest->distance = distance;

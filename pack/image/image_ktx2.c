@@ -1,4 +1,5 @@
 /* KTX2: the header and the level index; the level's bytes are raw memory, perhaps compressed by zstd. */
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -29,9 +30,20 @@ static bool read_level(const struct image *image, const struct node *texture, ui
     return true;
 }
 
-/* Replaces the file's bytes by the level's. */
-static bool unpack(struct image *image, const struct node *texture, const struct level *level,
+/* The bytes of the texels of a level, or of its blocks. */
+static double bytes_of(const struct layout *layout, const struct blocks *blocks) {
+    const double texels = (double)layout->width * layout->height * layout->layers,
+                 count = blocks ? ceil(layout->width / 4.) * ceil(layout->height / 4.) * layout->layers : texels;
+    return count * (blocks ? blocks->bytes : layout->format->bytes);
+}
+
+/* Replaces the file's bytes by the level's, which are `most` at most: a small file can say that it unpacks to gigabytes. */
+static bool unpack(struct image *image, const struct node *texture, const struct level *level, double most,
                    struct glint_error *err) {
+    if ((double)level->unpacked > most)
+        return node_fail(texture, err, GLINT_ERROR_FORMAT,
+                         "zstd: expected at most the %.0f bytes of the level's texels, found %llu", most,
+                         (unsigned long long)level->unpacked);
     if (level->unpacked > IMAGE_MAX_BYTES)
         return node_fail(texture, err, GLINT_ERROR_LIMIT, "expected at most 4 GiB of pixels, found %llu bytes",
                          (unsigned long long)level->unpacked);
@@ -97,8 +109,8 @@ bool image_read_ktx2(struct image *image, const struct node *texture, struct gli
     layout.layers = layers > IMAGE_MAX_LAYERS ? UINT32_MAX : (uint32_t)layers;
     layout.offset = scheme ? 0 : level.offset;
     image->is_cube = faces == 6;
-    if (scheme && !unpack(image, texture, &level, err)) return false;
     const struct blocks *blocks = layout.format ? NULL : blocks_by_vulkan(number);
+    if (scheme && !unpack(image, texture, &level, bytes_of(&layout, blocks), err)) return false;
     return blocks ? image_decode_blocks(image, texture, blocks, &layout, err)
                   : image_lay_out(image, texture, &layout, err);
 }

@@ -6,14 +6,33 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* All of the file, or its first bytes if there are more than `limit`; NULL without memory. */
+static char *read_all(FILE *file, size_t limit, size_t *size) {
+    enum { FIRST = 4096 };
+    char *text = NULL;
+    size_t room = FIRST;
+    *size = 0;
+    do {
+        char *larger = realloc(text, room);
+        if (!larger) {
+            free(text);
+            return NULL;
+        }
+        text = larger;
+        *size += fread(text + *size, 1, room - 1 - *size, file);
+        room *= 2;
+    } while (*size == room / 2 - 1 && *size <= limit);
+    return text;
+}
+
 char *file_text(const char *path, size_t limit, struct glint_error *err) {
     FILE *file = fopen(path, "rb");
     if (!file) {
         glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
         return NULL;
     }
-    char *text = malloc(limit + 2); /* pages that are not written cost nothing */
-    const size_t size = text ? fread(text, 1, limit + 1, file) : 0;
+    size_t size;
+    char *text = read_all(file, limit, &size);
     const int failed = ferror(file) ? errno : 0;
     fclose(file);
     if (text && !failed && size <= limit) {

@@ -10,6 +10,7 @@ import tempfile
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "viewer-cli"))
 import packing  # noqa: E402
 import tap  # noqa: E402
+import texels  # noqa: E402
 
 GLINT = sys.argv[1]
 MISSING = object()
@@ -185,6 +186,18 @@ class Tests:
                 out.write(text)
             said = self.base.run("pack", file, "--explain", status=1)
             assert words in said and "broken.json" in said, said
+
+    def test_a_small_file_unpacks_to_no_more_than_its_texels(self):
+        manifest = {"glint": 1, "textures": {"t": {"file": "large.ktx2"}}, "parts": {"cubemap.000": {"RGB": "t.rgb", "A": 1, "distance.Z": "t.r", "cubemap": {"center": [0, 0, 0]}}}}
+        file = os.path.join(self.base.folder, "large.json")
+        with open(file, "w", encoding="utf-8") as out:
+            json.dump(manifest, out)
+        for texels_there, status in ((6, 0), (7, 1), (6000, 1)):
+            # VK_FORMAT_R16G16B16A16_SFLOAT
+            with open(os.path.join(self.base.folder, "large.ktx2"), "wb") as out:
+                out.write(texels.ktx2(1, 6, 97, bytes(8 * texels_there), zstd=True))
+            said = self.base.run("pack", file, "--explain", status=status)
+            assert not status or "zstd: expected at most the 48 bytes of the level's texels" in said, said
 
     def test_usage(self):
         for words in (["pack"], ["pack", "a.json"], ["pack", "a.json", "b.json", "--explain"], ["pack", "a.json", "--explain", "-o", "b.exr"],

@@ -186,6 +186,17 @@ static void unknown_presets_name_the_known_ones(UNUSED void **state) {
     assert_int_equal(err.code, GLINT_ERROR_IO);
 }
 
+static void a_long_name_is_near_to_none(UNUSED void **state) {
+    char name[400];
+    struct glint_error err = {0};
+    memset(name, 'a', sizeof name);
+    name[sizeof name - 1] = '\0';
+    assert_null(glint_pipeline_create(name, &err));
+    if (strstr(err.message, "did you mean")) fail_msg("%s", err.message);
+    assert_null(glint_pipeline_create("mafia4", &err));
+    assert_says(&err, "did you mean mafia3?");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_preset_holds_every_slot_with_its_defaults),
@@ -199,6 +210,7 @@ int main(void) {
         cmocka_unit_test(every_fault_of_a_preset_is_reported_at_once),
         cmocka_unit_test(broken_json_is_placed_by_line),
         cmocka_unit_test(unknown_presets_name_the_known_ones),
+        cmocka_unit_test(a_long_name_is_near_to_none),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

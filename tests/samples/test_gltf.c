@@ -167,6 +167,8 @@ static void test_files_that_lie_are_refused(void **state) {
         {"\"POSITION\":0", "\"POSITION\":0,\"NORMAL\":1"},
         {"\"indices\":1", "\"indices\":0"},
         {"\"material\":0", "\"material\":3"},
+        {"\"material\":0", "\"material\":0,\"mode\":2"},
+        {"\"material\":0", "\"material\":0,\"mode\":7"},
         {"\"nodes\":[0,1]", "\"nodes\":[0,9]"},
         {"\"mesh\":0", "\"mesh\":5"},
         {"\"mesh\":0", "\"mesh\":0,\"children\":[0]"},
