@@ -42,8 +42,9 @@ static void fill_planes(const struct plain *plain, float *values) {
 enum { MORE = 5 };
 static bool add_more(const struct plain *plain, struct glint_channel *channels, size_t *count, float *planes) {
     static const char *const names[MORE] = {"material.fresnel", "vertexNormal.X", "vertexNormal.Y", "vertexNormal.Z",
-                                             "motion.Z"};
-    const bool has[MORE] = {plain->fresnel, plain->vertex_normal, plain->vertex_normal, plain->vertex_normal, plain->motion_m};
+                                            "motion.Z"};
+    const bool has[MORE] = {plain->fresnel, plain->vertex_normal, plain->vertex_normal, plain->vertex_normal,
+                            plain->motion_m};
     const size_t pixels = (size_t)plain->width * plain->height;
     if (!planes) return false;
     for (size_t i = 0; i < pixels; ++i) {

@@ -28,7 +28,7 @@ static uint32_t replays = 12, first_seed = 1, only_kind = SPOILED_KINDS;
 
 struct tally {
     uint32_t replays, refused, failed; /* refused: the capture cannot be opened, with a message */
-    uint64_t pixels, beyond;           /* not finite: all of the pictures, and those whose captured values were all finite */
+    uint64_t pixels, beyond; /* not finite: all of the pictures, and those whose captured values were all finite */
 };
 static struct tally tallies[PRESETS][SPOILED_KINDS];
 
@@ -44,8 +44,15 @@ static void make_shot(const struct gpu *gpu, size_t s) {
     if (made[s]) return;
     made[s] = true;
     snprintf(path, sizeof path, "%s/%s.exr", gpu->folder, scenes[s].name);
-    const struct glint_sample_options options = {.width = WIDTH, .height = HEIGHT, .cube_size = 8, .planar_width = 32, .planar_height = 16,
-                                                 .frames = FRAMES, .light_samples = 4, .also = scenes[s].also, .threads = 1};
+    const struct glint_sample_options options = {.width = WIDTH,
+                                                 .height = HEIGHT,
+                                                 .cube_size = 8,
+                                                 .planar_width = 32,
+                                                 .planar_height = 16,
+                                                 .frames = FRAMES,
+                                                 .light_samples = 4,
+                                                 .also = scenes[s].also,
+                                                 .threads = 1};
     if (!glint_sample_write(scenes[s].name, path, &options, NULL, NULL, &err)) fail_msg("%s", err.message);
 }
 
@@ -61,7 +68,8 @@ struct trial {
 };
 
 static bool is_picture(const char *name) {
-    static const char *const others[] = {"antialiased", "unstippled", "bloomed", "exposed", "toned", "graded", "lit_scattered"};
+    static const char *const others[] = {"antialiased", "unstippled", "bloomed",      "exposed",
+                                         "toned",       "graded",     "lit_scattered"};
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         if (!strcmp(name, others[i])) return true;
     return !strncmp(name, "composed", 8);
@@ -91,9 +99,10 @@ static void judge(struct trial *trial, int frame) {
     for (size_t i = 0; i < count; i++) {
         if (!bad[i].pass || !bad[i].not_finite) continue;
         trial->tally->failed++;
-        print_message("# seed %u %s, %s, frame %d: %s/%s %s %s at %u,%u is %g, %llu values; %s\n", trial->seed, trial->preset,
-                      spoiled_names[trial->kind], frame, bad[i].pass->slot, bad[i].pass->variant, bad[i].image, bad[i].channel, bad[i].x,
-                      bad[i].y, (double)bad[i].value, (unsigned long long)bad[i].not_finite, trial->spoiled.what);
+        print_message("# seed %u %s, %s, frame %d: %s/%s %s %s at %u,%u is %g, %llu values; %s\n", trial->seed,
+                      trial->preset, spoiled_names[trial->kind], frame, bad[i].pass->slot, bad[i].pass->variant,
+                      bad[i].image, bad[i].channel, bad[i].x, bad[i].y, (double)bad[i].value,
+                      (unsigned long long)bad[i].not_finite, trial->spoiled.what);
         break;
     }
     for (size_t i = 0; i < glint_replay_image_count(trial->gpu->replay); i++) {
@@ -127,12 +136,14 @@ static void run_trial(struct trial *trial, size_t scene) {
     for (int f = 0; f < FRAMES; f++) frame_path(trial->gpu, scenes[scene].name, f + 1, paths[f]);
     rewrite_load(&r, paths[which]);
     const bool any = spoil(&r, trial->kind, trial->seed, &trial->spoiled);
-    if (getenv("GLINT_NUMBERS_TRACE")) print_message("# seed %u %s: %s\n", trial->seed, trial->preset, trial->spoiled.what);
+    if (getenv("GLINT_NUMBERS_TRACE"))
+        print_message("# seed %u %s: %s\n", trial->seed, trial->preset, trial->spoiled.what);
     if (any) {
         snprintf(spoiled_path, sizeof spoiled_path, "%s/spoiled.exr", trial->gpu->folder);
         rewrite_save(&r, spoiled_path);
         bool ok = true;
-        for (int f = which; ok && f < FRAMES; f++) ok = replay(trial, f == which ? spoiled_path : paths[f], f, f == which);
+        for (int f = which; ok && f < FRAMES; f++)
+            ok = replay(trial, f == which ? spoiled_path : paths[f], f, f == which);
         trial->tally->replays++;
         trial->tally->refused += !ok;
     }
@@ -144,7 +155,8 @@ static void run_trial(struct trial *trial, size_t scene) {
 
 static uint64_t print_table(void) {
     uint64_t wrong = 0;
-    print_message("# preset: by kind, replays (refused) failed, pixels not finite / of these beyond the values' own pixels\n");
+    print_message(
+        "# preset: by kind, replays (refused) failed, pixels not finite / of these beyond the values' own pixels\n");
     for (size_t p = 0; glint_preset(p); p++) {
         print_message("# %-18s", glint_preset(p));
         for (int k = 0; k < SPOILED_KINDS; k++) {

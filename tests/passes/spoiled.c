@@ -7,8 +7,8 @@
 
 #include "unit.h"
 
-const char *const spoiled_names[SPOILED_KINDS] = {"colour",  "depth", "normal", "material",  "motion", "cube map",
-                                                  "history", "overlay", "air", "other", "attribute", "any"};
+const char *const spoiled_names[SPOILED_KINDS] = {"colour",  "depth",   "normal", "material", "motion",    "cube map",
+                                                  "history", "overlay", "air",    "other",    "attribute", "any"};
 
 static uint32_t draw(uint32_t *state, uint32_t below) {
     uint32_t x = *state += 0x9E3779B9u; /* the finalizer of MurmurHash3: seeds next to each other draw other numbers */
@@ -19,9 +19,9 @@ static uint32_t draw(uint32_t *state, uint32_t below) {
 
 /* ---- Values ---- */
 
-static const float floats[] = {NAN,    INFINITY, -INFINITY, 3.4e38f,  -3.4e38f, 3e38f,   1e30f,  -1e30f,   1e20f, -1e20f,
-                               65536,  -65536,   65504,     -65504,   1e6f,     -1e6f,   1e-20f, 1e-30f,   1e-38f, 1e-40f,
-                               -1e-40f, 1.4e-45f, -0.0f,    0,        -1,       1,       2,      0.99999f, 300,   1e-6f};
+static const float floats[] = {NAN,     INFINITY, -INFINITY, 3.4e38f, -3.4e38f, 3e38f, 1e30f,  -1e30f,   1e20f,  -1e20f,
+                               65536,   -65536,   65504,     -65504,  1e6f,     -1e6f, 1e-20f, 1e-30f,   1e-38f, 1e-40f,
+                               -1e-40f, 1.4e-45f, -0.0f,     0,       -1,       1,     2,      0.99999f, 300,    1e-6f};
 static const uint16_t halves[] = {0x7E00, 0xFE00, 0x7C00, 0xFC00, 0x7BFF, 0xFBFF, 0x7BFF, 0x0001,
                                   0x8001, 0x03FF, 0x0400, 0x8000, 0x0000, 0xBC00, 0x3C00, 0x4000};
 static const uint32_t whole[] = {0, 1, 127, 128, 255, 256, 65535, UINT32_MAX};
@@ -40,7 +40,8 @@ static union value any_value(enum glint_stored stored, uint32_t *state) {
 }
 
 static bool is_finite(enum glint_stored stored, union value value) {
-    return stored == GLINT_STORED_UINT || (stored == GLINT_STORED_HALF ? (value.h & 0x7C00) != 0x7C00 : isfinite(value.f));
+    return stored == GLINT_STORED_UINT ||
+           (stored == GLINT_STORED_HALF ? (value.h & 0x7C00) != 0x7C00 : isfinite(value.f));
 }
 
 static double number_of(enum glint_stored stored, union value value) {
@@ -63,16 +64,26 @@ static enum spoiled_kind kind_of(const char *part, const char *channel) {
         const char *part, *channel;
         enum spoiled_kind kind;
     } kinds[] = {
-        {"gbuffer", "depth", SPOILED_DEPTH},      {"gbuffer", "normal", SPOILED_NORMAL},
-        {"gbuffer", "vertexNormal", SPOILED_NORMAL}, {"gbuffer", "motion", SPOILED_MOTION},
-        {"gbuffer", "", SPOILED_MATERIAL},        {"lit", "", SPOILED_COLOUR},
-        {"scene", "", SPOILED_COLOUR},            {"indirect", "", SPOILED_COLOUR},
-        {"lamps", "", SPOILED_COLOUR},            {"emissive", "", SPOILED_COLOUR},
-        {"cubemap", "", SPOILED_CUBE},            {"probe", "", SPOILED_CUBE},
-        {"planar", "", SPOILED_CUBE},             {"previous", "", SPOILED_HISTORY},
-        {"water", "", SPOILED_OVERLAY},           {"transparent", "", SPOILED_OVERLAY},
-        {"sky", "", SPOILED_AIR},                 {"froxels", "", SPOILED_AIR},
-        {"stars", "", SPOILED_AIR},               {"cloud", "", SPOILED_AIR},
+        {"gbuffer", "depth", SPOILED_DEPTH},
+        {"gbuffer", "normal", SPOILED_NORMAL},
+        {"gbuffer", "vertexNormal", SPOILED_NORMAL},
+        {"gbuffer", "motion", SPOILED_MOTION},
+        {"gbuffer", "", SPOILED_MATERIAL},
+        {"lit", "", SPOILED_COLOUR},
+        {"scene", "", SPOILED_COLOUR},
+        {"indirect", "", SPOILED_COLOUR},
+        {"lamps", "", SPOILED_COLOUR},
+        {"emissive", "", SPOILED_COLOUR},
+        {"cubemap", "", SPOILED_CUBE},
+        {"probe", "", SPOILED_CUBE},
+        {"planar", "", SPOILED_CUBE},
+        {"previous", "", SPOILED_HISTORY},
+        {"water", "", SPOILED_OVERLAY},
+        {"transparent", "", SPOILED_OVERLAY},
+        {"sky", "", SPOILED_AIR},
+        {"froxels", "", SPOILED_AIR},
+        {"stars", "", SPOILED_AIR},
+        {"cloud", "", SPOILED_AIR},
     };
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
         if (begins(part, kinds[i].part) && begins(channel, kinds[i].channel)) return kinds[i].kind;
@@ -94,7 +105,8 @@ static size_t find_channel(struct rewrite *r, enum spoiled_kind kind, size_t num
 /* The channel in 32 bits, which hold more than halves. Its memory has room for them. */
 static void widen(struct rewrite_part *part, size_t c) {
     uint32_t *texels = part->data[c];
-    for (size_t i = (size_t)part->part.width * part->part.height; i-- > 0;) { /* the last one first, as each takes the place of two */
+    for (size_t i = (size_t)part->part.width * part->part.height;
+         i-- > 0;) { /* the last one first, as each takes the place of two */
         union value half = {.u = 0}, wide;
         memcpy(&half.h, (const uint16_t *)part->data[c] + i, sizeof half.h);
         wide.f = (float)number_of(GLINT_STORED_HALF, half);
@@ -109,7 +121,8 @@ static void note(struct spoiled *out, const char *part, const char *channel, con
              value);
 }
 
-static void set_texel(const struct rewrite_part *part, size_t c, size_t texel, union value value, bool bad, struct spoiled *out) {
+static void set_texel(const struct rewrite_part *part, size_t c, size_t texel, union value value, bool bad,
+                      struct spoiled *out) {
     const bool half = part->channels[c].stored == GLINT_STORED_HALF;
     if (half) ((uint16_t *)part->data[c])[texel] = value.h;
     else ((uint32_t *)part->data[c])[texel] = value.u;
@@ -123,7 +136,8 @@ static void spoil_channel(struct rewrite_part *part, size_t c, uint32_t *state, 
     if (channel->stored == GLINT_STORED_HALF && draw(state, 3)) widen(part, c);
     const union value value = any_value(channel->stored, state);
     const uint32_t w = part->part.width, h = part->part.height, size = draw(state, 8) % 7 % 4;
-    const bool infinite = number_of(channel->stored, value) > 1e300 && strchr(channel->name, 'Z') && !strstr(channel->name, "ormal");
+    const bool infinite =
+        number_of(channel->stored, value) > 1e300 && strchr(channel->name, 'Z') && !strstr(channel->name, "ormal");
     const bool bad = !is_finite(channel->stored, value) && !infinite;
     const uint32_t side = size == 1 ? 2 + draw(state, 7) : 1, repeats = size == 3 ? 8 : 1;
     for (uint32_t k = 0; k < repeats; k++) {
@@ -176,7 +190,8 @@ bool spoil(struct rewrite *r, enum spoiled_kind kind, uint32_t seed, struct spoi
     assert_non_null(out->not_finite);
     size_t at[2] = {0, 0};
     const bool attribute = kind == SPOILED_ATTRIBUTE;
-    const uint32_t count = (uint32_t)(attribute ? find_attribute(r, SIZE_MAX, at) : find_channel(r, kind, SIZE_MAX, at));
+    const uint32_t count =
+        (uint32_t)(attribute ? find_attribute(r, SIZE_MAX, at) : find_channel(r, kind, SIZE_MAX, at));
     const uint32_t changes = attribute ? 1 : kind == SPOILED_ANY ? 1 + draw(&state, 12) : 1 + draw(&state, 5);
     for (uint32_t i = 0; count && i < changes; i++) {
         const uint32_t number = draw(&state, count);
