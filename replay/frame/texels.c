@@ -20,7 +20,7 @@ static bool may_be_infinite(const struct glint_row *row) {
 }
 
 float finite_value(const struct glint_row *row, float value) {
-    if (isnan(value)) return 0;
+    if (isnan(value) || fpclassify(value) == FP_SUBNORMAL) return 0;
     return isinf(value) && !may_be_infinite(row) ? copysignf(HALF_LARGEST, value) : value;
 }
 

@@ -15,7 +15,8 @@ struct bad_values {
 #define HALF_LARGEST 65504.0f
 /* Clamps finite values to the range of half. */
 float half_clamped(float value);
-/* What passes read of a value that is not finite: 0 instead of NaN, the largest half instead of infinity, which lengths alone may hold. */
+/* What passes read of a captured value: 0 instead of NaN, and of a denormal float, whose reciprocal is infinite and which devices may take for 0; the
+   largest half instead of infinity, which lengths alone may hold. */
 float finite_value(const struct glint_row *row, float value);
 /* Counts a value of an image if it is invalid; `index` is its place, `half` the precision in which it will be stored. */
 void bad_value(struct bad_values *found, const struct glint_row *row, bool half, size_t index, float value);
