@@ -38,7 +38,8 @@ class Kind:
 
 # Written images have no format in GLSL, so that the host can store them as half or float without recompilation.
 BINDING = 'layout(set = 0, binding = __LINE__) uniform $kind $image;'
-WRITTEN = 'layout(set = 0, binding = __LINE__) uniform writeonly $kind $image;'
+# HALF_FORMAT is true for half floats, whose range imageStore() keeps to (shared/interface.glsl).
+WRITTEN = 'layout(set = 0, binding = __LINE__) uniform writeonly $kind $image; const bool is_half_##$image = HALF_##$format;'
 OPTIONAL = BINDING + ' layout(constant_id = 1000 + __LINE__) const bool has_##$image = true;'
 LIST = OPTIONAL.replace('$kind', 'utextureBuffer').replace('$image', '$list')
 # In C a DISPATCH_LIST is a READ of the list, too.

@@ -27,3 +27,14 @@ layout(set = 1, binding = 0, std140) uniform Frame {
 uint random_frame() { return frame.counts.y + frame.flags.w * 0x9E3779B9u; }
 layout(set = 1, binding = 1) uniform sampler linear_clamp;
 layout(set = 1, binding = 2) uniform sampler nearest_clamp;
+
+// Stores into images of half floats: finite values beyond their range become the largest, which a conversion would make infinite. What is not finite
+// stays so, for lengths may be infinite, and a NaN is to be found where it arose.
+const bool HALF_RGBA16F = true, HALF_RG16F = true, HALF_R16F = true, HALF_RGBA32F = false, HALF_RG32F = false, HALF_R32F = false,
+           HALF_R8UI = false, HALF_R32UI = false;
+vec4 in_range(vec4 value, bool is_half) {
+    return halves && is_half ? mix(value, clamp(value, -65504.0, 65504.0), lessThan(abs(value), vec4(1.0 / 0.0))) : value;
+}
+uvec4 in_range(uvec4 value, bool is_half) { return value; }
+#define STORE(image, at, value) imageStore(image, at, in_range(value, is_half_##image))
+#define imageStore(image, at, value) STORE(image, at, value)

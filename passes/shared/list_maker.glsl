@@ -3,6 +3,7 @@
 // DISPATCH over the list and READ_OWN(utextureBuffer, marked, ...) of it.
 #define LIST_WORD(place) texelFetch(marked, place).x
 #include "shared/work_list.glsl"
+const bool is_half_list = false; // of the parameter of that name (imageStore in shared/interface.glsl)
 
 const uint SMOOTH = 1u, ROUGH = 2u;
 // Defined by the pass: the classes of a texel's surfaces, SMOOTH | ROUGH; 0 for a texel without work or outside of the image.

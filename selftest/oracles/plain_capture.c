@@ -39,20 +39,24 @@ static void fill_planes(const struct plain *plain, float *values) {
 }
 
 /* What not every G-buffer has. */
-enum { MORE = 4 };
+enum { MORE = 5 };
 static bool add_more(const struct plain *plain, struct glint_channel *channels, size_t *count, float *planes) {
-    static const char *const names[MORE] = {"material.fresnel", "vertexNormal.X", "vertexNormal.Y", "vertexNormal.Z"};
+    static const char *const names[MORE] = {"material.fresnel", "vertexNormal.X", "vertexNormal.Y", "vertexNormal.Z",
+                                            "motion.Z"};
+    const bool has[MORE] = {plain->fresnel, plain->vertex_normal, plain->vertex_normal, plain->vertex_normal,
+                            plain->motion_m};
     const size_t pixels = (size_t)plain->width * plain->height;
     if (!planes) return false;
     for (size_t i = 0; i < pixels; ++i) {
         float normal[3] = {0};
         if (plain->fresnel) planes[i] = *plain->fresnel;
+        if (plain->motion_m) planes[4 * pixels + i] = *plain->motion_m;
         if (plain->vertex_normal)
             plain->vertex_normal(plain, (uint32_t)(i % plain->width), (uint32_t)(i / plain->width), normal);
         for (size_t k = 0; k < 3; ++k) planes[(1 + k) * pixels + i] = normal[k];
     }
     for (size_t k = 0; k < MORE; ++k)
-        if (k ? plain->vertex_normal != NULL : plain->fresnel != NULL)
+        if (has[k])
             channels[(*count)++] =
                 (struct glint_channel){.name = names[k], .type = GLINT_F32, .data = planes + k * pixels};
     return true;
@@ -213,7 +217,7 @@ static struct glint_frame frame_of(const struct plain *plain) {
         frame.camera.view_to_clip[i ? 6 : 2] = clip * plain->jitter_px[i];
         frame.previous.view_to_clip[i ? 6 : 2] = clip * plain->previous_jitter_px[i];
     }
-    if (plain->foreground) frame.classes[frame.class_count++] = (struct glint_stencil_class){4, 4, ""};
+    if (plain->foreground) frame.classes[frame.class_count++] = (struct glint_stencil_class){4, 6, ""};
     if (plain->foreground)
         snprintf(frame.classes[0].name, sizeof frame.classes[0].name, "%s",
                  plain->class_name ? plain->class_name : "foreground");
@@ -242,7 +246,7 @@ static bool add_pictures(struct glint_writer *writer, const struct plain *plain,
     float *light = values + (size_t)PLAIN_LIT_R * pixels;
     uint32_t *ids = plain->foreground ? malloc(pixels * sizeof *ids) : NULL;
     if (plain->foreground && !ids) return no_memory(err);
-    for (size_t i = 0; ids && i < pixels; ++i) ids[i] = 2 * (i % plain->width) >= plain->width ? 5 : 1;
+    for (size_t i = 0; ids && i < pixels; ++i) ids[i] = 2 * (i % plain->width) >= plain->width ? 5 : 7;
     bool ok = add_part(writer, "gbuffer", plain, names, values, PLAIN_LIT_R, ids, err) &&
               add_part(writer, "lit", plain, names + PLAIN_LIT_R, light, PLAIN_CHANNELS - PLAIN_LIT_R, NULL, err);
     for (size_t i = 0; plain->scene && i < 3 * pixels; ++i) light[i] = plain->scene[i / pixels];

@@ -36,10 +36,12 @@ struct plain {
     bool floor;
     /* Changes the values before they are written; NULL: not. values[channel · pixels + y · width + x]. */
     void (*spoil)(const struct plain *plain, float *values);
-    const float *scene;   /* R G B of the finished picture everywhere; NULL: none */
-    const float *fresnel; /* material.fresnel everywhere; NULL: none */
+    const float *scene;    /* R G B of the finished picture everywhere; NULL: none */
+    const float *fresnel;  /* material.fresnel everywhere; NULL: none */
+    const float *motion_m; /* motion.Z everywhere; NULL: none */
     void (*vertex_normal)(const struct plain *plain, uint32_t x, uint32_t y, float out[3]); /* NULL: none */
-    bool foreground;        /* the right half has stencil id 5, which is of the class `foreground`; the left one 1 */
+    bool
+        foreground; /* the right half has stencil id 5, which is of the class `foreground`: its bits 6 are 4; the left one 7 */
     const char *class_name; /* the class of that id; NULL: foreground */
     uint32_t frame;         /* number; 0: 1 */
     bool first;             /* the number is 0 */

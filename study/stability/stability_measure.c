@@ -3,6 +3,7 @@
 #include "values.h"
 #include "no_memory.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -159,6 +160,30 @@ static bool begin_measuring(struct measuring *m, struct glint_error *err) {
     return ok && link_all(m, err);
 }
 
+/* ---- What is not finite ---- */
+
+static void note_invalid(struct glint_stability_invalid *first, const struct glint_bad_values *bad) {
+    if (*first->image) return;
+    *first = (struct glint_stability_invalid){.pass = bad->pass,
+                                              .x = bad->x,
+                                              .y = bad->y,
+                                              .value = bad->value,
+                                              .not_finite = bad->not_finite,
+                                              .clamped = bad->clamped};
+    snprintf(first->image, sizeof first->image, "%s", bad->image);
+    snprintf(first->channel, sizeof first->channel, "%s", bad->channel);
+}
+
+static bool find_invalid(const struct measuring *m, struct glint_error *err) {
+    const struct glint_bad_values *bad;
+    size_t count;
+    if (!glint_replay_bad_values(m->replay, &bad, &count, err)) return false;
+    for (size_t i = 0; i < count; i++)
+        if (!bad[i].pass) note_invalid(&m->out->captured, &bad[i]);
+        else if (bad[i].not_finite) note_invalid(&m->out->made, &bad[i]);
+    return true;
+}
+
 /* ---- Comparing a seed ---- */
 
 static bool compare_image(const struct measuring *m, struct tracked *t, struct glint_error *err) {
@@ -202,7 +227,7 @@ bool glint_stability_measure(struct glint_replay *replay, struct glint_capture *
     bool ok = stability->seeds <= UINT8_MAX ||
               glint_fail(err, GLINT_ERROR_USAGE, "seeds: expected 1 to %d, found %u", UINT8_MAX, stability->seeds);
     ok = ok && run_frame(&m, pipeline, 0, &part, err) && (m.labels = glint_study_labels(capture, effect, err)) &&
-         begin_measuring(&m, err);
+         begin_measuring(&m, err) && find_invalid(&m, err);
     for (uint32_t seed = 1; ok && seed <= stability->seeds; seed++)
         ok = run_frame(&m, pipeline, seed, &part, err) && compare_all(&m, err);
     ok = ok && stability_sum_up(&m, err);

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "glint/probe.h"
 #include "gpu.h"
 #include "plain_capture.h"
 #include "unit.h"
@@ -224,6 +225,83 @@ static void rays_see_the_direction_they_go_in(void **state) {
     free(color), free(travelled), free(place), free(cube);
 }
 
+/* The rays of a wall 5 m away, which go back past the camera, end on a ball of 5 m around a centre beside it. */
+enum { WIDE = 32, HIGH = 24, CONES = 192 };
+static const double ball[3] = {2, 1, -1.5};
+static void load_ball(struct gpu *gpu) {
+    static const char *const words[] = {"downsample.jitter=true",   "downsample.share=0",
+                                        "downsample.cone_factor=1", "downsample.horizon=false",
+                                        "screen_trace.length_m=0",  "resolve.texel_scale=0.5"};
+    char path[256];
+    struct plain plain = {.width = WIDE,
+                          .height = HIGH,
+                          .roughness = 0.3F,
+                          .fov_y_degrees = 60,
+                          .cube_size = SIZE,
+                          .cube_count = 1,
+                          .cube = colored_by_direction};
+    for (int k = 0; k < 3; ++k) plain.cubes[0].center[k] = ball[k];
+    plain_capture(gpu_path(gpu, "ball", path), &plain);
+    gpu_load(gpu, "ball");
+    gpu_reset(gpu);
+    gpu_use(gpu, "downsample=none");
+    gpu_use(gpu, "cubemap_convert=dual_paraboloid");
+    for (size_t i = 0; i < sizeof words / sizeof *words; ++i) gpu_set(gpu, words[i]);
+}
+
+/* A cone of this angle at the end of a ray is `travelled` times its tangent wide. From the centre that is an angle with the tangent `spread` times
+   the cone's; a texel at the height h above the equator spans 2 (1 + h) / SIZE, and a level's are half of the cone. */
+static double level_at(double cone, uint32_t i, double travelled_m, const float *normal, double *spread) {
+    const double focal = 1 / tan(acos(-1) / 6);
+    const double x = (2 * (i % WIDE + 0.5) / WIDE - 1) / focal * WIDE / HIGH,
+                 y = (1 - 2 * (i / WIDE + 0.5) / HIGH) / focal;
+    const double along = travelled_m / sqrt(x * x + y * y + 1),
+                 n[3] = {(double)normal[0], (double)normal[1], (double)normal[2]};
+    const double turn = 2 * (x * n[0] + y * n[1] - n[2]) / (n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    const double at[3] = {5 * x + along * (x - turn * n[0]) - ball[0], 5 * y + along * (y - turn * n[1]) - ball[1],
+                          along * (-1 - turn * n[2]) - 5 - ball[2]};
+    const double from_center_m = sqrt(at[0] * at[0] + at[1] * at[1] + at[2] * at[2]);
+    *spread = travelled_m / from_center_m;
+    const double texels = tan(cone) * *spread * SIZE / 2 / (0.5 * (1 + fabs(at[1]) / from_center_m));
+    return log2(fmin(fmax(texels, 1), SIZE));
+}
+
+/* Catches: a cone that is as wide at the centre as at the surface, a ratio of distances the wrong way, levels that ignore the height. */
+static void a_level_is_as_wide_as_the_cone_where_the_ray_ends(void **state) {
+    struct gpu *gpu = *state;
+    struct glint_error err = {0};
+    static uint32_t pixels[CONES][2];
+    size_t count = 0, near = 0, far = 0;
+    double worst = 0;
+    for (uint32_t i = 0; i < CONES; ++i) pixels[i][0] = i * 4 % WIDE, pixels[i][1] = i * 4 / WIDE;
+    load_ball(gpu);
+    const struct glint_replay_options options = {.all = true,
+                                                 .float_precision = true,
+                                                 .diagnostics = true,
+                                                 .probes = (const uint32_t(*)[2])pixels,
+                                                 .probe_count = CONES};
+    if (!glint_replay_run(gpu->replay, gpu->pipeline, &options, NULL, NULL, &err)) fail_msg("%s", err.message);
+    float *cone = gpu_floats(gpu, "cone_half", NULL, NULL), *travelled_m = gpu_floats(gpu, "travelled", NULL, NULL);
+    float *normal = gpu_floats(gpu, "normal_jittered", NULL, NULL);
+    for (uint32_t k = 0; k < CONES; ++k) {
+        struct glint_probe_trace trace;
+        const uint32_t i = pixels[k][1] * WIDE + pixels[k][0];
+        if (!glint_replay_probe(gpu->replay, k, &trace, &err)) fail_msg("%s", err.message);
+        for (size_t r = 0; r < trace.count; ++r) {
+            if (!glint_probe_is(&trace.records[r], "color") || !(travelled_m[i] < 1e30F)) continue;
+            double spread;
+            const double level = level_at((double)cone[i], i, (double)travelled_m[i], normal + 4 * i, &spread);
+            worst = fmax(worst, fabs((double)glint_probe_value(&trace.records[r], "level") - level));
+            count++, near += spread<0.8, far += spread> 1.25;
+        }
+        free(trace.records);
+    }
+    print_message("# %zu cones, %zu of them short, %zu long; levels are off by %.2g\n", count, near, far, worst);
+    assert_true(count > 100 && near > 10 && far > 10);
+    assert_true(worst < 1e-5); /* ten operations of 2^-24 each, in levels up to 6 */
+    free(cone), free(travelled_m), free(normal);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(directions_come_back),
@@ -231,6 +309,7 @@ int main(void) {
         cmocka_unit_test(filled_levels_meet_at_the_rim),
         cmocka_unit_test(levels_are_means_by_solid_angle),
         cmocka_unit_test(rays_see_the_direction_they_go_in),
+        cmocka_unit_test(a_level_is_as_wide_as_the_cone_where_the_ray_ends),
     };
     return cmocka_run_group_tests_name("gpu_paraboloid", tests, gpu_set_up, gpu_tear_down);
 }

@@ -1,5 +1,6 @@
 /* upscale/best_match: the texel that a pixel uses; resolve_sharp: the colour of smooth pixels. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include "gpu.h"
@@ -275,6 +276,51 @@ static void the_four_nearest_are_those_on_the_pixels_side(void **state) {
     free(source);
 }
 
+/* The costs of the texels around a pixel, whose surfaces differ by their roughness alone; infinite beyond the picture. */
+static void costs_of(const float *normal, const uint32_t *pick, uint32_t pixel, double distance_weight, double out[9]) {
+    const int half = SIZE / 2, x = (int)(pixel % SIZE), y = (int)(pixel / SIZE);
+    for (int n = 0; n < 9; ++n) {
+        const int tx = x / 2 + n % 3 - 1, ty = y / 2 + n / 3 - 1, t = ty * half + tx;
+        out[n] = INFINITY;
+        if (tx < 0 || ty < 0 || tx >= half || ty >= half) continue;
+        const double rough = fabs((double)normal[4 * t + 3] - (double)(pixel * 2654435761U >> 20 & 7) / 8);
+        const double dx = 2 * tx + (int)(pick[t] & 1) - x, dy = 2 * ty + (int)(pick[t] >> 1 & 1) - y;
+        out[n] = 10 * rough + distance_weight * (dx * dx + dy * dy);
+    }
+}
+
+/* The texel is the cheapest one in double: ten times the difference of roughness, which is a multiple of an eighth, and the weighted square of
+   the distance in pixels. Where two costs are as good as equal, by 0.001 and the rounding of ten times a roughness, either is taken. */
+static void the_cheapest_texel_is_taken(void **state) {
+    static const double weights[] = {0.02, 0.37, 2.9};
+    struct gpu *gpu = *state;
+    for (int w = 0; w < 3; ++w) {
+        char word[64];
+        load_wall(gpu, any_roughness);
+        snprintf(word, sizeof word, "upscale.distance_weight=%g", weights[w]);
+        gpu_set(gpu, word);
+        gpu_set(gpu, "upscale.sharp_roughness=1");
+        gpu_run(gpu);
+        uint32_t *source = gpu_uints(gpu, "sharp_source", NULL, NULL), *pick = gpu_uints(gpu, "pick", NULL, NULL);
+        float *normal = gpu_floats(gpu, "normal_half", NULL, NULL);
+        int sure = 0, beside = 0;
+        for (uint32_t i = 0; i < SIZE * SIZE; ++i) {
+            double costs[9];
+            int best = 0, near = 0;
+            costs_of(normal, pick, i, weights[w], costs);
+            for (int n = 1; n < 9; ++n) best = costs[n] < costs[best] ? n : best;
+            for (int n = 0; n < 9; ++n) near += costs[n] < costs[best] + 2 * (1e-3 + 10.0 / 2048);
+            if (near > 1) continue;
+            assert_int_equal(source[i], best + 1);
+            sure++, beside += best != 4;
+        }
+        print_message("# weight %g: %d pixels have a cheapest texel, %d of them not their own\n", weights[w], sure,
+                      beside);
+        assert_true(sure > SIZE * SIZE / 2 && (w == 2 || beside > SIZE * SIZE / 8));
+        free(source), free(pick), free(normal);
+    }
+}
+
 static float by_chance(uint32_t i) {
     return i * 2654435761U >> 20 & 1 ? 1.0F : -1.0F;
 }
@@ -343,6 +389,7 @@ int main(void) {
         cmocka_unit_test(every_pixel_takes_a_sample_of_its_own_surface),
         cmocka_unit_test(roughness_alone_tells_surfaces_apart),
         cmocka_unit_test(the_four_nearest_are_those_on_the_pixels_side),
+        cmocka_unit_test(the_cheapest_texel_is_taken),
         cmocka_unit_test(rounding_chooses_no_other_sample),
         cmocka_unit_test(the_last_of_the_images_is_taken),
         cmocka_unit_test(smooth_pixels_are_resolved_by_their_own_normals),

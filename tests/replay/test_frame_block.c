@@ -307,6 +307,22 @@ static void air_is_where_the_world_says(UNUSED void **unused) {
     }
 }
 
+/* Catches: a class whose value and mask change places, or are taken for one another; a mask of 0 compares the whole id. */
+static void classes_have_a_value_and_a_mask(UNUSED void **unused) {
+    const struct glint_frame frame = {
+        .metres_per_unit = 1,
+        .classes = {{1, 2, "other"}, {4, 6, "foreground"}, {16, 0x30, "decal"}, {9, 0, "skin"}},
+        .class_count = 4};
+    struct frame_block block;
+    fill_block(&block, &frame);
+    const uvec4 found[] = {block.foreground, block.overlaid, block.skin};
+    static const uint32_t expected[3][4] = {{4, 6, 1, 0}, {16, 0x30, 1, 0}, {9, UINT32_MAX, 1, 0}};
+    for (int k = 0; k < 3; k++) {
+        const uint32_t values[4] = {found[k].x, found[k].y, found[k].z, found[k].w};
+        assert_memory_equal(values, expected[k], sizeof values);
+    }
+}
+
 /* std140 as in the shader: offsets in a block of 16-byte members. */
 static void the_layout_is_std140(UNUSED void **unused) {
     assert_int_equal(offsetof(struct frame_block, world_from_view), 64);
@@ -357,6 +373,7 @@ int main(void) {
         cmocka_unit_test(the_sun_is_as_the_capture_says),
         cmocka_unit_test(air_is_where_the_world_says),
         cmocka_unit_test(maps_are_chosen_by_their_rows),
+        cmocka_unit_test(classes_have_a_value_and_a_mask),
         cmocka_unit_test(the_layout_is_std140),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -93,11 +93,53 @@ static void what_is_not_read_moves_nothing(UNUSED void **state) {
     free(text);
 }
 
+/* A pass that divides zero by zero in one channel of a pixel is named, before a pass that reads its image. */
+static void the_first_pass_that_is_not_finite_is_named(UNUSED void **state) {
+    static const char shader[] = "#version 460\n"
+                                 "#extension GL_GOOGLE_include_directive : require\n"
+                                 "#extension GL_EXT_samplerless_texture_functions : require\n"
+                                 "#include \"shared/bindings.glsl\"\n"
+                                 "#include \"bilinear.pass.h\"\n"
+                                 "#include \"shared/push_begin.glsl\"\n"
+                                 "#include \"bilinear.pass.h\"\n"
+                                 "};\n"
+                                 "void main() {\n"
+                                 "    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);\n"
+                                 "    if (any(greaterThanEqual(pixel, imageSize(reflection)))) return;\n"
+                                 "    float zero = float(dispatch_level);\n"
+                                 "    float green = pixel == ivec2(40, 30) ? zero / zero : 1.0;\n"
+                                 "    imageStore(reflection, pixel, vec4(1.0, green, 1.0, 1.0));\n"
+                                 "}\n";
+    FILE *file = fopen(in_folder("zero.comp"), "w");
+    assert_non_null(file);
+    assert_true(fputs(shader, file) >= 0 && fclose(file) == 0);
+    char option[256];
+    snprintf(option, sizeof option, "--shader=upscale=%s", in_folder("zero.comp"));
+    char *text = glint_ok("stability", in_folder("room.exr"), PLAIN, "--seeds=1", "--json", option);
+    json_t *json = parse_json(text);
+    const json_t *first = json_object_get(json, "first_invalid"), *made = json_object_get(first, "made");
+    assert_true(json_is_null(json_object_get(first, "captured")));
+    assert_string_equal(json_string_value(json_object_get(made, "slot")), "upscale");
+    assert_string_equal(json_string_value(json_object_get(made, "image")), "reflection");
+    assert_string_equal(json_string_value(json_object_get(made, "channel")), "G");
+    assert_string_equal(json_string_value(json_object_get(made, "value")), "NaN");
+    assert_true(number(made, "x") == 40 && number(made, "y") == 30 && number(made, "not_finite") == 1);
+    json_decref(json);
+    free(text);
+    text = glint_ok("stability", in_folder("room.exr"), PLAIN, "--seeds=1", option);
+    assert_contains(text, "The first pass whose values are not finite is upscale/bilinear: reflection G at 40,30 is");
+    free(text);
+    text = glint_ok("stability", in_folder("room.exr"), PLAIN, "--seeds=1");
+    assert_null(strstr(text, "not finite"));
+    free(text);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(layers_match_the_figures),
         cmocka_unit_test(checks_end_with_their_status),
         cmocka_unit_test(what_is_not_read_moves_nothing),
+        cmocka_unit_test(the_first_pass_that_is_not_finite_is_named),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -55,6 +55,17 @@ static json_t *pass_json(const struct glint_stability_pass *p) {
                      "flip_starts", (json_int_t)p->flip_starts);
 }
 
+static json_t *invalid_json(const struct glint_stability_invalid *invalid) {
+    if (!*invalid->image) return json_null();
+    json_t *value = isfinite(invalid->value) ? json_real((double)invalid->value)
+                    : isnan(invalid->value)  ? json_string("NaN")
+                                             : json_string(invalid->value > 0 ? "inf" : "-inf");
+    return json_pack("{s:s, s:s?, s:s, s:i, s:i, s:o, s:I, s:I}", "image", invalid->image, "slot",
+                     invalid->pass ? invalid->pass->slot : NULL, "channel", invalid->channel, "x", (int)invalid->x, "y",
+                     (int)invalid->y, "value", value, "not_finite", (json_int_t)invalid->not_finite, "clamped",
+                     (json_int_t)invalid->clamped);
+}
+
 json_t *stability_json(const struct stability_report *report) {
     const struct glint_stability *s = report->stability;
     json_t *images = json_array(), *passes = json_array(), *inputs = json_array();
@@ -62,10 +73,11 @@ json_t *stability_json(const struct stability_report *report) {
     for (size_t i = 0; i < s->pass_count; i++) json_array_append_new(passes, pass_json(&s->passes[i]));
     for (size_t i = 0; report->inputs && report->inputs[i]; i++)
         json_array_append_new(inputs, json_string(report->inputs[i]));
-    return json_pack("{s:s, s:s, s:s, s:s, s:I, s:o, s:s, s:o, s:o, s:o}", "effect", report->effect->name, "capture",
-                     report->capture, "preset", report->preset, "device", report->device, "seeds", (json_int_t)s->seeds,
-                     "perturbed", inputs, "precision", report->half ? "half" : "float", "bound", json_number(s->bound),
-                     "passes", passes, "images", images);
+    json_t *invalid = json_pack("{s:o, s:o}", "captured", invalid_json(&s->captured), "made", invalid_json(&s->made));
+    return json_pack("{s:s, s:s, s:s, s:s, s:I, s:o, s:s, s:o, s:o, s:o, s:o}", "effect", report->effect->name,
+                     "capture", report->capture, "preset", report->preset, "device", report->device, "seeds",
+                     (json_int_t)s->seeds, "perturbed", inputs, "precision", report->half ? "half" : "float", "bound",
+                     json_number(s->bound), "passes", passes, "images", images, "first_invalid", invalid);
 }
 
 /* ---- Tables ---- */
@@ -151,6 +163,16 @@ static void print_overflow(const struct glint_stability *s) {
     table_destroy(&t);
 }
 
+static void print_invalid(const struct glint_stability_invalid *invalid) {
+    if (!*invalid->image) return;
+    if (invalid->pass)
+        printf("\nThe first pass whose values are not finite is %s/%s: ", invalid->pass->slot, invalid->pass->variant);
+    else printf("\nThe capture has invalid values, which passes read as finite ones: ");
+    printf("%s %s at %u,%u is %g; %llu values are not finite, %llu are clamped\n", invalid->image, invalid->channel,
+           invalid->x, invalid->y, (double)invalid->value, (unsigned long long)invalid->not_finite,
+           (unsigned long long)invalid->clamped);
+}
+
 void stability_print(const struct stability_report *report) {
     const struct glint_stability *s = report->stability;
     printf("%s, %s on %s: %u perturbed replays, images in %s\n\n", report->capture, report->preset, report->device,
@@ -166,4 +188,6 @@ void stability_print(const struct stability_report *report) {
     print_worst(s);
     printf("\nLargest values\n");
     print_overflow(s);
+    print_invalid(&s->captured);
+    print_invalid(&s->made);
 }

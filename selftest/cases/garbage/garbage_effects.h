@@ -27,7 +27,6 @@ struct garbage_case {
     uint32_t cube_size; /* 0: the box's own */
     uint32_t frames,
         bad_frame; /* length of the shot, whose last frame is compared, and its invalid frame; 0: a single frame, the last frame */
-    bool direct;            /* pixels within reach depend on invalid values directly, without a filter in between */
     double reach_px, bound; /* infinite: every pixel may change */
     const char *reason;
 };
@@ -38,8 +37,8 @@ struct garbage_box {
     struct open_box box;
 };
 void garbage_store(void *user, const char *part, const char *channel, float *plane, uint32_t width, uint32_t height);
-/* The effect of invalid values on a pixel: none, a finite change, or any value, if it depends on one directly. */
-enum garbage_effect { GARBAGE_NO_EFFECT, GARBAGE_FINITE, GARBAGE_ANYTHING };
+/* The effect of invalid values on a pixel: none, or a finite change. */
+enum garbage_effect { GARBAGE_NO_EFFECT, GARBAGE_FINITE };
 /* travelled: hit distances without the invalid values, for invalid texels. */
 void garbage_mask(const struct garbage_case *c, const struct open_box *box, const struct picture *travelled,
                   enum garbage_effect *effects);

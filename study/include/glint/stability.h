@@ -62,6 +62,15 @@ struct glint_stability_pass {
     /* Pixels where a decision of the pass flips in some seed, where an end reason does, where this pass is the first that flips. */
     uint64_t flipped, ends, flip_starts;
 };
+/* Values of an image of the unperturbed frame that are not finite (in lengths: NaN), or that are clamped to the range of half. */
+struct glint_stability_invalid {
+    char image[96], channel[48]; /* image: "" if there are none */
+    const struct glint_pass
+        *pass;     /* NULL for the capture, whose values passes read as finite ones (struct glint_bad_values) */
+    uint32_t x, y; /* the first value, in row order */
+    float value;
+    uint64_t not_finite, clamped;
+};
 struct glint_stability {
     uint32_t seeds, width, height;
     double bound;
@@ -74,6 +83,8 @@ struct glint_stability {
        amplification of the image that the last pass makes. */
     uint32_t *start, *flip_start;
     float *amplification;
+    /* The first image of the capture with invalid values, and the first image that is not finite in the order of the passes, of all levels. */
+    struct glint_stability_invalid captured, made;
 };
 /* Loads the capture into the replay with each perturbation in turn, and leaves it loaded unperturbed. Fails if a perturbed frame makes
    the plan run other passes. */

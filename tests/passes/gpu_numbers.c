@@ -1,0 +1,197 @@
+/* Extreme and invalid values in every kind of channel, in every preset: what a replay makes is finite. Without arguments a short sample; as
+   a program it takes the number of replays and the first seed, and prints a table of presets and kinds. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "gpu.h"
+#include "spoiled.h"
+#include "unit.h"
+
+enum { WIDTH = 64, HEIGHT = 36, PRESETS = 16, FRAMES = 2 };
+
+static const struct {
+    const char *name;
+    uint32_t also;
+} scenes[] = {
+    {"street", 0x1FFF & ~GLINT_ALSO_SKY},
+    {"lake", GLINT_ALSO_CAUSTICS | GLINT_ALSO_SHADOW | GLINT_ALSO_VOLUME | GLINT_ALSO_AO | GLINT_ALSO_SUN},
+    {"alley", GLINT_ALSO_LAMPS | GLINT_ALSO_FROXELS},
+    {"glasshouse", GLINT_ALSO_SHADOW | GLINT_ALSO_SUN},
+    {"portrait", GLINT_ALSO_CURVATURE | GLINT_ALSO_SHADOW},
+    {"meadow", GLINT_ALSO_SKY | GLINT_ALSO_SHADOW | GLINT_ALSO_SUN},
+};
+enum { SCENES = sizeof scenes / sizeof *scenes };
+
+static uint32_t replays = 12, first_seed = 1, only_kind = SPOILED_KINDS;
+
+struct tally {
+    uint32_t replays, refused, failed; /* refused: the capture cannot be opened, with a message */
+    uint64_t pixels, beyond; /* not finite: all of the pictures, and those whose captured values were all finite */
+};
+static struct tally tallies[PRESETS][SPOILED_KINDS];
+
+static void frame_path(const struct gpu *gpu, const char *scene, int frame, char path[256]) {
+    snprintf(path, 256, "%s/%s.%04d.exr", gpu->folder, scene, frame);
+}
+
+/* A shot of two frames of the scene, and its cube maps beside them. */
+static void make_shot(const struct gpu *gpu, size_t s) {
+    struct glint_error err = {0};
+    char path[256];
+    static bool made[SCENES];
+    if (made[s]) return;
+    made[s] = true;
+    snprintf(path, sizeof path, "%s/%s.exr", gpu->folder, scenes[s].name);
+    const struct glint_sample_options options = {.width = WIDTH,
+                                                 .height = HEIGHT,
+                                                 .cube_size = 8,
+                                                 .planar_width = 32,
+                                                 .planar_height = 16,
+                                                 .frames = FRAMES,
+                                                 .light_samples = 4,
+                                                 .also = scenes[s].also,
+                                                 .threads = 1};
+    if (!glint_sample_write(scenes[s].name, path, &options, NULL, NULL, &err)) fail_msg("%s", err.message);
+}
+
+/* ---- One replay ---- */
+
+struct trial {
+    struct gpu *gpu;
+    const char *preset;
+    enum spoiled_kind kind;
+    uint32_t seed;
+    struct spoiled spoiled;
+    struct tally *tally;
+};
+
+static bool is_picture(const char *name) {
+    static const char *const others[] = {"antialiased", "unstippled", "bloomed",      "exposed",
+                                         "toned",       "graded",     "lit_scattered"};
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        if (!strcmp(name, others[i])) return true;
+    return !strncmp(name, "composed", 8);
+}
+
+static void count_picture(struct trial *trial, const struct glint_image *image) {
+    struct glint_error err = {0};
+    const struct spoiled *s = &trial->spoiled;
+    float *texels = malloc((size_t)image->width * image->height * image->components * sizeof *texels);
+    assert_non_null(texels);
+    if (!glint_replay_read_image(trial->gpu->replay, image, GLINT_F32, texels, &err)) fail_msg("%s", err.message);
+    for (size_t i = 0; i < (size_t)image->width * image->height; i++) {
+        bool finite = true;
+        for (uint32_t c = 0; c < image->components; c++) finite = finite && isfinite(texels[i * image->components + c]);
+        trial->tally->pixels += !finite;
+        trial->tally->beyond += !finite && !s->not_finite[i];
+    }
+    free(texels);
+}
+
+/* The first pass that makes a value that is not finite is printed, with the seed that shows it. */
+static void judge(struct trial *trial, int frame) {
+    struct glint_error err = {0};
+    const struct glint_bad_values *bad;
+    size_t count;
+    if (!glint_replay_bad_values(trial->gpu->replay, &bad, &count, &err)) fail_msg("%s", err.message);
+    for (size_t i = 0; i < count; i++) {
+        if (!bad[i].pass || !bad[i].not_finite) continue;
+        trial->tally->failed++;
+        print_message("# seed %u %s, %s, frame %d: %s/%s %s %s at %u,%u is %g, %llu values; %s\n", trial->seed,
+                      trial->preset, spoiled_names[trial->kind], frame, bad[i].pass->slot, bad[i].pass->variant,
+                      bad[i].image, bad[i].channel, bad[i].x, bad[i].y, (double)bad[i].value,
+                      (unsigned long long)bad[i].not_finite, trial->spoiled.what);
+        break;
+    }
+    for (size_t i = 0; i < glint_replay_image_count(trial->gpu->replay); i++) {
+        const struct glint_image *image = glint_replay_image(trial->gpu->replay, i);
+        if (is_picture(image->name)) count_picture(trial, image);
+    }
+}
+
+/* Replays a frame; false if it is refused. */
+static bool replay(struct trial *trial, const char *path, int frame, bool may_refuse) {
+    struct gpu *gpu = trial->gpu;
+    struct glint_error err = {0};
+    const struct glint_replay_options options = {.diagnostics = true, .quick = getenv("GLINT_NUMBERS_QUICK") != NULL};
+    if (!glint_replay_load(gpu->replay, NULL, &err)) fail_msg("%s", err.message);
+    glint_capture_close(&gpu->capture);
+    gpu->capture = glint_capture_open(path, NULL, &err);
+    const bool ok = gpu->capture && glint_replay_load(gpu->replay, gpu->capture, &err) &&
+                    glint_replay_run(gpu->replay, gpu->pipeline, &options, NULL, NULL, &err);
+    if (!ok && !may_refuse) fail_msg("seed %u: %s", trial->seed, err.message);
+    if (!ok && !*err.message) fail_msg("seed %u: refused without a reason", trial->seed);
+    if (ok) judge(trial, frame);
+    return ok;
+}
+
+/* The first or the second frame of the shot is spoiled; the second one has history of the first. */
+static void run_trial(struct trial *trial, size_t scene) {
+    struct rewrite r;
+    char paths[FRAMES][256], spoiled_path[256];
+    const int which = (int)(trial->seed >> 1 & 1);
+    make_shot(trial->gpu, scene);
+    for (int f = 0; f < FRAMES; f++) frame_path(trial->gpu, scenes[scene].name, f + 1, paths[f]);
+    rewrite_load(&r, paths[which]);
+    const bool any = spoil(&r, trial->kind, trial->seed, &trial->spoiled);
+    if (getenv("GLINT_NUMBERS_TRACE"))
+        print_message("# seed %u %s: %s\n", trial->seed, trial->preset, trial->spoiled.what);
+    if (any) {
+        snprintf(spoiled_path, sizeof spoiled_path, "%s/spoiled.exr", trial->gpu->folder);
+        rewrite_save(&r, spoiled_path);
+        bool ok = true;
+        for (int f = which; ok && f < FRAMES; f++)
+            ok = replay(trial, f == which ? spoiled_path : paths[f], f, f == which);
+        trial->tally->replays++;
+        trial->tally->refused += !ok;
+    }
+    free(trial->spoiled.not_finite);
+    rewrite_finish(&r);
+}
+
+/* ---- The table ---- */
+
+static uint64_t print_table(void) {
+    uint64_t wrong = 0;
+    print_message(
+        "# preset: by kind, replays (refused) failed, pixels not finite / of these beyond the values' own pixels\n");
+    for (size_t p = 0; glint_preset(p); p++) {
+        print_message("# %-18s", glint_preset(p));
+        for (int k = 0; k < SPOILED_KINDS; k++) {
+            const struct tally *t = &tallies[p][k];
+            if (t->replays)
+                print_message(" | %s: %u (%u) %u, %llu / %llu", spoiled_names[k], t->replays, t->refused, t->failed,
+                              (unsigned long long)t->pixels, (unsigned long long)t->beyond);
+            wrong += t->failed + t->pixels;
+        }
+        print_message("\n");
+    }
+    return wrong;
+}
+
+static void replays_of_spoiled_captures_are_finite(void **state) {
+    struct gpu *gpu = *state;
+    struct glint_error err = {0};
+    size_t presets = 0;
+    while (glint_preset(presets)) presets++;
+    for (uint32_t i = 0; i < replays; i++) {
+        const uint32_t seed = first_seed + i, kind = only_kind < SPOILED_KINDS ? only_kind : seed % SPOILED_KINDS;
+        const size_t p = seed / SPOILED_KINDS % presets, scene = seed / SPOILED_KINDS / presets % SCENES;
+        struct trial trial = {gpu, glint_preset(p), (enum spoiled_kind)kind, seed, {0}, &tallies[p][kind]};
+        glint_pipeline_destroy(&gpu->pipeline);
+        gpu->pipeline = glint_pipeline_create(trial.preset, &err);
+        if (!gpu->pipeline) fail_msg("%s", err.message);
+        run_trial(&trial, scene);
+    }
+    assert_true(print_table() == 0);
+}
+
+int main(int argc, char **argv) {
+    if (argc > 1) replays = (uint32_t)strtoul(argv[1], NULL, 10);
+    if (argc > 2) first_seed = (uint32_t)strtoul(argv[2], NULL, 10);
+    if (argc > 3) only_kind = (uint32_t)strtoul(argv[3], NULL, 10);
+    const struct CMUnitTest tests[] = {cmocka_unit_test(replays_of_spoiled_captures_are_finite)};
+    return cmocka_run_group_tests_name("gpu_numbers", tests, gpu_set_up, gpu_tear_down);
+}
