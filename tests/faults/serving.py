@@ -8,7 +8,7 @@ import time
 
 from process import Process, contents
 
-LIMIT_S = 60
+LIMIT_S = 240
 
 
 class Serving(Process):
