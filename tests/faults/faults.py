@@ -42,8 +42,8 @@ JANSSON_READS = "json_load"
 # What OpenEXRCore 3.1 (exr_add_part) and Duktape 2.7 forget a block or two of when they lack memory, and the functions of glint that it is allocated for.
 FORGETFUL = (("libOpenEXRCore", "glint_exr_memory_take"), ("libduktape", "evaluate_script"))
 # What a command that goes on where it was interrupted may keep, whole as it is without the fault, and uses then.
-GROWS = {"sweep", "tune", "blame", "reference", "library reference"}  # by pages, logs and rays
-KEEPS = {"live", "replay SHOT", "replay PART", "replay --against", "explain", "compare", "stability", *GROWS}
+GROWS = {"replay --against", "sweep", "tune", "blame", "reference", "library reference"}  # by errors, pages, logs and rays
+KEEPS = {"live", "replay SHOT", "replay PART", "explain", "compare", "stability", *GROWS}
 
 
 class Command:
@@ -260,4 +260,5 @@ def main():
     return table.bad() > 0
 
 
-sys.exit(main())
+if __name__ == "__main__":
+    sys.exit(main())

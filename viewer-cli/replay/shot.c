@@ -50,10 +50,10 @@ json_t *shot_settings(const struct glint_pipeline *pipeline, const struct pipeli
     json_t *shaders = shaders_json(&args->shader, err);
     if (!shaders) return NULL;
     return json_pack("{s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:s?, s:s?, s:b, s:b, s:b}", "tool", GLINT_VERSION,
-                     "device", device, "pipeline", passes_json(pipeline), "shaders", shaders,
-                     "passes", names_json(&args->passes), "outputs", names_json(&args->outputs), "skip",
-                     names_json(&args->skip), "force", names_json(&args->force), "inputs", o->inputs, "history",
-                     o->history, "all", o->all, "diagnostics", o->diagnostics, "float", o->float_precision);
+                     "device", device, "pipeline", passes_json(pipeline), "shaders", shaders, "passes",
+                     names_json(&args->passes), "outputs", names_json(&args->outputs), "skip", names_json(&args->skip),
+                     "force", names_json(&args->force), "inputs", o->inputs, "history", o->history, "all", o->all,
+                     "diagnostics", o->diagnostics, "float", o->float_precision);
 }
 
 static bool write_settings(const char *path, const json_t *settings, struct glint_error *err) {
