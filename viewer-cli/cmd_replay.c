@@ -352,12 +352,13 @@ static bool count_kept(const struct job *job, char **folders, size_t *kept, stru
     const struct arguments *a = job->a;
     *kept = 0;
     if (!folders || a->captures.count < 2) return true;
-    json_t *settings = shot_settings(job->pipeline, &a->pipeline, glint_device_get_info(job->device)->name);
+    json_t *settings = shot_settings(job->pipeline, &a->pipeline, glint_device_get_info(job->device)->name, err);
     bool ok = settings ? shot_begin(a->out, settings, folders, a->captures.count, err)
-                       : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+                       : !err->code && glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     json_decref(settings);
     bool again = a->pipeline.replay.no_cache || a->pipeline.replay.repeat || a->against.truth || a->against.reference;
-    while (ok && !again && *kept < a->captures.count && shot_has(folders[*kept], a->captures.items[*kept])) ++*kept;
+    for (bool has = true; ok && !again && has && *kept < a->captures.count; *kept += ok && has)
+        ok = shot_has(folders[*kept], a->captures.items[*kept], &has, err);
     return ok;
 }
 
@@ -376,8 +377,10 @@ static enum status replay_all(struct job *job) {
     for (size_t i = kept; i < captures->count && status != STATUS_INTERRUPTED; i++) {
         err = (struct glint_error){0};
         const char *history = i == 0 ? job->a->pipeline.replay.history : NULL;
-        if (i == kept && i > 0 && shot_follows(folders[i - 1], captures->items[i])) history = folders[i - 1];
-        bool ok = replay_one(job, captures->items[i], folders ? folders[i] : NULL, history, &err);
+        bool follows = false;
+        bool ok = i != kept || i == 0 || shot_follows(folders[i - 1], captures->items[i], &follows, &err);
+        if (follows) history = folders[i - 1];
+        ok = ok && replay_one(job, captures->items[i], folders ? folders[i] : NULL, history, &err);
         if (!ok) {
             enum status failed = command_fail(&cmd_replay, &err);
             if (failed > status) status = failed;

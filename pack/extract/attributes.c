@@ -311,8 +311,8 @@ static json_t *unknown_attributes(const struct glint_exr_part_info *part, struct
         const struct glint_exr_attribute *a = &part->attributes[i];
         if (!strncmp(a->name, "glint.", 6) || follows_from_camera(part, a)) continue;
         if (!is_text(a))
-            return glint_fail(err, GLINT_ERROR_UNSUPPORTED, "part %s: %.100s: expected text in UTF-8, found other bytes",
-                              part->name, a->name),
+            return glint_fail(err, GLINT_ERROR_UNSUPPORTED,
+                              "part %s: %.100s: expected text in UTF-8, found other bytes", part->name, a->name),
                    json_decref(unknown), NULL;
         record_set(&unknown, a->name, unknown_of(a));
     }

@@ -153,8 +153,7 @@ json_t *run_record(const struct glint_replay *replay, const struct run *run) {
     const uint32_t *full = run->sizes->full, *half = run->sizes->half;
     const bool surveyed = replay->planner.survey.done && !options->all;
     json_t *passes = json_array();
-    for (size_t p = 0; p < run->graph->pass_count; p++)
-        record_append(&passes, pass_record(&replay->results, run, p));
+    for (size_t p = 0; p < run->graph->pass_count; p++) record_append(&passes, pass_record(&replay->results, run, p));
     return json_pack(
         "{si s{ssss} so sI s{so so ss} sI sI so s{s[ii]s[ii]} ss sb so so sI so sb so so so so}", "format", 1, "tool",
         "name", "glint", "version", GLINT_VERSION, "device", device_record(&run->gpu->info), "frame",

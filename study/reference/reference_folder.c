@@ -138,12 +138,12 @@ bool reference_note(struct glint_reference *reference, struct glint_error *err) 
     json_t *list = json_array(), *last = last_run_pass(record);
     for (int i = 0; i < REFERENCE_IMAGES; i++) {
         const struct image_name name = image_name(reference->result->name, i);
-        record_append(
-            &list,
-            json_pack("{ss ss* ss ss ss ss si si ss}", "name", name.text, "file", NULL, "part", name.text, "channels",
-                      image_channels(reference, i), "unit", image_unit(reference, i), "meaning", images[i].meaning,
-                      "width", (int)reference->halves.of[0].width, "height", (int)reference->halves.of[0].height,
-                      "format", i == REFERENCE_ERROR || reference->channels.count == 1 ? "R32F" : "RGBA32F"));
+        record_append(&list,
+                      json_pack("{ss ss* ss ss ss ss si si ss}", "name", name.text, "file", NULL, "part", name.text,
+                                "channels", image_channels(reference, i), "unit", image_unit(reference, i), "meaning",
+                                images[i].meaning, "width", (int)reference->halves.of[0].width, "height",
+                                (int)reference->halves.of[0].height, "format",
+                                i == REFERENCE_ERROR || reference->channels.count == 1 ? "R32F" : "RGBA32F"));
     }
     json_object_del(record, "first_ray");
     record = record_if(json_object_set_new(last, "images", list) == 0, record);

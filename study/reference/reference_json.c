@@ -41,9 +41,9 @@ bool reference_settings(struct glint_reference *reference, struct glint_error *e
         const struct glint_pass *pass = glint_pipeline_pass(reference->pipeline, i);
         record_set(&passes, pass->slot, pass_settings(reference, pass, &failed));
     }
-    json_t *all = json_pack("{ss ss ss ss ss sb so}", "effect", reference->effect->name, "capture", hash, "device",
-                            device->name, "driver", device->driver_version, "tool", GLINT_VERSION, "all",
-                            reference->all, "passes", passes);
+    json_t *all =
+        json_pack("{ss ss ss ss ss sb so}", "effect", reference->effect->name, "capture", hash, "device", device->name,
+                  "driver", device->driver_version, "tool", GLINT_VERSION, "all", reference->all, "passes", passes);
     /* Written and read once, so that numbers are rounded as in a file. */
     char *text = record_text(all, JSON_REAL_PRECISION(REFERENCE_DIGITS));
     reference->settings = text ? json_loads(text, 0, NULL) : NULL;

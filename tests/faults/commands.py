@@ -44,7 +44,7 @@ COMMANDS = {
     "diff": "diff run run",
     "set": "set tiny.exr -o out.exr frame=7",
     "crop": "crop tiny.exr 0,0,8,8 -o out.exr",
-    "strip": "strip tiny.exr -o out.exr --drop=emissive",
+    "strip": "strip tiny.exr -o out.exr --drop=sky",
     "extract": "extract tiny.exr -o out",
     "pack": "pack loose/manifest.json -o out.exr",
     "export": "export run -o out.exr",
@@ -75,8 +75,9 @@ COMMANDS = {
     "library judge": "judge tiny.exr plain.json converged",
 }
 
-# A fault of these takes many replays: in a sample they have fewer.
-LONG = {"live", "explain", "stability", "compare", "reference", "sweep", "tune", "blame", "selftest", "library reference"}
+# A fault of these takes many replays: in a sample they have fewer, or are left to longer runs.
+LONG = {"replay SHOT", "replay PART", "replay --against", "probe", "compare", "live"}
+LONGEST = {"reference", "sweep", "tune", "blame", "stability", "explain", "selftest", "library reference"}
 
 
 def make_inputs(folder):

@@ -8,9 +8,7 @@
 
 enum { SLOTS = 1 << 17, FULL = SLOTS / 4 * 3, FILES = 256, LINE_BYTES = 512 };
 
-static struct slot {
-    const void *block, *site;
-} slots[SLOTS];
+static struct slot { const void *block, *site; } slots[SLOTS];
 static size_t used;
 static bool full;
 static atomic_flag lock = ATOMIC_FLAG_INIT;

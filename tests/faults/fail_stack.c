@@ -15,10 +15,10 @@ enum { OBJECTS = 256, FRAMES = 48 };
 enum owner { OWNER_OTHER, OWNER_GLINT, OWNER_CALLER, OWNER_SELF };
 
 /* Work for whoever calls them. */
-static const char *const of_callers[] = {
-    "libc.so",   "libm.so",  "libstdc++.so", "libgcc_s.so", "libOpenEXRCore", "libImath",    "libjansson",
-    "libpng",    "libz.so",  "libzstd",      "libdeflate",  "libjpeg",        "libfreetype", "libduktape",
-    "libxxhash", "libnlopt", "libexpat",     "libminizip",  "libbrotli",      NULL};
+static const char *const of_callers[] = {"libc.so",    "libm.so",    "libstdc++.so", "libgcc_s.so", "libOpenEXRCore",
+                                         "libImath",   "libjansson", "libpng",       "libz.so",     "libzstd",
+                                         "libdeflate", "libjpeg",    "libfreetype",  "libduktape",  "libxxhash",
+                                         "libnlopt",   "libexpat",   "libminizip",   "libbrotli",   NULL};
 
 struct object {
     uintptr_t begin, end, base;

@@ -7,7 +7,7 @@ import shutil
 import signal
 import subprocess
 
-LIMIT_S = 60
+LIMIT_S = 240
 LAVAPIPE = "libvulkan_lvp.so"  # is loaded before processes are forked: its LLVM has a hundred MB to be linked
 
 

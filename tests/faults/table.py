@@ -6,22 +6,35 @@ import sys
 PAGE = """# Faults
 
 What happens to the commands of glint when an allocation, a thread or a system call fails. `tests/faults/fail.c` is a library that lets the n-th
-call of a kind fail, or all from the n-th on, in a process of `glint`; `tests/faults/faults.py` runs each command with one fault after the other
-and judges what came of it. This page is made by
+call of a kind fail, or all from the n-th on, in a process of `glint`; `tests/faults/faults.py` runs each command with one fault after the other,
+on captures of 16×9 pixels, and judges what came of it. This page is made by
 
 ```sh
-./dev faults
+./dev faults        # each stack of calls: its first, last and middle call
+./dev faults --all  # each call
 ```
 
-**Calls** are those that the command makes on a capture of 16×9 pixels; **stacks** are the different stacks of calls that they are made from, as most
-calls are made by loops. A fault was handled **well** if the command ended with a message that says why and left no file that is not whole, or did
-what it does without the fault; and in both cases nothing that glint allocated was left, and no file was open, that is not there without the fault.
-Everything else is **badly**: a signal, a hang, another output with status 0, a file, silence, a leak. {sum}
+which replace the rows of commands that they try, and take hours. `--only COMMAND` tries one, and the test `faults` a sample of all.
 
-| Command | Kind | Calls | Stacks | Which of them failed | Tried | Well | Badly |
-|---|---|--:|--:|---|--:|--:|--:|
+A fault was handled **well** if the command ended with a message that says why and left no file that is not whole, or did what it does without
+the fault; and in both cases nothing that glint allocated was left, and no file was open, that is not there without the fault. Everything else
+is **badly**: a signal, a hang, another output with status 0, a file, silence, a leak. Of {tried} faults {well} were handled well and {badly} badly.
+
+**Calls** are the allocations that a command makes, and **stacks** the different stacks of calls that they are made from, as most calls are made by
+loops. The columns of kinds have the faults that were tried, and in bold those that were handled badly. *All* is a machine that is out of memory: that
+allocation and all later ones fail. What Jansson allocates while it reads does not fail in the rows of libraries, as Jansson 2.14 then reads
+something else or writes past the end of a string; the program has a reserve of memory for it (`viewer-cli/io/memory.c`).
+
+| Command | Which calls | Calls | Stacks | {kinds} | Tried | Well | Badly |
+|---|---|--:|--:|{lines}--:|--:|--:|
 {rows}
 """
+COLUMNS = ("alloc", "alloc, all", "thread", "mmap", "open", "read", "write", "rename", "sync", "make")
+
+
+def column(kind):
+    """The column of the page that a kind of fault is counted in."""
+    return kind if kind == "alloc, all" else kind.split()[0].rstrip(",")
 
 
 class Table:
@@ -65,9 +78,14 @@ class Table:
                 file.write("[\n" + ",\n".join(json.dumps(row) for row in self.rows.values()) + "\n]\n")
 
     def write_page(self, path):
-        rows = [row for row in self.rows.values() if row["calls"]]
+        lines, rows = [], [row for row in self.rows.values() if row["tried"]]
+        for command in dict.fromkeys(row["command"] for row in rows):
+            own = [row for row in rows if row["command"] == command]
+            tried, badly = (sum(row[name] for row in own) for name in ("tried", "badly"))
+            of = {name: [row for row in own if column(row["kind"]) == name] for name in COLUMNS}
+            cells = [f"{sum(row['tried'] for row in of[name]):,}" + "".join(f" **{n}**" for n in [sum(row["badly"] for row in of[name])] if n) for name in COLUMNS]
+            first = own[0]
+            lines.append(f"| {command} | {first['how']} | {first['calls']:,} | {first['stacks']:,} | {' | '.join(cells)} | {tried:,} | {tried - badly:,} | {badly:,} |")
         tried, badly = (sum(row[name] for row in rows) for name in ("tried", "badly"))
-        lines = [f"| {row['command']} | {row['kind']} | {row['calls']:,} | {row['stacks']:,} | {row['how']} | {row['tried']:,} | {row['tried'] - row['badly']:,} | {row['badly']:,} |"
-                 for row in rows]
         with open(path, "w", encoding="utf-8") as file:
-            file.write(PAGE.format(sum=f"Of {tried:,} faults {tried - badly:,} were handled well and {badly:,} badly.", rows="\n".join(lines)))
+            file.write(PAGE.format(tried=f"{tried:,}", well=f"{tried - badly:,}", badly=f"{badly:,}", kinds=" | ".join(COLUMNS), lines="--:|" * len(COLUMNS), rows="\n".join(lines)))

@@ -29,10 +29,11 @@ static bool keep_picture(struct contest_pictures *p, size_t row, size_t column, 
     const bool ok =
         render_plain(&picture, &legend, &source, &options, &invalid, err) && png_file_write(path, &picture, err);
     picture_finish(&picture);
+    if (!ok) return false;
     json_array_append_new(json_array_get(p->rows, row),
                           json_pack("{s:s, s:s, s:I, s:o}", "file", file, "caption", label, "column",
                                     (json_int_t)column, "values", page_values(&source, p->values_bytes)));
-    return ok;
+    return true;
 }
 
 /* Draws onto the sheet, with its title below, and adds the picture to the page under `name`. */

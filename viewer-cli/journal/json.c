@@ -35,12 +35,12 @@ json_t *shaders_json(const struct list *shaders, struct glint_error *err) {
         const char *path = strchr(shaders->items[i], '=') + 1;
         FILE *file = fopen(path, "rb");
         char *text = calloc(1, 1 << 20);
-        if (!file || !text) {
+        const bool any = file && text && fread(text, 1, (1 << 20) - 1, file) > 0;
+        if (!file || !text || ferror(file)) {
             glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
             json_decref(object);
             object = NULL;
-        } else if (fread(text, 1, (1 << 20) - 1, file) > 0)
-            json_object_set_new(object, shaders->items[i], json_string(text));
+        } else if (any) json_object_set_new(object, shaders->items[i], json_string(text));
         if (file) fclose(file);
         free(text);
         if (!object) return NULL;

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "io/output.h"
+#include "journal/journal.h"
 
 static json_t *names_json(const struct list *list) {
     json_t *names = json_array();
@@ -28,29 +29,31 @@ static json_t *passes_json(const struct glint_pipeline *pipeline) {
     return passes;
 }
 
-/* Texts of the user's shader files. */
-static json_t *shaders_json(const struct list *shaders) {
-    json_t *texts = json_object();
-    for (size_t i = 0; i < shaders->count; i++) {
-        const char *path = strchr(shaders->items[i], '=');
-        FILE *file = path ? fopen(path + 1, "rb") : NULL;
-        char *text = NULL;
-        size_t size = 0;
-        if (file && getdelim(&text, &size, '\0', file) > 0)
-            json_object_set_new(texts, shaders->items[i], json_string(text));
-        free(text);
-        if (file) fclose(file);
-    }
-    return texts;
+/* The file's text, malloc'd; NULL with no error set if it is empty or not there. */
+static char *text_of(const char *path, struct glint_error *err) {
+    FILE *file = fopen(path, "rb");
+    char *text = NULL;
+    size_t size = 0;
+    if (!file && errno == ENOENT) return NULL;
+    const bool read = file && getdelim(&text, &size, '\0', file) > 0;
+    if (!file || ferror(file) || (!read && !feof(file)))
+        glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
+    if (file) fclose(file);
+    if (read && !err->code) return text;
+    free(text);
+    return NULL;
 }
 
-json_t *shot_settings(const struct glint_pipeline *pipeline, const struct pipeline_args *args, const char *device) {
+json_t *shot_settings(const struct glint_pipeline *pipeline, const struct pipeline_args *args, const char *device,
+                      struct glint_error *err) {
     const struct glint_replay_options *o = &args->replay;
+    json_t *shaders = shaders_json(&args->shader, err);
+    if (!shaders) return NULL;
     return json_pack("{s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:s?, s:s?, s:b, s:b, s:b}", "tool", GLINT_VERSION,
-                     "device", device, "pipeline", passes_json(pipeline), "shaders", shaders_json(&args->shader),
-                     "passes", names_json(&args->passes), "outputs", names_json(&args->outputs), "skip",
-                     names_json(&args->skip), "force", names_json(&args->force), "inputs", o->inputs, "history",
-                     o->history, "all", o->all, "diagnostics", o->diagnostics, "float", o->float_precision);
+                     "device", device, "pipeline", passes_json(pipeline), "shaders", shaders, "passes",
+                     names_json(&args->passes), "outputs", names_json(&args->outputs), "skip", names_json(&args->skip),
+                     "force", names_json(&args->force), "inputs", o->inputs, "history", o->history, "all", o->all,
+                     "diagnostics", o->diagnostics, "float", o->float_precision);
 }
 
 static bool write_settings(const char *path, const json_t *settings, struct glint_error *err) {
@@ -67,8 +70,10 @@ bool shot_begin(const char *folder, const json_t *settings, char *const *runs, s
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
     /* What is compared went through a file once, as the other did. */
     char *text = json_dumps(settings, 0);
-    json_t *before = json_load_file(path, 0, NULL), *now = text ? json_loads(text, 0, NULL) : NULL;
-    bool same = now && json_equal(before, now), ok = true;
+    char *there = text_of(path, err);
+    json_t *before = there ? json_loads(there, 0, NULL) : NULL, *now = text ? json_loads(text, 0, NULL) : NULL;
+    bool same = now && json_equal(before, now), ok = !err->code && (now || fail_memory(err));
+    free(there);
     json_decref(before);
     json_decref(now);
     free(text);
@@ -95,27 +100,38 @@ static bool files_are_there(const char *run, const json_t *record) {
     return true;
 }
 
-bool shot_has(const char *run, const char *capture) {
-    char hash[33];
-    struct glint_run *opened = glint_run_open(run, NULL);
+/* What memory or the system refused says nothing about a file. */
+static bool is_refusal(const struct glint_error *err) {
+    return err->code == GLINT_ERROR_MEMORY || err->code == GLINT_ERROR_IO;
+}
+
+bool shot_has(const char *run, const char *capture, bool *has, struct glint_error *err) {
+    char hash[33], path[4096];
+    struct glint_error why = {0};
+    *has = false;
+    if (snprintf(path, sizeof path, "%s/run.json", run) >= (int)sizeof path || access(path, F_OK) != 0) return true;
+    struct glint_run *opened = glint_run_open(run, &why);
     json_t *record = opened ? json_loads(glint_run_json(opened), 0, NULL) : NULL;
     const char *made_of = json_string_value(json_object_get(json_object_get(record, "capture"), "xxh3_128"));
-    struct glint_capture *now = made_of ? glint_capture_open(capture, NULL, NULL) : NULL;
-    bool has = now && files_are_there(run, record) && glint_capture_hash(now, hash, NULL) && !strcmp(hash, made_of);
+    struct glint_capture *now = made_of ? glint_capture_open(capture, NULL, &why) : NULL;
+    *has = now && files_are_there(run, record) && glint_capture_hash(now, hash, &why) && !strcmp(hash, made_of);
+    if (opened && !record) fail_memory(&why);
     glint_capture_close(&now);
     json_decref(record);
     glint_run_close(&opened);
-    return has;
+    return *has || !is_refusal(&why) || glint_fail(err, why.code, "%s", why.message);
 }
 
-bool shot_follows(const char *run, const char *capture) {
-    struct glint_run *before = glint_run_open(run, NULL);
-    struct glint_capture *now = glint_capture_open(capture, NULL, NULL);
-    json_t *record = before ? json_loads(glint_run_json(before), 0, NULL) : NULL;
+bool shot_follows(const char *run, const char *capture, bool *follows, struct glint_error *err) {
+    struct glint_error why = {0};
+    struct glint_run *before = glint_run_open(run, &why);
+    struct glint_capture *now = before ? glint_capture_open(capture, NULL, &why) : NULL;
+    json_t *record = now ? json_loads(glint_run_json(before), 0, NULL) : NULL;
     const json_t *frame = json_object_get(record, "frame");
-    bool follows = now && json_is_integer(frame) && json_integer_value(frame) + 1 == glint_capture_frame(now)->number;
+    *follows = json_is_integer(frame) && json_integer_value(frame) + 1 == glint_capture_frame(now)->number;
+    if (now && !record) fail_memory(&why);
     json_decref(record);
     glint_capture_close(&now);
     glint_run_close(&before);
-    return follows;
+    return !is_refusal(&why) || glint_fail(err, why.code, "%s", why.message);
 }

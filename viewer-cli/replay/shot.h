@@ -5,14 +5,15 @@
 #include "options/pipeline_args.h"
 
 /* Everything that the images of all frames depend on, as JSON: pipeline, shaders, options, tool and device. */
-json_t *shot_settings(const struct glint_pipeline *pipeline, const struct pipeline_args *args, const char *device);
+json_t *shot_settings(const struct glint_pipeline *pipeline, const struct pipeline_args *args, const char *device,
+                      struct glint_error *err);
 
 /* Makes `folder`, which remembers the settings in shot.json. With other settings than those it was begun with, the
    frames' run.json are removed first, so that no mixture of two settings ever looks complete. */
 bool shot_begin(const char *folder, const json_t *settings, char *const *runs, size_t count, struct glint_error *err);
-/* Whether a run is complete and was made from this capture. */
-bool shot_has(const char *run, const char *capture);
-/* Whether the capture is the next frame after that of the run. */
-bool shot_follows(const char *run, const char *capture);
+/* Whether a run is complete and was made from this capture. Fails if memory or the system refuses to tell. */
+bool shot_has(const char *run, const char *capture, bool *has, struct glint_error *err);
+/* Whether the capture is the next frame after that of the run. Fails likewise. */
+bool shot_follows(const char *run, const char *capture, bool *follows, struct glint_error *err);
 
 #endif

@@ -94,7 +94,7 @@ struct tune {
     struct tune_figures scaled;
     bool scaled_within;                                 /* false: no factor meets the limit, and this is the nearest */
     struct glint_pipeline *contenders[TUNE_CONTENDERS]; /* NULL: none */
-    json_t *provenance; /* how the preset was found, as last written */
+    json_t *provenance;                                 /* how the preset was found, as last written */
     struct tune_measured *measured;                     /* subject · TUNE_CONTENDERS + contender */
 };
 void tune_finish(struct tune *tune);

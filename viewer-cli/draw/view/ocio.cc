@@ -120,7 +120,8 @@ std::string choose_input(const OCIO::ConstConfigRcPtr &config, const char *name)
 
 // OpenColorIO wraps what the standard library throws in its own exceptions, which keep its text.
 bool fail_with(const std::exception &e, struct glint_error *err) {
-    if (std::strstr(e.what(), "bad_alloc")) // nothing is allocated here: what an exception handler throws would leave this file
+    if (std::strstr(e.what(),
+                    "bad_alloc")) // nothing is allocated here: what an exception handler throws would leave this file
         return glint_fail(err, GLINT_ERROR_MEMORY, "OpenColorIO: out of memory");
     return glint_fail(err, GLINT_ERROR_FORMAT, "OpenColorIO: %s", e.what());
 }

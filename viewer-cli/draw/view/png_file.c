@@ -74,14 +74,30 @@ static void ignore(png_structp png, png_const_charp message) {
     (void)png, (void)message;
 }
 
+/* Notes for the error's message that there was no memory. */
+static png_voidp take(png_structp png, png_alloc_size_t bytes) {
+    void *memory = malloc(bytes);
+    volatile bool *lacks_memory = png_get_mem_ptr(png);
+    if (!memory) *lacks_memory = true;
+    return memory;
+}
+
+static void give_back(png_structp png, png_voidp memory) {
+    (void)png;
+    free(memory);
+}
+
 /* libpng reports errors by longjmp, so variables that are set after setjmp must not be read afterwards. */
 static bool encode(FILE *file, const struct frames *frames, uint8_t *const *more, const size_t *sizes, const char *path,
                    struct glint_error *err) {
     const struct picture *picture = &frames->pictures[0];
-    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, NULL, fail, ignore);
+    volatile bool lacks_memory = false;
+    png_structp png =
+        png_create_write_struct_2(PNG_LIBPNG_VER_STRING, NULL, fail, ignore, (void *)&lacks_memory, take, give_back);
     png_infop info = png ? png_create_info_struct(png) : NULL;
     if (!info || setjmp(png_jmpbuf(png))) {
         png_destroy_write_struct(&png, &info);
+        if (lacks_memory) return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
         return glint_fail(err, GLINT_ERROR_IO, "%s: cannot write the PNG: %s", path, strerror(errno));
     }
     png_init_io(png, file);

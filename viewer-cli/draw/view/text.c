@@ -5,14 +5,31 @@
 
 #include <ft2build.h>
 #include FT_FREETYPE_H
+#include FT_MODULE_H
 
 #include "draw/blobs.h"
-#include "io/memory.h"
 
 struct text {
+    struct FT_MemoryRec_ memory;
     FT_Library library;
     FT_Face face;
 };
+
+/* FreeType does without some of what it has no memory for, such as a table of the font: io/memory.c notes that it had none. */
+static void *take(FT_Memory memory, long bytes) {
+    (void)memory;
+    return malloc((size_t)bytes);
+}
+
+static void give_back(FT_Memory memory, void *block) {
+    (void)memory;
+    free(block);
+}
+
+static void *resize(FT_Memory memory, long before, long bytes, void *block) {
+    (void)memory, (void)before;
+    return realloc(block, (size_t)bytes);
+}
 
 struct text *text_create(uint32_t height_px, struct glint_error *err) {
     struct text *text = calloc(1, sizeof *text);
@@ -21,7 +38,9 @@ struct text *text_create(uint32_t height_px, struct glint_error *err) {
         return NULL;
     }
     FT_Long size = (FT_Long)(blob_font_end - blob_font);
-    FT_Error failed = FT_Init_FreeType(&text->library);
+    text->memory = (struct FT_MemoryRec_){.alloc = take, .free = give_back, .realloc = resize};
+    FT_Error failed = FT_New_Library(&text->memory, &text->library);
+    if (!failed) FT_Add_Default_Modules(text->library);
     if (!failed) failed = FT_New_Memory_Face(text->library, blob_font, size, 0, &text->face);
     if (!failed) failed = FT_Set_Pixel_Sizes(text->face, 0, height_px);
     if (failed) {
@@ -36,7 +55,7 @@ struct text *text_create(uint32_t height_px, struct glint_error *err) {
 void text_destroy(struct text **text) {
     if (!*text) return;
     if ((*text)->face) FT_Done_Face((*text)->face);
-    if ((*text)->library) FT_Done_FreeType((*text)->library);
+    if ((*text)->library) FT_Done_Library((*text)->library);
     free(*text);
     *text = NULL;
 }
@@ -64,9 +83,7 @@ static int walk(struct text *text, struct picture *picture, int x, int y, const 
     int start = x;
     while (*string) {
         FT_ULong c = next_character(&string);
-        const FT_Error failed = FT_Load_Char(text->face, c, FT_LOAD_RENDER);
-        if (failed == FT_Err_Out_Of_Memory) memory_note();
-        if (failed) continue;
+        if (FT_Load_Char(text->face, c, FT_LOAD_RENDER)) continue;
         if (picture) draw_glyph(text->face->glyph, picture, x, y, color);
         x += (int)(text->face->glyph->advance.x >> 6);
     }
