@@ -126,7 +126,8 @@ static void a_replay_goes_on_after_a_call_that_failed(void **state) {
         for (uint32_t number = 1; any; number += everything ? 1 : 3 * number) {
             any = false;
             for (size_t r = 0; r < 4; r++) {
-                if (!everything && r != (c + number) % 4) continue;
+                const bool gives_up = !strcmp(calls[c], "vkWaitForFences") && number == 4 && r == 1;
+                if (!everything && r != (c + number) % 4 && !gives_up) continue;
                 if (!strcmp(calls[c], "vkGetPhysicalDeviceImageFormatProperties") && r == 3)
                     continue; /* no call of a device */
                 any |= try_fault(fixture, &whole, calls[c], number, results[r]);

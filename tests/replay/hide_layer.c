@@ -21,10 +21,15 @@ static PFN_vkGetDeviceProcAddr next_device;
 static VkInstance instance; /* the last one: programs that are tested use one at a time */
 
 /* Functions of the layer below, which has to be asked for them while an instance is created. */
-#define NEXT_FUNCTIONS                                                                                                 \
-    NEXT(GetPhysicalDeviceFeatures2)                                                                                   \
-    NEXT(EnumerateDeviceExtensionProperties) NEXT(GetPhysicalDeviceProperties) NEXT(GetPhysicalDeviceProperties2)      \
-        NEXT(GetPhysicalDeviceFormatProperties) NEXT(GetPhysicalDeviceQueueFamilyProperties)
+/* clang-format off */
+#define NEXT_FUNCTIONS \
+    NEXT(GetPhysicalDeviceFeatures2) \
+    NEXT(EnumerateDeviceExtensionProperties) \
+    NEXT(GetPhysicalDeviceProperties) \
+    NEXT(GetPhysicalDeviceProperties2) \
+    NEXT(GetPhysicalDeviceFormatProperties) \
+    NEXT(GetPhysicalDeviceQueueFamilyProperties)
+/* clang-format on */
 #define NEXT(name) static PFN_vk##name next_##name;
 NEXT_FUNCTIONS
 #undef NEXT
@@ -86,16 +91,27 @@ static VKAPI_ATTR VkResult VKAPI_CALL hide_EnumerateDeviceExtensionProperties(Vk
 /* ---- Limits, formats and queues ---- */
 
 /* LIMIT(name, what Vulkan requires) */
-#define LIMITS                                                                                                         \
-    LIMIT(maxImageDimension2D, 4096)                                                                                   \
-    LIMIT(maxImageDimensionCube, 4096)                                                                                 \
-    LIMIT(maxImageArrayLayers, 256) LIMIT(maxTexelBufferElements, 65536) LIMIT(maxUniformBufferRange, 16384)           \
-        LIMIT(maxStorageBufferRange, 1 << 27) LIMIT(maxPushConstantsSize, 128) LIMIT(maxMemoryAllocationCount, 4096)   \
-            LIMIT(maxSamplerAllocationCount, 4000) LIMIT(maxBoundDescriptorSets, 4)                                    \
-                LIMIT(maxPerStageDescriptorSamplers, 16) LIMIT(maxPerStageDescriptorUniformBuffers, 12)                \
-                    LIMIT(maxPerStageDescriptorStorageBuffers, 4) LIMIT(maxPerStageDescriptorSampledImages, 16)        \
-                        LIMIT(maxPerStageDescriptorStorageImages, 4) LIMIT(maxPerStageResources, 128)                  \
-                            LIMIT(maxComputeSharedMemorySize, 16384) LIMIT(maxComputeWorkGroupInvocations, 128)
+/* clang-format off */
+#define LIMITS \
+    LIMIT(maxImageDimension2D, 4096) \
+    LIMIT(maxImageDimensionCube, 4096) \
+    LIMIT(maxImageArrayLayers, 256) \
+    LIMIT(maxTexelBufferElements, 65536) \
+    LIMIT(maxUniformBufferRange, 16384) \
+    LIMIT(maxStorageBufferRange, 1 << 27) \
+    LIMIT(maxPushConstantsSize, 128) \
+    LIMIT(maxMemoryAllocationCount, 4096) \
+    LIMIT(maxSamplerAllocationCount, 4000) \
+    LIMIT(maxBoundDescriptorSets, 4) \
+    LIMIT(maxPerStageDescriptorSamplers, 16) \
+    LIMIT(maxPerStageDescriptorUniformBuffers, 12) \
+    LIMIT(maxPerStageDescriptorStorageBuffers, 4) \
+    LIMIT(maxPerStageDescriptorSampledImages, 16) \
+    LIMIT(maxPerStageDescriptorStorageImages, 4) \
+    LIMIT(maxPerStageResources, 128) \
+    LIMIT(maxComputeSharedMemorySize, 16384) \
+    LIMIT(maxComputeWorkGroupInvocations, 128)
+/* clang-format on */
 
 static void lower(VkPhysicalDeviceLimits *limits) {
     const char *name = hidden("limit");

@@ -51,7 +51,8 @@ struct glint_pipeline *pipeline_args_create(const struct pipeline_args *args, st
 }
 
 struct glint_device *pipeline_args_device(const struct pipeline_args *args, struct glint_error *err) {
-    return glint_device_create(&(struct glint_device_options){.select = args->device, .dispatch_limit_s = args->limit_s}, err);
+    return glint_device_create(
+        &(struct glint_device_options){.select = args->device, .dispatch_limit_s = args->limit_s}, err);
 }
 
 struct glint_replay_options pipeline_args_options(const struct pipeline_args *args) {
