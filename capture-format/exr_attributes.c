@@ -38,6 +38,8 @@ static size_t plain_bytes(exr_attribute_type_t type) {
         return sizeof(exr_attr_m44f_t);
     case EXR_ATTR_RATIONAL:
         return sizeof(exr_attr_rational_t);
+    case EXR_ATTR_TILEDESC:
+        return sizeof(exr_attr_tiledesc_t);
     case EXR_ATTR_TIMECODE:
         return sizeof(exr_attr_timecode_t);
     case EXR_ATTR_V2I:
@@ -126,7 +128,9 @@ static bool get_value(struct glint_arena *arena, const exr_attribute_t *from, st
                            from->floatvector->length > 0 ? (size_t)from->floatvector->length : 0, false);
     case EXR_ATTR_STRING_VECTOR:
         return get_strings(arena, from->stringvector, out);
+    case EXR_ATTR_COMPRESSION:
     case EXR_ATTR_ENVMAP:
+    case EXR_ATTR_LINEORDER:
         return get_bytes(arena, &from->uc, 1, out);
     case EXR_ATTR_PREVIEW:
         return get_bytes(arena, from->preview->rgba, (size_t)4 * from->preview->width * from->preview->height, out);
@@ -174,8 +178,10 @@ static exr_result_t set_opaque(exr_context_t context, int part, const struct gli
         return exr_attr_set_envmap(context, part, a->name, (exr_envmap_t) * (const uint8_t *)a->bytes);
     exr_result_t rv = exr_attr_declare_by_type(context, part, a->name, a->type_name, &made);
     if (rv == EXR_ERR_SUCCESS && made->type != EXR_ATTR_OPAQUE) {
-        if (plain_bytes(made->type) != a->count) return EXR_ERR_ATTR_SIZE_MISMATCH;
-        memcpy(made->rawptr, a->bytes, a->count);
+        const bool is_byte = made->type == EXR_ATTR_COMPRESSION || made->type == EXR_ATTR_LINEORDER;
+        if ((is_byte ? 1 : plain_bytes(made->type)) != a->count) return EXR_ERR_ATTR_SIZE_MISMATCH;
+        if (is_byte) made->uc = *(const uint8_t *)a->bytes;
+        else if (a->count) memcpy(made->rawptr, a->bytes, a->count);
         return rv;
     }
     return rv ? rv : exr_attr_set_user(context, part, a->name, a->type_name, (int32_t)a->count, a->bytes);

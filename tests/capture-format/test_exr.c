@@ -15,6 +15,7 @@ static const int32_t box[4] = {1, -2, 3, 4};
 static const int32_t ratio[2] = {24000, 1001};
 static const float pair[2] = {0.5f, -0.25f};
 static const uint8_t secret[5] = {1, 2, 3, 0, 255};
+static const uint8_t one[1] = {1}, tiles[9] = {32, 0, 0, 0, 16};
 static const double curve[3] = {0.5, 1.25, 3};
 static const char *const words[] = {"one", "", "three and more"};
 static const double matrix[16] = {1.1, 2.2, 3.3, 4.4, 5.5, 6.6, 7.7, 8.8, 9.9, 1e300, 1e-300, -0.1, 0, 0, 0, 1};
@@ -37,6 +38,9 @@ static const struct glint_exr_attribute odd[] = {
     {.name = "fine", .type = GLINT_EXR_DOUBLE, .type_name = "double", .numbers = matrix, .count = 1},
     {.name = "take", .type = GLINT_EXR_INT, .type_name = "int", .numbers = curve + 2, .count = 1},
     {.name = "note", .type = GLINT_EXR_STRING, .type_name = "string", .string = "größer"},
+    OPAQUE("packing", "compression", one),
+    OPAQUE("order", "lineOrder", one),
+    OPAQUE("blocks", "tiledesc", tiles),
 };
 
 static void check_same(const struct glint_exr_attribute *a, const struct glint_exr_attribute *b) {

@@ -154,7 +154,7 @@ class Runs:
         self.made = pathlib.Path(build, "tests/fuzz/made")
         self.folder = pathlib.Path(os.environ.get("GLINT_FUZZ", "/var/tmp/glint-fuzz"))
         self.record = record
-        self.stopped = False
+        self.stopped = self.found = False
 
     def corpus(self, target, name="corpus"):
         path = self.folder / target / name
@@ -166,9 +166,11 @@ class Runs:
             return
         artifacts = self.corpus(target, "found")
         run = Fuzzed(self.programs[target], options(target, self.made, artifacts, f"-max_total_time={seconds}"), [str(self.corpus(target)), *seeds(target, self.made)])
-        self.record.add(target, executions=run.executions, seconds=round(run.seconds), found=len(run.found))
+        failed = int(run.status != 0 and not self.stopped)
+        self.record.add(target, executions=run.executions, seconds=round(run.seconds), found=failed)
         print(f"{target}: {run.executions:,} executions{', ' + run.found[0] if run.found else ''}", flush=True)
-        if run.found:
+        if failed:
+            self.found = True
             print(run.end(), flush=True)
 
     def measure(self, target):
@@ -201,7 +203,7 @@ def run(build, targets, seconds, jobs):
     if unknown:
         sys.exit(f"there is no target {', '.join(sorted(unknown))}; there are {', '.join(runs.programs)}")
     runs.all(targets or list(runs.programs), seconds, jobs)
-    return any(runs.record.of(target)["found"] for target in targets or runs.programs)
+    return runs.found
 
 
 def main():
