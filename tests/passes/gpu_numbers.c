@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "gpu.h"
+#include "plain_capture.h"
 #include "spoiled.h"
 #include "unit.h"
 
@@ -188,10 +189,78 @@ static void replays_of_spoiled_captures_are_finite(void **state) {
     assert_true(print_table() == 0);
 }
 
+/* ---- What is stored ---- */
+
+static uint64_t bad_of(const struct gpu *gpu, const char *image, uint64_t *clamped) {
+    struct glint_error err = {0};
+    const struct glint_bad_values *bad;
+    size_t count;
+    if (!glint_replay_bad_values(gpu->replay, &bad, &count, &err)) fail_msg("%s", err.message);
+    *clamped = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (strcmp(bad[i].image, image) != 0) continue;
+        *clamped = bad[i].clamped;
+        return bad[i].not_finite;
+    }
+    return 0;
+}
+
+/* A half is at most 65504. Denormal halves, infinities and NaN stay. */
+static void finite_values_stay_finite_in_halves(void **state) {
+    static const float expected[8] = {65504, -65504, 65504, 1024, 0x1p-24F, INFINITY, -INFINITY, NAN};
+    struct gpu *gpu = *state;
+    char path[256];
+    uint64_t clamped;
+    plain_capture(gpu_path(gpu, "plain", path), &(struct plain){.width = 8, .height = 8, .fov_y_degrees = 60});
+    gpu_load(gpu, "plain");
+    gpu_reset(gpu);
+    gpu_shader(gpu, "upscale", "beyond.comp");
+    gpu_run(gpu);
+    float *found = gpu_floats(gpu, "reflection", NULL, NULL);
+    for (int i = 0; i < 64; i++) {
+        const float value = found[4 * i], right = expected[i % 8];
+        if (!(isnan(right) ? isnan(value) : value == right)) fail_msg("column %d holds %g", i % 8, (double)value);
+        assert_true(found[4 * i + 1] == 1 && found[4 * i + 2] == -0.25F && found[4 * i + 3] == 65504);
+    }
+    assert_int_equal(bad_of(gpu, "reflection", &clamped), 3 * 8);
+    assert_int_equal(clamped, 3 * 8 + 64);
+    free(found);
+}
+
+static const float captured[8] = {NAN, INFINITY, -INFINITY, 3.4e38F, -3.4e38F, 1e-40F, 2, -2};
+static void spoil_light(const struct plain *plain, float *values) {
+    for (uint32_t i = 0; i < 8; i++) values[PLAIN_LIT_G * plain->width * plain->height + i] = captured[i];
+}
+
+/* Passes read finite values; what the capture had is counted. */
+static void captured_values_are_read_as_finite_ones(void **state) {
+    static const float expected[8] = {0, 65504, -65504, 65504, -65504, 0, 2, -2};
+    struct gpu *gpu = *state;
+    struct glint_error err = {0};
+    char path[256];
+    uint64_t clamped;
+    plain_capture(gpu_path(gpu, "spoiled", path),
+                  &(struct plain){.width = 8, .height = 8, .fov_y_degrees = 60, .spoil = spoil_light});
+    gpu_load(gpu, "spoiled");
+    gpu_reset(gpu);
+    if (!glint_replay_run(gpu->replay, gpu->pipeline, &(struct glint_replay_options){.captured = true}, NULL, NULL,
+                          &err))
+        fail_msg("%s", err.message);
+    float *lit = gpu_floats(gpu, "lit", NULL, NULL);
+    for (int i = 0; i < 8; i++) assert_true(lit[4 * i + 1] == expected[i]);
+    assert_int_equal(bad_of(gpu, "lit", &clamped), 3);
+    assert_int_equal(clamped, 2);
+    free(lit);
+}
+
 int main(int argc, char **argv) {
     if (argc > 1) replays = (uint32_t)strtoul(argv[1], NULL, 10);
     if (argc > 2) first_seed = (uint32_t)strtoul(argv[2], NULL, 10);
     if (argc > 3) only_kind = (uint32_t)strtoul(argv[3], NULL, 10);
-    const struct CMUnitTest tests[] = {cmocka_unit_test(replays_of_spoiled_captures_are_finite)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(finite_values_stay_finite_in_halves),
+        cmocka_unit_test(captured_values_are_read_as_finite_ones),
+        cmocka_unit_test(replays_of_spoiled_captures_are_finite),
+    };
     return cmocka_run_group_tests_name("gpu_numbers", tests, gpu_set_up, gpu_tear_down);
 }
