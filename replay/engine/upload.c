@@ -104,13 +104,11 @@ static bool upload_cubemaps(struct run *run, const char *role, struct glint_erro
     return ok;
 }
 
-/* Values that are in memory already: tables, and images of runs, of the engine or of the capture, in which invalid values are made finite and
-   counted. */
+/* Values that are in memory already: tables, and images of runs or of the engine. */
 static bool upload_values(struct run *run, size_t i, const void *values, struct glint_error *err) {
     struct pool *pool = run->pool;
     struct pooled *image = run->images[i];
     const struct image_desc *desc = &image->image.desc;
-    const bool made = run->graph->images[i].source == SOURCE_MADE;
     image->key = 0, image->quick = false;
     bool ok = true;
     const uint32_t *from = values;
@@ -120,11 +118,8 @@ static bool upload_values(struct run *run, size_t i, const void *values, struct 
                                   .stride = format_components(desc->format),
                                   .at = {0, 1, 2, 3},
                                   .format = desc->format,
-                                  .to = pool->staging.map,
-                                  .row = made ? NULL : run->graph->images[i].row};
+                                  .to = pool->staging.map};
         pack_texels(&packing, image->levels[l].info.width, image->levels[l].info.height);
-        image->levels[l].bad = packing.bad;
-        image->levels[l].bad_key = made ? 0 : run->keys[i];
         image_record_upload(&image->image, run->gpu, &pool->staging, 0, l, 0, image_layers(desc), l == 0);
         ok = submit_upload(run, image->levels[l].info.name, err);
     }
@@ -222,6 +217,7 @@ static bool upload_shadows(struct run *run, size_t i, struct glint_error *err) {
         }
     }
     ok = ok && upload_values(run, i, values, err);
+    if (ok) run->images[i]->levels[0].bad = bad_floats(row, values, texels);
     free(values);
     return ok;
 }

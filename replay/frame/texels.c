@@ -1,4 +1,4 @@
-/* Packs values into an image's format, makes invalid ones finite and counts them. */
+/* Packs values into an image's format and counts invalid values. */
 #include "texels.h"
 
 #include <math.h>
@@ -17,11 +17,6 @@ float half_clamped(float value) {
 /* In lengths +inf is the distance of the sky; inverse lengths become infinite at the camera. */
 static bool may_be_infinite(const struct glint_row *row) {
     return strcmp(row->unit, "m") == 0 || strcmp(row->unit, "1/m") == 0;
-}
-
-float finite_value(const struct glint_row *row, float value) {
-    if (isnan(value) || fpclassify(value) == FP_SUBNORMAL) return 0;
-    return isinf(value) && !may_be_infinite(row) ? copysignf(HALF_LARGEST, value) : value;
 }
 
 static void note_first(struct bad_values *found, size_t index, float value) {
@@ -80,10 +75,6 @@ static void count_bad(struct packing *p, size_t c, const uint32_t *from, size_t 
     pthread_mutex_unlock(&p->lock);
 }
 
-static uint16_t packed_half(const struct glint_row *row, float value) {
-    return imath_float_to_half(half_clamped(row ? finite_value(row, value) : value));
-}
-
 static void pack_rows(void *user, size_t first, size_t last) {
     struct packing *p = user;
     const size_t components = format_components(p->format), begin = first * p->width, end = last * p->width;
@@ -93,7 +84,7 @@ static void pack_rows(void *user, size_t first, size_t last) {
         const uint32_t *from = p->at[c] == SIZE_MAX ? &missing : p->from + p->at[c] + begin * p->stride;
         const size_t stride = p->at[c] == SIZE_MAX ? 0 : p->stride;
         const size_t bytes = format_bytes(p->format) / components;
-        if (p->row && stride && !glint_format_is_uint(p->format)) count_bad(p, c, from, stride, begin, end);
+        if (p->row && stride) count_bad(p, c, from, stride, begin, end);
         if (bytes == 1)
             for (size_t i = begin; i < end; i++, from += stride)
                 ((uint8_t *)p->to)[i * components + c] = (uint8_t)*from;
@@ -101,13 +92,7 @@ static void pack_rows(void *user, size_t first, size_t last) {
             for (size_t i = begin; i < end; i++, from += stride) {
                 float value;
                 memcpy(&value, from, sizeof value);
-                ((uint16_t *)p->to)[i * components + c] = packed_half(p->row, value);
-            }
-        else if (p->row && !glint_format_is_uint(p->format))
-            for (size_t i = begin; i < end; i++, from += stride) {
-                float value;
-                memcpy(&value, from, sizeof value);
-                ((float *)p->to)[i * components + c] = finite_value(p->row, value);
+                ((uint16_t *)p->to)[i * components + c] = imath_float_to_half(half_clamped(value));
             }
         else
             for (size_t i = begin; i < end; i++, from += stride) ((uint32_t *)p->to)[i * components + c] = *from;

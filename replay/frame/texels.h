@@ -1,4 +1,4 @@
-/* Packs values into an image's format, where invalid values become finite, and counts these: NaN, infinity except in lengths, values beyond the range of half. */
+/* Packs values into an image's format and counts invalid values: NaN, infinity except in lengths, values beyond the range of half. */
 #ifndef GLINT_REPLAY_TEXELS_H
 #define GLINT_REPLAY_TEXELS_H
 
@@ -15,9 +15,6 @@ struct bad_values {
 #define HALF_LARGEST 65504.0f
 /* Clamps finite values to the range of half. */
 float half_clamped(float value);
-/* What passes read of a captured value: 0 instead of NaN, and of a denormal float, whose reciprocal is infinite and which devices may take for 0; the
-   largest half instead of infinity, which lengths alone may hold. */
-float finite_value(const struct glint_row *row, float value);
 /* Counts a value of an image if it is invalid; `index` is its place, `half` the precision in which it will be stored. */
 void bad_value(struct bad_values *found, const struct glint_row *row, bool half, size_t index, float value);
 /* Adds the counts of other values of the same image. */
@@ -35,7 +32,7 @@ struct packing {
     enum glint_format format;
     void *to;
     size_t width;
-    const struct glint_row *row; /* if not NULL, invalid values are made finite and counted */
+    const struct glint_row *row; /* if not NULL, invalid values are counted */
     struct bad_values bad;
     pthread_mutex_t lock;
 };

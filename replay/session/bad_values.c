@@ -12,14 +12,9 @@ static bool is_captured(const struct image_part *part) {
     return part->info == &part->image->alias;
 }
 
-static bool is_counted(const struct image_part *part) {
-    const struct pooled *image = part->image;
-    return is_captured(part) || (image->key && image->levels[part->info->level].bad_key == image->key);
-}
-
 void bad_values_of_texels(const struct image_part *part, const void *texels) {
     const struct glint_image *info = part->info;
-    if (is_counted(part)) return;
+    if (is_captured(part)) return;
     const size_t count = (size_t)info->width * info->height * info->components;
     struct bad_values found = {0};
     if (format_bytes(info->format) / info->components == 2) found = bad_halves(info->row, texels, count);
@@ -39,7 +34,7 @@ static bool append_bad(struct glint_replay *replay, const struct image_part *par
     replay->results.bad = list;
     list += replay->results.bad_count++;
     const size_t texel = bad->first / info->components;
-    *list = (struct glint_bad_values){.image = info->pass || info->level ? info->name : info->row->name,
+    *list = (struct glint_bad_values){.image = info->pass ? info->name : info->row->name,
                                       .pass = info->pass,
                                       .x = (uint32_t)(texel % info->width),
                                       .y = (uint32_t)(texel / info->width),
@@ -54,12 +49,9 @@ static bool append_bad(struct glint_replay *replay, const struct image_part *par
 
 bool bad_values_of_capture(struct glint_replay *replay, const struct run *run, struct glint_error *err) {
     bool ok = true;
-    for (size_t i = 0; ok && i < run->graph->image_count; i++) {
-        struct pooled *image = run->images[i];
-        if (run->graph->images[i].source != SOURCE_CAPTURE || !run->needed[i] || !image) continue;
-        for (uint32_t l = 0; ok && l < image->image.desc.levels; l++)
-            ok = append_bad(replay, &(struct image_part){image, &image->levels[l].info}, err);
-    }
+    for (size_t i = 0; ok && i < run->graph->image_count; i++)
+        if (run->graph->images[i].source == SOURCE_CAPTURE && run->needed[i] && run->images[i])
+            ok = append_bad(replay, &(struct image_part){run->images[i], &run->images[i]->levels[0].info}, err);
     replay->results.bad_captured = replay->results.bad_count;
     return ok;
 }
@@ -75,7 +67,9 @@ bool glint_replay_bad_values(struct glint_replay *replay, const struct glint_bad
         const size_t images = pool_parts(&replay->pool, replay->results.passes[p].pass, parts, PASS_PARTS_MAX);
         for (size_t i = 0; ok && i < images; i++) {
             VkDeviceSize offset;
-            if (!is_counted(&parts[i])) {
+            const struct pooled *image = parts[i].image;
+            const bool counted = image->key && image->levels[parts[i].info->level].bad_key == image->key;
+            if (!counted && !is_captured(&parts[i])) {
                 ok = pool_readback(&replay->pool, &parts[i], 1, &buffer, &offset, &own);
                 if (ok) bad_values_of_texels(&parts[i], (const char *)buffer.map + offset);
             }

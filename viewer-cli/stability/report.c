@@ -167,7 +167,7 @@ static void print_invalid(const struct glint_stability_invalid *invalid) {
     if (!*invalid->image) return;
     if (invalid->pass)
         printf("\nThe first pass whose values are not finite is %s/%s: ", invalid->pass->slot, invalid->pass->variant);
-    else printf("\nThe capture has invalid values, which passes read as finite ones: ");
+    else printf("\nThe capture has invalid values: ");
     printf("%s %s at %u,%u is %g; %llu values are not finite, %llu are clamped\n", invalid->image, invalid->channel,
            invalid->x, invalid->y, (double)invalid->value, (unsigned long long)invalid->not_finite,
            (unsigned long long)invalid->clamped);

@@ -17,7 +17,7 @@ void store_facet(ivec2 at) {
     imageStore(depth_slopes, at, vec4(slopes, 0.0, 0.0));
     // The slopes are rounded to half, which moves the rise by less than a thousandth of it.
     float rise = 1.001 * facet_rise(slopes), fall = 2.0 * rise;
-    float inverse = depth_m < LARGEST ? 1.0 / depth_m : 0.0;
+    float inverse = depth_m < LARGEST ? min(1.0 / depth_m, LARGEST) : 0.0; // that of a denormal depth is infinite
     vec2 range = inverse > 0.0 ? inverse * vec2(1.000001 + rise, max(1.0 - fall, 0.0)) : vec2(NO_SURFACE, 0.0);
     imageStore(hiz, at, vec4(range, 0.0, 0.0));
 }

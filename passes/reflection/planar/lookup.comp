@@ -35,7 +35,7 @@ vec4 color_at_end(vec3 position, vec3 ray) {
     bool shown = uv == clamp(uv, 0.0, 1.0);
     vec3 color = textureLod(sampler2D(planar_color, linear_clamp), uv, 0.0).rgb;
     probe(PROBE_sample, vec4(IMAGE_planar_color, uv * vec2(textureSize(planar_color, 0)), float(shown)), vec4(color, 0.0));
-    return vec4(color, shown ? 1.0 : 0.0);
+    return shown && finite(vec4(color, 0.0)) ? vec4(color, 1.0) : vec4(0.0);
 }
 
 void main() {

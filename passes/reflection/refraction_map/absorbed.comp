@@ -38,7 +38,8 @@ void main() {
     for (int i = 0; i < wide * wide && tile_works; ++i) {
         ivec2 pixel = wide * texel + ivec2(i & 1, i >> 1);
         if (any(greaterThanEqual(pixel, ivec2(frame.size.xy)))) continue;
-        sum += behind(pixel);
+        vec4 color = behind(pixel);
+        if (finite(color)) sum += color;
         pixels += 1.0;
     }
     imageStore(refraction_map, texel, sum.a > 0.0 ? vec4(storable(sum.rgb / sum.a, frame.up.w), sum.a / pixels) : vec4(0.0));

@@ -19,5 +19,5 @@ vec4 color_before(Ray ray, out uint source) {
     if (source == SHOWN) found = found_color(record_picture(image, place.xy, 0.0, picture_before(place)));
     else if (has_previous_picture()) found = not_shown(ray);
     else found = found_on_screen(ray); // a capture without the previous frame
-    return found.color.a > 0.0 ? through_fog(found, ray) : found.color;
+    return source_color(found.color.a > 0.0 ? through_fog(found, ray) : found.color);
 }

@@ -184,11 +184,14 @@ vec4 through_fog(Found found, Ray ray) {
     return vec4(mix(color, toward_sky ? sky : frame.fog_color.rgb, covered), found.color.a);
 }
 
+// What is not finite stays in the pixel that the capture has it for: a ray that meets it has no source.
+vec4 source_color(vec4 color) { return finite(color) ? color : vec4(0.0); }
+
 // finished: it ended on screen; place: otherwise the cube map in which it ended, or none. a: 0 if there is no source.
 vec4 color_at_end(Ray ray, bool finished, uint place) {
     Found found = SKY;
     if (finished) found = found_on_screen(ray);
     else if (place < frame.counts.x) found = found_in_cubemap(ray, place);
     else if (!ray.endless) return vec4(0.0);
-    return through_fog(found, ray);
+    return source_color(through_fog(found, ray));
 }

@@ -33,8 +33,9 @@ vec3 seen_through(Water water, ivec2 pixel) {
             uv = seen_at(water.position + way_m * ray);
             there_m = thickness_at(uv, way_m);
         }
-        if (there_m > 0.0) {
-            bottom = textureLod(sampler2D(composed, linear_clamp), uv, 0.0).rgb;
+        vec3 seen = textureLod(sampler2D(composed, linear_clamp), uv, 0.0).rgb;
+        if (there_m > 0.0 && finite(vec4(seen, 0.0))) {
+            bottom = seen;
             probe(PROBE_sample, vec4(IMAGE_composed, uv * vec2(frame.size.xy), 1.0), vec4(bottom, 0.0));
         }
     }

@@ -28,7 +28,7 @@ vec4 map_at(vec2 uv) {
         ivec2 texel = clamp(ivec2(floor(place)) + ivec2(i & 1, i >> 1), ivec2(0), ivec2(frame.size.zw) - 1);
         vec4 there = texelFetch(refraction_map, texel, 0);
         float weight = side.x * side.y * there.a;
-        if (weight > 0.0) sum += weight * vec4(there.rgb, 1.0);
+        if (weight > 0.0 && finite(there)) sum += weight * vec4(there.rgb, 1.0);
     }
     return sum.a > 0.0 ? vec4(sum.rgb / sum.a, 1.0) : vec4(0.0);
 }

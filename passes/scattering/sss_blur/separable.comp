@@ -51,7 +51,8 @@ vec3 difference(ivec2 pixel, vec3 own, float depth_m) {
     if (any(lessThan(pixel, ivec2(0))) || any(greaterThanEqual(pixel, ivec2(frame.size.xy)))) return vec3(0.0);
     if (!(texelFetch(skin_width, pixel, 0).x > 0.0)) return vec3(0.0);
     float apart = abs(texelFetch(depth_full, pixel, 0).x - depth_m);
-    return (light_at(pixel) - own) * clamp(1.0 - 1000.0 * apart / depth_mm, 0.0, 1.0);
+    vec3 light = light_at(pixel);
+    return finite(vec4(light, 0.0)) ? (light - own) * clamp(1.0 - 1000.0 * apart / depth_mm, 0.0, 1.0) : vec3(0.0);
 }
 
 vec3 scattered(ivec2 pixel, vec3 own, float wide) {

@@ -339,8 +339,7 @@ const struct glint_image *glint_replay_find_image(const struct glint_replay *rep
 bool glint_replay_read_image(struct glint_replay *replay, const struct glint_image *image, enum glint_type type,
                              void *out, struct glint_error *err);
 /* An image with invalid values: NaN, infinity (except in lengths, where +inf means sky), and in half images finite values beyond
-   65504, which are clamped to it. In images that a pass made 65504 itself counts as clamped. Of images that were read from a file these are the file's
-   values; passes read 0 in place of NaN, and 65504 in place of infinity. */
+   65504, which are clamped to it. In images that a pass made 65504 itself counts as clamped. */
 struct glint_bad_values {
     const char *image;             /* name, with the level as in struct glint_image */
     const struct glint_pass *pass; /* the pass that makes it; NULL for an image of the capture */

@@ -80,7 +80,7 @@ static bool within_px(const double a[2], const double b[2], double reach_px) {
 /* Whether a position is at or near an invalid pixel, or, for walls, mirrors one. */
 static bool near_bad(const struct garbage_case *c, const struct open_box *box, const double place[2], double reach_px) {
     struct open_box_ray ray;
-    const bool mirrors = c->where == GARBAGE_WALL && open_box_reflect(box, place, &ray) && ray.in_front;
+    const bool mirrors = c->where == GARBAGE_WALL && reach_px > 0 && open_box_reflect(box, place, &ray) && ray.in_front;
     for (size_t i = 0; i < place_count(c); i++) {
         uint32_t at[2];
         place_of(c, i, at);
@@ -139,6 +139,7 @@ void garbage_mask(const struct garbage_case *c, const struct open_box *box, cons
             const bool near =
                 c->reach_px > box->width || *effect == GARBAGE_FINITE ||
                 near_bad(c, box, place, c->reach_px); /* invalid texels of cube maps have no positions in the picture */
-            *effect = near ? GARBAGE_FINITE : GARBAGE_NO_EFFECT;
+            const bool bad = c->where == GARBAGE_WALL && near_bad(c, box, place, 0);
+            *effect = bad ? GARBAGE_ANYTHING : near ? GARBAGE_FINITE : GARBAGE_NO_EFFECT;
         }
 }

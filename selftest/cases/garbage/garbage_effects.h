@@ -37,8 +37,8 @@ struct garbage_box {
     struct open_box box;
 };
 void garbage_store(void *user, const char *part, const char *channel, float *plane, uint32_t width, uint32_t height);
-/* The effect of invalid values on a pixel: none, or a finite change. */
-enum garbage_effect { GARBAGE_NO_EFFECT, GARBAGE_FINITE };
+/* The effect of invalid values on a pixel: none, a finite change, or any value, if it depends on one directly. */
+enum garbage_effect { GARBAGE_NO_EFFECT, GARBAGE_FINITE, GARBAGE_ANYTHING };
 /* travelled: hit distances without the invalid values, for invalid texels. */
 void garbage_mask(const struct garbage_case *c, const struct open_box *box, const struct picture *travelled,
                   enum garbage_effect *effects);

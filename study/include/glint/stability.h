@@ -64,10 +64,9 @@ struct glint_stability_pass {
 };
 /* Values of an image of the unperturbed frame that are not finite (in lengths: NaN), or that are clamped to the range of half. */
 struct glint_stability_invalid {
-    char image[96], channel[48]; /* image: "" if there are none */
-    const struct glint_pass
-        *pass;     /* NULL for the capture, whose values passes read as finite ones (struct glint_bad_values) */
-    uint32_t x, y; /* the first value, in row order */
+    char image[96], channel[48];   /* image: "" if there are none */
+    const struct glint_pass *pass; /* NULL for the capture */
+    uint32_t x, y;                 /* the first value, in row order */
     float value;
     uint64_t not_finite, clamped;
 };
