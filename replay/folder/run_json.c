@@ -10,11 +10,12 @@
 #include "complete.h"
 #include "glint/replay.h"
 #include "record.h"
+#include "run_writer.h"
 
 enum { PATH_SIZE = 4096 };
 
-/* Removes the files of a pass's images; failures are harmless: several images share a file. */
-static void remove_images(const char *folder, const json_t *pass) {
+/* Removes the files of a pass's images that are not in `kept`; failures are harmless: several images share a file. */
+static void remove_images(const char *folder, const json_t *pass, const json_t *kept) {
     char path[PATH_SIZE];
     json_t *image;
     size_t i;
@@ -22,22 +23,56 @@ static void remove_images(const char *folder, const json_t *pass) {
         const char *file = json_string_value(json_object_get(image, "file"));
         const size_t length = file ? strlen(file) : 0;
         if (length < 5 || strchr(file, '/') || strcmp(file + length - 4, ".exr") != 0) continue;
+        if (json_object_get(kept, file)) continue;
         snprintf(path, sizeof path, "%s/%s", folder, file);
         unlink(path);
     }
 }
 
+static void remove_run(const char *folder, const json_t *root, const json_t *kept) {
+    json_t *pass;
+    size_t p;
+    json_array_foreach(json_object_get(root, "passes"), p, pass) {
+        remove_images(folder, pass, kept);
+    }
+    remove_images(folder, json_object_get(root, "compared"), kept);
+}
+
 bool glint_run_remove(const char *folder, struct glint_error *err) {
     char path[PATH_SIZE];
     snprintf(path, sizeof path, "%s/run.json", folder);
-    json_t *root = json_load_file(path, 0, NULL), *pass;
-    size_t p;
-    bool ok = unlink(path) == 0 || errno == ENOENT || glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
-    if (ok) {
-        json_array_foreach(json_object_get(root, "passes"), p, pass) remove_images(folder, pass);
-        remove_images(folder, json_object_get(root, "compared"));
-    }
+    run_writer_recover(folder); /* which would come back otherwise */
+    json_t *root = json_load_file(path, 0, NULL);
+    const bool ok = unlink(path) == 0 || errno == ENOENT || errno == ENOTDIR ||
+                    glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
+    if (ok) remove_run(folder, root, NULL);
     json_decref(root);
+    return ok;
+}
+
+/* {FILE: true} of a run; NULL if it cannot be read whole. */
+static json_t *list_files(const json_t *root) {
+    json_t *files = root ? json_object() : NULL, *pass, *image;
+    size_t p, i;
+    json_array_foreach(json_object_get(root, "passes"), p, pass) {
+        json_array_foreach(json_object_get(pass, "images"), i, image) {
+            record_set(&files, json_string_value(json_object_get(image, "file")), json_true());
+        }
+    }
+    return files;
+}
+
+bool run_remove_others(const char *folder, const char *staging, struct glint_error *err) {
+    char path[PATH_SIZE];
+    snprintf(path, sizeof path, "%s/old.json", staging);
+    json_t *old = json_load_file(path, 0, NULL);
+    snprintf(path, sizeof path, "%s/run.json", staging);
+    json_t *root = json_load_file(path, 0, NULL), *kept = list_files(root);
+    const bool ok = kept || glint_fail(err, GLINT_ERROR_IO, "%s: cannot be read", path);
+    if (ok) remove_run(folder, old, kept);
+    json_decref(kept);
+    json_decref(root);
+    json_decref(old);
     return ok;
 }
 
