@@ -1,9 +1,11 @@
 /* A library to preload (LD_PRELOAD) that lets the n-th allocation, or the n-th system call of a kind, fail in a program of glint. Environment variables say which:
 
-   GLINT_FAIL_KIND    alloc, thread, read, write, open, rename, sync, mmap or make (folders); without it nothing fails
+   GLINT_FAIL_KIND    alloc, thread, read, write, open, rename, sync, mmap, make (folders) or remove; without it nothing fails
    GLINT_FAIL_NUMBER  the number of the call that fails, from 1; without it calls are only counted
    GLINT_FAIL_ALL     set: all from that number on fail
-   GLINT_FAIL_ERROR   the error's number (errno), or "short": the call works with half of the bytes; without it what is usual for the kind
+   GLINT_FAIL_ERROR   the error's number (errno), or "short": the call works with half of the bytes; "kill": the process ends by SIGKILL instead of making
+                      the call; "tear": it ends when the call has worked with half of the bytes; without it what is usual for the kind
+   GLINT_FAIL_LOG     a file to which system calls are written that rename or sync, one a line: "rename FROM TO" ("over": TO was a file), "sync FILE"
    GLINT_FAIL_REPORT  a file to which the number of calls is written when main returns, and the call stack of the first call that fails, one "object offset" a line
 
    Calls are counted from the beginning of main to its end, in all threads. Only those that are made on behalf of glint count, as what the
@@ -43,11 +45,11 @@ static int object_count;
 static atomic_flag objects_lock = ATOMIC_FLAG_INIT;
 
 static const char *const kind_names[FAIL_KINDS] = {"alloc",  "thread", "read", "write", "open",
-                                                   "rename", "sync",   "mmap", "make"};
+                                                   "rename", "sync",   "mmap", "make", "remove"};
 static int kind = -1;
 static long number;
 static bool all;
-static const char *error_text, *report_path;
+static const char *error_text, *report_path, *log_path;
 static atomic_long calls;
 static atomic_bool running, told;
 static _Thread_local bool inside __attribute__((tls_model("initial-exec")));
@@ -124,7 +126,7 @@ static void note_stack(void) {
 }
 
 bool fail_watches(enum fail_kind which) {
-    return (int)which == kind;
+    return (int)which == kind || (log_path && (which == FAIL_RENAME || which == FAIL_SYNC));
 }
 
 bool fail_now(enum fail_kind which, const void *caller) {
@@ -145,8 +147,20 @@ int fail_error(int otherwise) {
     return asked ? asked : otherwise;
 }
 
+static bool asked_for(const char *error) {
+    return error_text && !strcmp(error_text, error);
+}
 bool fail_short(void) {
-    return error_text && !strcmp(error_text, "short");
+    return asked_for("short") || asked_for("tear");
+}
+bool fail_tears(void) {
+    return asked_for("tear");
+}
+bool fail_kills(void) {
+    return asked_for("kill");
+}
+const char *fail_log(void) {
+    return log_path;
 }
 
 static void begin(void) {
@@ -157,6 +171,7 @@ static void begin(void) {
     all = getenv("GLINT_FAIL_ALL") != NULL;
     error_text = getenv("GLINT_FAIL_ERROR");
     report_path = getenv("GLINT_FAIL_REPORT");
+    log_path = getenv("GLINT_FAIL_LOG");
     void *frames[2];
     backtrace(frames, 2); /* the first call loads the unwinder */
     object_at((const void *)(uintptr_t)begin);

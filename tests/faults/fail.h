@@ -14,6 +14,7 @@ enum fail_kind {
     FAIL_SYNC,
     FAIL_MMAP,
     FAIL_MAKE,
+    FAIL_REMOVE,
     FAIL_KINDS
 };
 
@@ -26,6 +27,11 @@ bool fail_watches(enum fail_kind kind);
 int fail_error(int otherwise);
 /* Whether the call works in part: half of its bytes. */
 bool fail_short(void);
+/* Whether the process ends (SIGKILL) instead of making the call, or once the call has worked in part. */
+bool fail_kills(void);
+bool fail_tears(void);
+/* The file that lists what is renamed and what is on the disk for sure, or NULL. */
+const char *fail_log(void);
 /* From here on system calls are caught, if any of these kinds was asked for. */
 void fail_catch_calls(void);
 
