@@ -81,17 +81,47 @@ static bool copy_into(const char *from, const char *to, const char *name, struct
     return join(source, from, file, err) && join(copy, to, file, err) && copy_file(source, copy, err);
 }
 
-/* run.json last: a folder that has it is whole. Its names are on the disk as well then. */
+/* run.json last, and whole: a folder that has it is a whole run. Its names are on the disk as well then. */
 static bool copy_run(const char *from, const char *to, const json_t *files, struct glint_error *err) {
     static const char record[] = "run.json";
-    char inside[PATH_SIZE];
+    char inside[PATH_SIZE], source[PATH_SIZE], copy[PATH_SIZE], last[PATH_SIZE];
     const char *name;
     json_t *value;
     bool ok = join(inside, to, "/", err);
     json_object_foreach((json_t *)files, name, value) {
         if (strcmp(name, record) != 0) ok = ok && copy_into(from, to, name, err);
     }
-    return ok && copy_into(from, to, record, err) && (glint_path_sync_folder(inside) || fail_at(to, err));
+    return ok && join(source, from, "/run.json", err) && join(copy, to, "/run.json-copy", err) &&
+           join(last, to, "/run.json", err) && copy_file(source, copy, err) &&
+           (rename(copy, last) == 0 || fail_at(last, err)) && (glint_path_sync_folder(inside) || fail_at(to, err));
+}
+
+static bool same_contents(const char *a, const char *b) {
+    enum { PIECE = 1 << 16 };
+    FILE *first = fopen(a, "rb"), *second = fopen(b, "rb");
+    char *one = malloc(PIECE), *other = malloc(PIECE);
+    bool same = first && second && one && other;
+    for (size_t got = PIECE; same && got == PIECE;) {
+        got = fread(one, 1, PIECE, first);
+        same = fread(other, 1, PIECE, second) == got && !memcmp(one, other, got) && !ferror(first) && !ferror(second);
+    }
+    free(one);
+    free(other);
+    if (first) fclose(first);
+    if (second) fclose(second);
+    return same;
+}
+
+static bool is_same_run(const char *a, const char *b, const json_t *files) {
+    const char *name;
+    json_t *value;
+    bool same = true;
+    json_object_foreach((json_t *)files, name, value) {
+        char first[PATH_SIZE], second[PATH_SIZE];
+        same = same && snprintf(first, PATH_SIZE, "%s/%s", a, name) < PATH_SIZE &&
+               snprintf(second, PATH_SIZE, "%s/%s", b, name) < PATH_SIZE && same_contents(first, second);
+    }
+    return same;
 }
 
 /* Refuses folders with files that do not belong to the run, because they would be lost. */
@@ -155,21 +185,29 @@ static bool replace(const char *fresh, const char *baseline, const char *kept, s
     return ok;
 }
 
-static bool remove_all(const char *folder, struct glint_error *err) {
+static bool remove_contents(const char *folder, struct glint_error *err) {
     DIR *entries = opendir(folder);
-    if (!entries) return errno == ENOENT || fail_at(folder, err);
-    for (const struct dirent *entry; (entry = readdir(entries));) unlinkat(dirfd(entries), entry->d_name, 0);
-    closedir(entries);
-    return rmdir(folder) == 0 || fail_at(folder, err);
+    bool ok = entries || fail_at(folder, err);
+    for (const struct dirent *entry; entries && (entry = readdir(entries));)
+        if (strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0 &&
+            unlinkat(dirfd(entries), entry->d_name, 0) != 0)
+            ok = fail_at(folder, err);
+    if (entries) closedir(entries);
+    return ok;
 }
 
-/* What a process left that was killed: the old baseline, if it has its place neither as the baseline nor as the one before (between the two steps
-   of `exchange`), or a copy that is of no use any more. */
-static bool clear_fresh(const char *fresh, const char *kept, struct glint_error *err) {
+/* Locks the folder of the copy, and clears what a process left there that was killed: the old baseline, if that has its place neither as the baseline
+   nor as the one before it (between the two steps of `exchange`), or a copy that is of no use any more. */
+static struct glint_folder_lock *begin_copy(const char *fresh, const char *kept, struct glint_error *err) {
     char record[PATH_SIZE];
-    if (!join(record, fresh, "/run.json", err)) return false;
-    if (access(record, F_OK) == 0 && access(kept, F_OK) != 0) return rename(fresh, kept) == 0 || fail_at(kept, err);
-    return remove_all(fresh, err);
+    struct glint_folder_lock *lock = join(record, fresh, "/run.json", err) ? glint_folder_lock(fresh, err) : NULL;
+    if (lock && access(record, F_OK) == 0 && access(kept, F_OK) != 0) {
+        const bool moved = rename(fresh, kept) == 0 || fail_at(kept, err);
+        glint_folder_unlock(&lock);
+        if (moved) lock = glint_folder_lock(fresh, err);
+    }
+    if (lock && !remove_contents(fresh, err)) glint_folder_unlock(&lock);
+    return lock;
 }
 
 /* The locks are on the folders themselves, and so go with them where they are renamed: nobody else approves anything as this baseline until both have
@@ -177,16 +215,16 @@ static bool clear_fresh(const char *fresh, const char *kept, struct glint_error 
 static bool approve(const char *run, const char *baseline, const json_t *files, struct glint_error *err) {
     char fresh[PATH_SIZE], kept[PATH_SIZE];
     if (!join(fresh, baseline, ".new", err) || !join(kept, baseline, "~", err)) return false;
-    struct glint_folder_lock *lock = glint_folder_lock(fresh, err), *old = NULL;
-    bool ok = lock && clear_fresh(fresh, kept, err);
-    glint_folder_unlock(&lock);
-    ok = ok && (lock = glint_folder_lock(fresh, err)) &&
-         (access(baseline, F_OK) != 0 || (old = glint_folder_lock(baseline, err))) &&
-         copy_run(run, fresh, files, err);
+    struct glint_folder_lock *lock = begin_copy(fresh, kept, err), *old = NULL;
+    bool ok = lock && (access(baseline, F_OK) != 0 || (old = glint_folder_lock(baseline, err))) &&
+              copy_run(run, fresh, files, err);
     if (ok && memory_ran_out())
         ok = glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", run); /* a file may lack */
-    ok = ok && replace(fresh, baseline, kept, err) && (glint_path_sync_folder(baseline) || fail_at(baseline, err));
-    if (!ok && lock) remove_all(fresh, NULL);
+    /* The one before stays what it is if this run is approved twice, as it is after an interruption. */
+    const bool again = ok && is_same_run(fresh, baseline, files);
+    ok = ok && (again || replace(fresh, baseline, kept, err)) &&
+         (glint_path_sync_folder(baseline) || fail_at(baseline, err));
+    if (lock && (again || !ok) && remove_contents(fresh, NULL)) rmdir(fresh);
     glint_folder_unlock(&old);
     glint_folder_unlock(&lock);
     return ok;
