@@ -215,7 +215,8 @@ bool glint_path_remove(const char *path) {
 static bool is_old(const FILETIME *written) {
     FILETIME now;
     GetSystemTimeAsFileTime(&now);
-    const uint64_t hour = (uint64_t)3600 * 10000000, then = (uint64_t)written->dwHighDateTime << 32 | written->dwLowDateTime;
+    const uint64_t hour = (uint64_t)3600 * 10000000,
+                   then = (uint64_t)written->dwHighDateTime << 32 | written->dwLowDateTime;
     return ((uint64_t)now.dwHighDateTime << 32 | now.dwLowDateTime) > then + hour;
 }
 

@@ -64,7 +64,8 @@ static bool each_file(const char *folder, visit visit, void *user, struct glint_
 static bool remove_file(const char *folder, const char *name, void *user, struct glint_error *err) {
     char path[PATH_SIZE];
     (void)user;
-    return (snprintf(path, sizeof path, "%s/%s", folder, name) < PATH_SIZE && unlink(path) == 0) || fail_at(folder, err);
+    return (snprintf(path, sizeof path, "%s/%s", folder, name) < PATH_SIZE && unlink(path) == 0) ||
+           fail_at(folder, err);
 }
 
 static bool sync_file(const char *folder, const char *name, void *user, struct glint_error *err) {

@@ -132,10 +132,8 @@ static void a_secret_file_is_secret(UNUSED void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_complete_file_gets_its_name),
-        cmocka_unit_test(an_incomplete_file_is_removed),
-        cmocka_unit_test(what_fails_is_named),
-        cmocka_unit_test(what_a_killed_process_left_is_removed),
+        cmocka_unit_test(a_complete_file_gets_its_name), cmocka_unit_test(an_incomplete_file_is_removed),
+        cmocka_unit_test(what_fails_is_named),           cmocka_unit_test(what_a_killed_process_left_is_removed),
 #ifndef _WIN32
         cmocka_unit_test(a_secret_file_is_secret),
 #endif

@@ -45,7 +45,7 @@ static int object_count;
 static atomic_flag objects_lock = ATOMIC_FLAG_INIT;
 
 static const char *const kind_names[FAIL_KINDS] = {"alloc",  "thread", "read", "write", "open",
-                                                   "rename", "sync",   "mmap", "make", "remove"};
+                                                   "rename", "sync",   "mmap", "make",  "remove"};
 static int kind = -1;
 static long number;
 static bool all;

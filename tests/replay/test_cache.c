@@ -123,10 +123,7 @@ static void what_is_no_file_is_none(UNUSED void **state) {
         cache_store(place.folder, keys[0], place.file, UINT64_MAX);
         assert_true(cache_find(place.folder, keys[0], path, sizeof path));
         assert_int_equal(rename(path, place.back), 0); /* the very contents */
-        assert_int_equal(kind == 0   ? mkfifo(path, 0600)
-                         : kind == 1 ? symlink(place.back, path)
-                                     : mkdir(path, 0700),
-                         0);
+        assert_int_equal(kind == 0 ? mkfifo(path, 0600) : kind == 1 ? symlink(place.back, path) : mkdir(path, 0700), 0);
         assert_false(cache_copy(place.folder, keys[0], place.file));
         assert_false(cache_find(place.folder, keys[0], path, sizeof path));
     }

@@ -179,8 +179,8 @@ static bool replace(const char *fresh, const char *baseline, const char *kept, s
     if (access(baseline, F_OK) != 0 || rmdir(baseline) == 0)
         return rename(fresh, baseline) == 0 || fail_at(baseline, err);
     json_t *files = files_of(baseline, err);
-    const bool ok = files && holds_only(baseline, files, err) && clear_kept(kept, err) &&
-                    exchange(fresh, baseline, kept, err);
+    const bool ok =
+        files && holds_only(baseline, files, err) && clear_kept(kept, err) && exchange(fresh, baseline, kept, err);
     json_decref(files);
     return ok;
 }

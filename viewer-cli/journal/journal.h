@@ -13,7 +13,7 @@ struct journal {
     const char *kind;   /* "sweep" */
     int log;            /* file descriptor; 0: none */
     struct glint_folder_lock *lock;
-    size_t results;     /* lines of the log */
+    size_t results; /* lines of the log */
     /* Receives each line of the log, and may keep a reference to it. Returns false if the line does not belong to the study. */
     bool (*keep)(void *user, json_t *line);
     void *user;
