@@ -10,7 +10,6 @@
 #include "complete.h"
 #include "glint/replay.h"
 #include "record.h"
-#include "run_writer.h"
 
 enum { PATH_SIZE = 4096 };
 
@@ -29,27 +28,6 @@ static void remove_images(const char *folder, const json_t *pass, const json_t *
     }
 }
 
-static void remove_run(const char *folder, const json_t *root, const json_t *kept) {
-    json_t *pass;
-    size_t p;
-    json_array_foreach(json_object_get(root, "passes"), p, pass) {
-        remove_images(folder, pass, kept);
-    }
-    remove_images(folder, json_object_get(root, "compared"), kept);
-}
-
-bool glint_run_remove(const char *folder, struct glint_error *err) {
-    char path[PATH_SIZE];
-    snprintf(path, sizeof path, "%s/run.json", folder);
-    run_writer_recover(folder); /* which would come back otherwise */
-    json_t *root = json_load_file(path, 0, NULL);
-    const bool ok = unlink(path) == 0 || errno == ENOENT || errno == ENOTDIR ||
-                    glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
-    if (ok) remove_run(folder, root, NULL);
-    json_decref(root);
-    return ok;
-}
-
 /* {FILE: true} of a run; NULL if it cannot be read whole. */
 static json_t *list_files(const json_t *root) {
     json_t *files = root ? json_object() : NULL, *pass, *image;
@@ -62,15 +40,18 @@ static json_t *list_files(const json_t *root) {
     return files;
 }
 
-bool run_remove_others(const char *folder, const char *staging, struct glint_error *err) {
-    char path[PATH_SIZE];
-    snprintf(path, sizeof path, "%s/old.json", staging);
-    json_t *old = json_load_file(path, 0, NULL);
-    snprintf(path, sizeof path, "%s/run.json", staging);
-    json_t *root = json_load_file(path, 0, NULL), *kept = list_files(root);
-    const bool ok = kept || glint_fail(err, GLINT_ERROR_IO, "%s: cannot be read", path);
-    if (ok) remove_run(folder, old, kept);
-    json_decref(kept);
+bool run_remove_images(const char *removed, const char *kept, const char *folder, struct glint_error *err) {
+    json_t *old = json_load_file(removed, 0, NULL), *root = kept ? json_load_file(kept, 0, NULL) : NULL;
+    json_t *files = kept ? list_files(root) : json_object(), *pass;
+    size_t p;
+    const bool ok = files || glint_fail(err, GLINT_ERROR_IO, "%s: cannot be read", kept);
+    if (ok) {
+        json_array_foreach(json_object_get(old, "passes"), p, pass) {
+            remove_images(folder, pass, files);
+        }
+        remove_images(folder, json_object_get(old, "compared"), files);
+    }
+    json_decref(files);
     json_decref(root);
     json_decref(old);
     return ok;

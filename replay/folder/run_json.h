@@ -9,7 +9,7 @@
 /* Replaces the file atomically. */
 bool run_write_json(const char *folder, const json_t *root, struct glint_error *err);
 
-/* Removes the images of STAGING/old.json from the folder, except those that STAGING/run.json lists as well. */
-bool run_remove_others(const char *folder, const char *staging, struct glint_error *err);
+/* Removes the images from the folder that the run.json `removed` lists, except those of the run.json `kept`, unless that is NULL. */
+bool run_remove_images(const char *removed, const char *kept, const char *folder, struct glint_error *err);
 
 #endif

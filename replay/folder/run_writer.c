@@ -103,12 +103,20 @@ static bool rename_in(const char *from, const char *from_name, const char *to, c
     return rename(source, target) == 0 || fail_at(target, err);
 }
 
+/* The images of old.json that run.json in the folder `kept`, if that has one, does not list. */
+static bool remove_old_images(const char *folder, const char *staging, const char *kept, struct glint_error *err) {
+    char old[PATH_SIZE], record[PATH_SIZE];
+    snprintf(old, sizeof old, "%.4000s/old.json", staging);
+    snprintf(record, sizeof record, "%.4000s/run.json", kept);
+    return run_remove_images(old, is_file(kept, "run.json") ? record : NULL, folder, err);
+}
+
 /* Steps 2 and 3. They can be repeated from wherever they ended. */
 static bool move_in(const char *folder, const char *staging, struct glint_error *err) {
     const bool replaced = is_file(staging, "old.json");
     bool ok = each_file(staging, move_file, (void *)folder, err);
     if (replaced) {
-        ok = ok && run_remove_others(folder, staging, err) && sync_folder(folder, err) &&
+        ok = ok && remove_old_images(folder, staging, staging, err) && sync_folder(folder, err) &&
              remove_file(staging, "old.json", NULL, err);
     }
     ok = ok && rename_in(staging, "run.json", folder, "run.json", err) && (!replaced || sync_folder(folder, err));
@@ -120,13 +128,15 @@ static bool has_whole_run(const char *folder, const char *staging) {
     return is_folder(staging) && is_file(staging, "run.json") && !is_file(folder, "run.json");
 }
 
-/* What a process left that was killed: a run that only had to be moved is kept, and what is not whole removed. */
+/* What a process left that was killed: a run that only had to be moved is kept, and what is not whole removed, such as the images of a run that was
+   being removed. */
 static bool clear_staging(const char *folder, const char *staging, struct glint_error *err) {
     struct stat found;
     if (lstat(staging, &found) != 0) return true;
     if (!S_ISDIR(found.st_mode))
         return glint_fail(err, GLINT_ERROR_IO, "%s: expected a folder, found something else", staging);
     if (has_whole_run(folder, staging)) return move_in(folder, staging, err);
+    if (is_file(staging, "old.json") && !remove_old_images(folder, staging, folder, err)) return false;
     return each_file(staging, remove_file, NULL, err) && (rmdir(staging) == 0 || fail_at(staging, err));
 }
 
@@ -144,6 +154,17 @@ bool run_writer_recover(const char *folder) {
         if (!ours) nanosleep(&(struct timespec){.tv_nsec = WAIT_MS * 1000000}, NULL);
     }
     return is_file(folder, "run.json");
+}
+
+/* run.json moves first, as in a replacement: it says what has to be removed, until everything is. */
+bool glint_run_remove(const char *folder, struct glint_error *err) {
+    char staging[PATH_SIZE];
+    if (snprintf(staging, sizeof staging, "%s" NEW, folder) >= PATH_SIZE)
+        return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
+    if (!clear_staging(folder, staging, err)) return false;
+    if (!is_file(folder, "run.json")) return true;
+    return (mkdir(staging, 0777) == 0 || fail_at(staging, err)) &&
+           rename_in(folder, "run.json", staging, "old.json", err) && clear_staging(folder, staging, err);
 }
 
 struct glint_run_writer *glint_run_writer_open(const char *folder, struct glint_error *err) {

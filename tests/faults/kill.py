@@ -31,7 +31,7 @@ import tap  # noqa: E402
 LIMIT_S = 300
 CALLS = ["open", "write", "rename", "sync", "make", "remove"]
 TIMES = re.compile("(_ns|_ms|ms|seconds|_bytes)$|^(ms|time|cold|min|median|max|low|high)$")
-CACHED = re.compile("^(ran|cached|reason|dispatches|work)$")
+CACHED = re.compile("^(ran|cached|reason|dispatches|work|history)$")
 NUMBER = re.compile("[0-9]+([.][0-9]+)?(e-?[0-9]+)?( (ns|µs|ms|s)\\b)?|[ ─█▏▎▍▌▋▊▉–]+".encode())
 TEMPORARY = re.compile("[.]tmp-[0-9a-f]{8}$|(^|/)[.]glint-new(/|$)|[.]new(/|$)")
 P = tap.PLAIN
@@ -71,7 +71,7 @@ def tree(folder):
 
 
 def without_times(value, timed=False):
-    """What does not depend on times, nor on what the cache held."""
+    """What does not depend on times, on what the cache held, and on whether the frame before came from a folder."""
     if isinstance(value, dict):
         return {k: without_times(v, timed or bool(TIMES.search(k))) for k, v in value.items() if not CACHED.search(k)}
     if isinstance(value, list):

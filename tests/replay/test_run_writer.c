@@ -113,6 +113,22 @@ static void an_interrupted_replacement_is_completed(void **state) {
     }
 }
 
+/* Catches: images that stay when a removal is interrupted, and files of the user that go. */
+static void an_interrupted_removal_is_completed(void **state) {
+    struct glint_error err = {0};
+    char staging[256], from[512], to[512];
+    const char *folder = old_run(state, "removed");
+    snprintf(staging, sizeof staging, "%s/.glint-new", folder);
+    snprintf(from, sizeof from, "%s/run.json", folder);
+    snprintf(to, sizeof to, "%s/old.json", staging);
+    assert_true(mkdir(staging, 0777) == 0 && rename(from, to) == 0);
+    assert_null(glint_run_open(folder, &err));
+    assert_true(glint_run_remove(folder, &err));
+    assert_false(exists(folder, "old.exr") || exists(folder, ".glint-new"));
+    assert_true(exists(folder, "mine.txt") && exists(folder, "both.exr"));
+    assert_true(glint_run_remove(folder, &err));
+}
+
 /* Catches: files that are moved out of another folder, or removed there, because a run folder says so. */
 static void a_link_is_not_followed(void **state) {
     struct glint_error err = {0};
@@ -194,6 +210,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_run_replaces_another_at_once),
         cmocka_unit_test(an_interrupted_replacement_is_completed),
+        cmocka_unit_test(an_interrupted_removal_is_completed),
         cmocka_unit_test(a_link_is_not_followed),
         cmocka_unit_test(one_process_at_a_time_writes),
         cmocka_unit_test(a_folder_made_for_the_lock_goes_with_it),

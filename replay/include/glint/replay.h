@@ -410,8 +410,8 @@ const char *glint_run_json(const struct glint_run *run);
 size_t glint_run_image_count(const struct glint_run *run);
 const struct glint_run_image *glint_run_image(const struct glint_run *run, size_t i);
 const struct glint_run_image *glint_run_find(const struct glint_run *run, const char *name);
-/* Removes run.json and then the files that it lists, so that an interrupted removal leaves no folder that looks complete. It is no
-   error if the folder holds no run. */
+/* Removes run.json and then the images that it lists; what an interrupted removal leaves, the next removal or run removes. It is no error if the
+   folder holds no run. */
 bool glint_run_remove(const char *folder, struct glint_error *err);
 /* Replaces `folder`/run.json atomically. */
 bool glint_run_write_json(const char *folder, const char *text, struct glint_error *err);
