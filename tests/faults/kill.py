@@ -41,7 +41,7 @@ COMMANDS = {
     "replay": ("replay tiny.exr -p {P} -o out", {"out": "old"}),
     "replay, cache": ("replay tiny.exr -p mafia3 --cache cache -o out", {"out": "old"}),
     "replay a shot": ("replay shot.0001.exr shot.0002.exr shot.0003.exr -p mafia3 -o shots", {"shots/shot.0002": "old"}),
-    "sweep": ("sweep tiny.exr -p {P} -o study --vary screen_trace.steps=8,16 --rays 16 --repeat 1", {}),
+    "sweep": ("sweep tiny.exr -p {P} -o study --vary screen_trace.steps=8,16 --rays 16 --repeat 0", {}),
     "tune": ("tune tiny.exr -p {P} -o tuned.json --budget-ms 1000 --vary screen_trace.steps --tries 3 --rays 16 --repeat 1 --rounds 1", {"tuned.json": "other.json"}),
     "reference": ("reference tiny.exr -o reference --rays 32", {}),
     "compare": ("compare tiny.exr --presets kf2,{P} --rounds 1 -o compared", {}),

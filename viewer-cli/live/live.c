@@ -109,9 +109,9 @@ bool live_begin(struct live *live, struct glint_error *err) {
     pthread_mutex_init(&live->converting, NULL);
     pthread_cond_init(&live->wake, NULL);
     pthread_cond_init(&live->changed, NULL);
-    if (!check_texts(live, err) || !read_frames(live, err) || !list_presets(live, err) || !temporary_make(&live->temporary, "live", err) ||
-        !(live->times = json_object()) || !(live->device = pipeline_args_device(live->args, err)) ||
-        !(live->registry = live_registry(live, err)))
+    if (!check_texts(live, err) || !read_frames(live, err) || !list_presets(live, err) ||
+        !temporary_make(&live->temporary, "live", err) || !(live->times = json_object()) ||
+        !(live->device = pipeline_args_device(live->args, err)) || !(live->registry = live_registry(live, err)))
         return false;
     /* What the command line says is checked before there is an address. */
     const bool ok = state_read(&state, live, json_object_get(live->registry, "start"), err) &&
