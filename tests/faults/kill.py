@@ -33,7 +33,7 @@ CALLS = ["open", "write", "rename", "sync", "make", "remove"]
 TIMES = re.compile("(_ns|_ms|ms|seconds|_bytes)$|^(ms|time|cold|min|median|max|low|high)$")
 CACHED = re.compile("^(ran|cached|reason|dispatches|work|history)$")
 NUMBER = re.compile("[0-9]+([.][0-9]+)?(e-?[0-9]+)?( (ns|µs|ms|s)\\b)?|[ ─█▏▎▍▌▋▊▉–]+".encode())
-TEMPORARY = re.compile("[.]tmp-[0-9a-f]{8}$|(^|/)[.]glint-new(/|$)|[.]new(/|$)")
+TEMPORARY = re.compile("[.]tmp-[0-9a-f]{8}$|(^|/)[.]glint-new(/|$)|[.]new~(/|$)")
 P = tap.PLAIN
 
 # What is run in a folder that has tiny.exr, shot.000[123].exr, old, other and loose/, and what of that (or of an older run of another command) it replaces.
@@ -44,7 +44,7 @@ COMMANDS = {
     "sweep": ("sweep tiny.exr -p {P} -o study --vary screen_trace.steps=8,16 --rays 16 --repeat 0", {}),
     "tune": ("tune tiny.exr -p {P} -o tuned.json --budget-ms 1000 --vary screen_trace.steps --tries 3 --rays 16 --repeat 1 --rounds 1", {"tuned.json": "other.json"}),
     "reference": ("reference tiny.exr -o reference --rays 32", {}),
-    "compare": ("compare tiny.exr --presets kf2,{P} --rounds 1 -o compared", {}),
+    "compare": ("compare tiny.exr --presets kf2,{P} -o compared", {}),
     "check --approve": ("check old --baseline base --approve", {"base": "other"}),
     "pack": ("pack loose/manifest.json -o out.exr", {"out.exr": "shot.0001.exr"}),
     "extract": ("extract tiny.exr -o textures", {}),

@@ -22,7 +22,7 @@ sys.path.append(os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__f
 import tap  # noqa: E402
 
 PRESETS = [tap.PLAIN, "kf2", "mafia3"]
-LOCKED = re.compile("(process [0-9]+|another process) is writing into this folder")
+LOCKED = re.compile("(process [0-9]+|another process) is using this folder")
 ENTRY = re.compile("[0-9a-f]{32}-[0-9a-f]{32}[.]exr$")
 LIMIT_S = 600
 
@@ -147,7 +147,7 @@ class Rounds:
                     found = {k: v for k, v in found.items() if k != ".glint-new"}
                 if not self.is_expected(found):
                     self.fail(f"{name} holds {sorted(found)}")
-            elif not re.fullmatch("alone[0-9]|tiny[.]exr|cache|tmp", name) and not (killed and name == "base.new"):
+            elif not re.fullmatch("alone[0-9]|tiny[.]exr|cache|tmp", name) and not (killed and name == "base.new~"):
                 self.fail(f"{name} is left")
         if os.listdir(self.path("tmp")):
             self.fail(f"left in TMPDIR: {os.listdir(self.path('tmp'))}")

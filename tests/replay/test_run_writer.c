@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/prctl.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -154,6 +155,7 @@ static pid_t hold(const char *folder) {
     assert_int_equal(pipe(told), 0);
     const pid_t child = fork();
     if (child == 0) {
+        prctl(PR_SET_PDEATHSIG, SIGKILL); /* also if the test fails */
         if (!glint_folder_lock(folder, NULL) || write(told[1], "1", 1) != 1) _exit(1);
         for (;;) pause();
     }
@@ -172,7 +174,7 @@ static void one_process_at_a_time_writes(void **state) {
     assert_null(glint_run_writer_open(folder, &err));
     assert_int_equal(err.code, GLINT_ERROR_IO);
     fixture_says(&err, folder);
-    snprintf(process, sizeof process, "process %ld is writing into this folder", (long)child);
+    snprintf(process, sizeof process, "process %ld is using this folder", (long)child);
     fixture_says(&err, process);
     assert_null(glint_folder_lock_shared(folder, &err));
     expect_run(folder, false); /* which may be read */

@@ -214,7 +214,7 @@ static struct glint_folder_lock *begin_copy(const char *fresh, const char *kept,
    their places. */
 static bool approve(const char *run, const char *baseline, const json_t *files, struct glint_error *err) {
     char fresh[PATH_SIZE], kept[PATH_SIZE];
-    if (!join(fresh, baseline, ".new", err) || !join(kept, baseline, "~", err)) return false;
+    if (!join(fresh, baseline, ".new~", err) || !join(kept, baseline, "~", err)) return false;
     struct glint_folder_lock *lock = begin_copy(fresh, kept, err), *old = NULL;
     bool ok = lock && (access(baseline, F_OK) != 0 || (old = glint_folder_lock(baseline, err))) &&
               copy_run(run, fresh, files, err);
