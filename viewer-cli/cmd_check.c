@@ -80,12 +80,24 @@ static void say_approved(const struct arguments *a, const struct check_pair *pai
     else if (!a->diff.quiet) printf("approved: new baseline %s\n", pair->baseline);
 }
 
+/* While nobody writes into either folder. */
+static bool compare_locked(const struct arguments *a, const char *const paths[2], struct diff *diff,
+                           struct glint_error *err) {
+    struct glint_folder_lock *locks[2] = {NULL};
+    *diff = (struct diff){.status = DIFF_SAME};
+    const bool ok = (locks[0] = glint_folder_lock_shared(paths[0], err)) &&
+                    (locks[1] = glint_folder_lock_shared(paths[1], err)) &&
+                    diff_args_compare(&a->diff, paths, diff, err);
+    for (int i = 0; i < 2; i++) glint_folder_unlock(&locks[i]);
+    return ok;
+}
+
 /* Compares a run with its baseline, and approves it if requested. */
 static bool check_both(const struct arguments *a, const struct check_pair *pair, json_t *list, enum diff_status *status,
                        struct glint_error *err) {
     const char *const paths[2] = {pair->baseline, pair->run};
     struct diff diff;
-    bool ok = diff_args_compare(&a->diff, paths, &diff, err);
+    bool ok = compare_locked(a, paths, &diff, err);
     json_t *json = ok && list ? diff_json(&diff) : NULL;
     if (ok && !list && !a->diff.quiet) diff_print(&diff, a->diff.verbose);
     if (ok) *status = diff.status;

@@ -228,7 +228,10 @@ static enum status cmd_compare_run(int argc, char **argv) {
     bool ok = contest_begin(&contest, a.presets.items, &a.settings, &err);
     if (ok) pipeline_note_fog(&cmd_compare, contest.all[0].pipeline, captures_fogged(&a.captures));
     ok = ok && (contest.device = glint_device_create(&device, &err)) != NULL;
+    struct glint_folder_lock *lock = NULL;
+    ok = ok && (!a.out || (lock = glint_folder_lock(a.out, &err)));
     enum status status = ok ? compare_all(&contest, &a, &err) : command_fail(&cmd_compare, &err);
+    glint_folder_unlock(&lock);
     contest_finish(&contest);
     glint_device_destroy(&contest.device);
     list_free(&a.captures);

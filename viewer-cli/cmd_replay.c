@@ -312,17 +312,19 @@ static bool replay_one(struct job *job, const char *path, const char *folder, co
         return false;
     }
     note_gap(job, capture, history);
+    /* Before anything is computed that could not be written. */
+    struct glint_run_writer *writer = folder ? glint_run_writer_open(folder, err) : NULL;
     progress_begin(&progress);
     progress_phase(&progress, "replay");
     job->against->progress = progress_report;
     job->against->user = &progress;
     job->against->all = options.all;
     struct found found = {0};
-    bool ok = glint_replay_load(job->replay, capture, err) &&
+    bool ok = (writer || !folder) && glint_replay_load(job->replay, capture, err) &&
               glint_replay_run(job->replay, job->pipeline, &options, progress_report, &progress, err);
     ok = ok &&
          (!folder || (report_keep_errors(folder, NULL, 0, err) &&
-                      glint_replay_write(job->replay, folder, progress_report, &progress, err))) &&
+                      glint_replay_write_to(job->replay, writer, progress_report, &progress, err))) &&
          glint_replay_bad_values(job->replay, &found.bad, &found.count, err);
     for (size_t e = 0; ok && e < effects; e++)
         ok = against_compare(job->against, e, job->replay, capture, job->pipeline, &compared[e], err);
@@ -335,6 +337,7 @@ static bool replay_one(struct job *job, const char *path, const char *folder, co
     else if (ok) print_run(path, folder, compared, &found, job);
     for (size_t e = 0; ok && e < effects; e++) ok = against_valid(&compared[e], path, err);
     for (size_t e = 0; e < effects; e++) comparison_finish(&compared[e]);
+    glint_run_writer_close(&writer);
     glint_replay_load(job->replay, NULL, NULL);
     glint_capture_close(&capture);
     pipe_finish(&pipe);
@@ -369,7 +372,11 @@ static enum status replay_all(struct job *job) {
     struct glint_error err = {0};
     size_t kept = 0;
     char **folders = job->a->out ? run_folders(job->a, &err) : NULL;
-    if ((job->a->out && !folders) || !count_kept(job, folders, &kept, &err)) {
+    struct glint_folder_lock *lock = NULL; /* on the folder of a shot; that of one run is locked by its writer */
+    if ((job->a->out && !folders) ||
+        (folders && captures->count > 1 && !(lock = glint_folder_lock(job->a->out, &err))) ||
+        !count_kept(job, folders, &kept, &err)) {
+        glint_folder_unlock(&lock);
         free_folders(folders, captures->count);
         return command_fail(&cmd_replay, &err);
     }
@@ -387,6 +394,7 @@ static enum status replay_all(struct job *job) {
         }
         if (!job->runs && ok && i + 1 < captures->count) putchar('\n');
     }
+    glint_folder_unlock(&lock);
     free_folders(folders, captures->count);
     return status;
 }

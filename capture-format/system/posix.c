@@ -1,11 +1,16 @@
 /* system.h for POSIX. */
 #include "system.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
+#include <sys/random.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 glint_file glint_file_open(const char *path) {
@@ -16,8 +21,35 @@ glint_file glint_file_create(const char *path) {
     return open(path, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
 }
 
+/* Who uses a temporary file holds a lock on it, which ends with the process. One that cannot be locked for other reasons, as on some network
+   file systems, is not removed by others either. */
+static bool is_locked_by_others(int file) {
+    return flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+}
+
+glint_file glint_file_create_temporary(const char *path, bool secret) {
+    struct stat found;
+    const int file = open(path, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, secret ? 0600 : 0666);
+    if (file < 0) return GLINT_NO_FILE;
+    /* Before it was locked another process may have taken it for one that nobody uses. */
+    if (!is_locked_by_others(file) && fstat(file, &found) == 0 && found.st_nlink > 0) return file;
+    close(file);
+    errno = EEXIST;
+    return GLINT_NO_FILE;
+}
+
 bool glint_file_close(glint_file file) {
     return close((int)file) == 0;
+}
+
+/* Network file systems report at the first close what they could not write; the second descriptor keeps the lock. */
+bool glint_file_close_as(glint_file file, const char *from, const char *to) {
+    const int locked = fcntl((int)file, F_DUPFD_CLOEXEC, 0);
+    const bool ok = close((int)file) == 0 && rename(from, to) == 0;
+    const int reason = errno;
+    if (locked >= 0) close(locked);
+    errno = reason;
+    return ok;
 }
 
 bool glint_file_read(glint_file file, void *buffer, size_t size, uint64_t offset, size_t *got) {
@@ -81,6 +113,49 @@ bool glint_path_remove(const char *path) {
     return unlink(path) == 0;
 }
 
+static bool is_temporary(const char *name, const char *of) {
+    const size_t length = strlen(name), tail = strlen(GLINT_TEMPORARY) + GLINT_TEMPORARY_DIGITS;
+    const char *end = name + length - tail;
+    return length > tail && (!*of || (strlen(of) == length - tail && !strncmp(name, of, length - tail))) &&
+           !strncmp(end, GLINT_TEMPORARY, strlen(GLINT_TEMPORARY)) &&
+           strspn(end + strlen(GLINT_TEMPORARY), "0123456789abcdef") == GLINT_TEMPORARY_DIGITS;
+}
+
+/* The folder of the path, opened, or -1. */
+static int open_folder(const char *path) {
+    const size_t length = glint_path_folder(path);
+    char *folder = length ? strndup(path, length) : strdup(".");
+    const int file = folder ? open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
+    free(folder);
+    return file;
+}
+
+void glint_path_remove_temporaries(const char *path) {
+    const int folder = open_folder(path);
+    DIR *entries = folder >= 0 ? fdopendir(folder) : NULL;
+    struct stat found;
+    if (!entries && folder >= 0) close(folder);
+    for (const struct dirent *entry; entries && (entry = readdir(entries));) {
+        if (!is_temporary(entry->d_name, path + glint_path_folder(path))) continue;
+        const int file = openat(folder, entry->d_name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+        if (file >= 0 && fstat(file, &found) == 0 && S_ISREG(found.st_mode) && flock(file, LOCK_EX | LOCK_NB) == 0)
+            unlinkat(folder, entry->d_name, 0);
+        if (file >= 0) close(file);
+    }
+    if (entries) closedir(entries);
+}
+
+/* File systems that cannot do it say EINVAL; a folder that we may write but not read cannot be opened. */
+bool glint_path_sync_folder(const char *path) {
+    const int folder = open_folder(path);
+    if (folder < 0) return errno == EACCES;
+    const bool ok = fsync(folder) == 0 || errno == EINVAL;
+    const int reason = errno;
+    close(folder);
+    errno = reason;
+    return ok;
+}
+
 bool glint_path_create_folder(const char *path) {
     return mkdir(path, 0777) == 0;
 }
@@ -92,6 +167,14 @@ size_t glint_path_folder(const char *path) {
 
 long glint_process_id(void) {
     return (long)getpid();
+}
+
+uint32_t glint_random(void) {
+    uint32_t number;
+    struct timespec now;
+    if (getrandom(&number, sizeof number, GRND_NONBLOCK) == sizeof number) return number;
+    clock_gettime(CLOCK_MONOTONIC, &now); /* just after the machine has started */
+    return (uint32_t)now.tv_nsec * 2654435761U ^ (uint32_t)getpid();
 }
 
 /* ---- Threads ---- */

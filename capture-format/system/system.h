@@ -28,7 +28,12 @@ struct glint_file_info {
 glint_file glint_file_open(const char *path);
 /* For writing; a file that exists is emptied. */
 glint_file glint_file_create(const char *path);
+/* For writing; fails with EEXIST if anything has this name. It counts as in use until it is closed. Nobody else may read it if `secret`. */
+glint_file glint_file_create_temporary(const char *path, bool secret);
 bool glint_file_close(glint_file file);
+/* Closes a file of glint_file_create_temporary, named `from`, and renames it to `to`, which it replaces. It is in use until it has the new name. On
+   failure it is closed and keeps its name. */
+bool glint_file_close_as(glint_file file, const char *from, const char *to);
 /* Less than `size` bytes are only read at the end of the file. Several threads may read one file. */
 bool glint_file_read(glint_file file, void *buffer, size_t size, uint64_t offset, size_t *got);
 bool glint_file_write(glint_file file, const void *buffer, size_t size, uint64_t offset);
@@ -43,11 +48,21 @@ static inline bool glint_file_same(const struct glint_file_info *a, const struct
 /* Renames a closed file. A file `to` is replaced, even while others read it: they keep what they opened. */
 bool glint_path_replace(const char *from, const char *to);
 bool glint_path_remove(const char *path);
+/* Temporary names are PATH.tmp- and eight hexadecimal digits. */
+#define GLINT_TEMPORARY ".tmp-"
+enum { GLINT_TEMPORARY_DIGITS = 8 };
+/* Removes the files with temporary names of `path` that no process uses any more: those of processes that were killed. If `path` ends with a
+   separator, those of all files in this folder. */
+void glint_path_remove_temporaries(const char *path);
+/* Returns when the names in the folder of this path are on the disk, where the system can say so. */
+bool glint_path_sync_folder(const char *path);
 bool glint_path_create_folder(const char *path);
 /* The length of a path's folder, separator included; 0 if it has none. */
 size_t glint_path_folder(const char *path);
 
 long glint_process_id(void);
+/* Not to be guessed by others. */
+uint32_t glint_random(void);
 
 /* ---- Threads ---- */
 

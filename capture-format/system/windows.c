@@ -2,6 +2,7 @@
 #include "system.h"
 
 #define WIN32_LEAN_AND_MEAN
+#define _CRT_RAND_S
 #include <windows.h>
 /* after windows.h */
 #include <errno.h>
@@ -95,8 +96,19 @@ glint_file glint_file_create(const char *path) {
     return open_wide(path, GENERIC_WRITE, FILE_SHARE_READ | FILE_SHARE_DELETE, CREATE_ALWAYS, FILE_ATTRIBUTE_NORMAL);
 }
 
+/* Nobody may remove it while it is open. The rights of files come from their folder. */
+glint_file glint_file_create_temporary(const char *path, bool secret) {
+    (void)secret;
+    return open_wide(path, GENERIC_WRITE, FILE_SHARE_READ, CREATE_NEW, FILE_ATTRIBUTE_NORMAL);
+}
+
 bool glint_file_close(glint_file file) {
     return succeeded(CloseHandle((HANDLE)file));
+}
+
+/* Windows renames no file that is open so. */
+bool glint_file_close_as(glint_file file, const char *from, const char *to) {
+    return glint_file_close(file) && glint_path_replace(from, to);
 }
 
 #define MOST_AT_ONCE ((size_t)1 << 30)
@@ -199,6 +211,44 @@ bool glint_path_remove(const char *path) {
     return ok;
 }
 
+/* A file that is open cannot be removed. Between closing and renaming it could be, so others leave it alone for an hour. */
+static bool is_old(const FILETIME *written) {
+    FILETIME now;
+    GetSystemTimeAsFileTime(&now);
+    const uint64_t hour = (uint64_t)3600 * 10000000,
+                   then = (uint64_t)written->dwHighDateTime << 32 | written->dwLowDateTime;
+    return ((uint64_t)now.dwHighDateTime << 32 | now.dwLowDateTime) > then + hour;
+}
+
+void glint_path_remove_temporaries(const char *path) {
+    static const wchar_t tail[] = L"*.tmp-????????";
+    wchar_t *wide = wide_path(path), *found = wide ? malloc((wcslen(wide) + MAX_PATH + 32) * sizeof *found) : NULL;
+    WIN32_FIND_DATAW entry;
+    if (found) {
+        const bool all = glint_path_folder(path) == strlen(path);
+        wcscpy(found, wide);
+        wcscat(found, all ? tail : tail + 1);
+        const HANDLE entries = FindFirstFileW(found, &entry);
+        wchar_t *name = wcsrchr(wide, L'\\');
+        const size_t folder = name ? (size_t)(name - wide) + 1 : 0;
+        for (BOOL more = entries != INVALID_HANDLE_VALUE; more; more = FindNextFileW(entries, &entry)) {
+            wcscpy(found + folder, entry.cFileName);
+            const wchar_t *digits = wcsrchr(entry.cFileName, L'-') + 1;
+            if (wcsspn(digits, L"0123456789abcdef") == GLINT_TEMPORARY_DIGITS && is_old(&entry.ftLastWriteTime))
+                DeleteFileW(found);
+        }
+        if (entries != INVALID_HANDLE_VALUE) FindClose(entries);
+    }
+    free(found);
+    free(wide);
+}
+
+/* NTFS keeps a journal of names; there is no call for it. */
+bool glint_path_sync_folder(const char *path) {
+    (void)path;
+    return true;
+}
+
 bool glint_path_create_folder(const char *path) {
     wchar_t *wide = wide_path(path);
     const bool ok = wide && succeeded(CreateDirectoryW(wide, NULL));
@@ -208,6 +258,12 @@ bool glint_path_create_folder(const char *path) {
 
 long glint_process_id(void) {
     return (long)GetCurrentProcessId();
+}
+
+uint32_t glint_random(void) {
+    unsigned number = 0;
+    if (rand_s(&number)) number = GetTickCount() * 2654435761U ^ GetCurrentProcessId();
+    return number;
 }
 
 /* ---- Threads ---- */

@@ -21,7 +21,7 @@ bool file_same(const char *a, const char *b);
 bool file_equal(const char *a, const char *b);
 /* Copies a file of any size; it appears under `to` only when it is complete. */
 bool file_copy(const char *from, const char *to, struct glint_error *err);
-/* Writes NAME.tmp-PID, then renames it. */
+/* Writes NAME.tmp-XXXXXXXX, then renames it. */
 bool file_write(const char *path, const void *data, size_t size, struct glint_error *err);
 
 #endif

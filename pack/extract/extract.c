@@ -270,7 +270,12 @@ bool glint_extract(const char *capture, const char *folder, const struct glint_p
     x.exr = glint_exr_open(capture, NULL, err);
     bool ok = x.exr && ((x.manifest && x.textures && x.parts) || no_memory(&x, err));
     const bool made = access(folder, F_OK) != 0;
-    ok = ok && glint_make_folder(folder, err) && extract_all(&x, err);
+    /* An older manifest would describe a mixture of textures if this process ended between them. */
+    char *manifest = ok ? path_in(&x, "manifest.json") : NULL;
+    ok = ok && (manifest || no_memory(&x, err)) && glint_make_folder(folder, err);
+    if (ok && !file_same(manifest, capture)) unlink(manifest);
+    ok = ok && extract_all(&x, err);
+    free(manifest);
     finish_files(&x, ok);
     if (!ok && made) rmdir(folder);
     glint_exr_close(&x.exr);

@@ -8,13 +8,13 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <xxhash.h>
 
+#include "complete.h"
+
 enum { PATH_SIZE = 4096, CHUNK = 1 << 20, DIGITS = CACHE_KEY_SIZE - 1, NAME = 2 * DIGITS + 5 };
-static const char temporary[] = "tmp-"; /* prefix of the names of incomplete files */
 
 static bool is_entry(const char *name) {
     return strlen(name) == NAME && strspn(name, "0123456789abcdef") == DIGITS && name[DIGITS] == '-' &&
@@ -25,19 +25,30 @@ static bool join_path(char *path, size_t size, const char *folder, const char *n
     return snprintf(path, size, "%s/%s", folder, name) < (int)size;
 }
 
-/* Hashes a file, and also copies it to the descriptor `to` unless that is negative. */
-static bool hash_file(const char *path, char hex[CACHE_KEY_SIZE], int to) {
-    const int fd = open(path, O_RDONLY | O_CLOEXEC);
+/* The descriptor of a file that can be read, or -1: not of a pipe, which would have us wait, nor of a symbolic link. */
+static int open_entry(const char *path) {
+    struct stat found;
+    const int fd = open(path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (fd < 0 || (fstat(fd, &found) == 0 && S_ISREG(found.st_mode) && found.st_size <= (off_t)CACHE_BYTES_MAX))
+        return fd;
+    close(fd);
+    return -1;
+}
+
+/* Hashes the key and the contents of a file, and also copies these to `to` unless that is GLINT_NO_FILE. With the key in the hash an entry under
+   another key's name is a damaged one. */
+static bool hash_file(const char *path, const char *key, char hex[CACHE_KEY_SIZE], glint_file to) {
+    const int fd = open_entry(path);
     XXH3_state_t *state = XXH3_createState();
     char *chunk = malloc(CHUNK);
-    ssize_t got = -1;
-    bool ok = fd >= 0 && state && chunk && XXH3_128bits_reset(state) == XXH_OK;
-    while (ok && (got = read(fd, chunk, CHUNK)) > 0) {
-        XXH3_128bits_update(state, chunk, (size_t)got);
-        for (ssize_t done = 0, some; to >= 0 && ok && done < got; done += some)
-            ok = (some = write(to, chunk + done, (size_t)(got - done))) > 0;
+    uint64_t done = 0;
+    size_t got = CHUNK;
+    bool ok = fd >= 0 && state && chunk && XXH3_128bits_reset(state) == XXH_OK &&
+              XXH3_128bits_update(state, key, DIGITS) == XXH_OK;
+    for (; ok && got == CHUNK; done += got) {
+        ok = glint_file_read(fd, chunk, CHUNK, done, &got) && XXH3_128bits_update(state, chunk, got) == XXH_OK &&
+             (to == GLINT_NO_FILE || glint_file_write(to, chunk, got, done));
     }
-    ok = ok && got == 0;
     const XXH128_hash_t hash = ok ? XXH3_128bits_digest(state) : (XXH128_hash_t){0};
     snprintf(hex, CACHE_KEY_SIZE, "%016llx%016llx", (unsigned long long)hash.high64, (unsigned long long)hash.low64);
     free(chunk);
@@ -62,30 +73,19 @@ static bool find_entry(const char *folder, const char *key, char *path, size_t s
 bool cache_find(const char *folder, const char *key, char *path, size_t size) {
     char hash[CACHE_KEY_SIZE], found[CACHE_KEY_SIZE];
     if (!find_entry(folder, key, path, size, hash)) return false;
-    if (hash_file(path, found, -1) && strcmp(found, hash) == 0) return utimensat(AT_FDCWD, path, NULL, 0) == 0;
+    if (hash_file(path, key, found, GLINT_NO_FILE) && strcmp(found, hash) == 0)
+        return utimensat(AT_FDCWD, path, NULL, 0) == 0;
     unlink(path);
     return false;
 }
 
-/* Copies a file to a temporary file in `folder`. A hard link would not do, since the user may modify the files of a run. */
-static bool copy_beside(const char *from, const char *folder, char path[PATH_SIZE], char hash[CACHE_KEY_SIZE]) {
-    if (snprintf(path, PATH_SIZE, "%s/%s%ld", folder, temporary, (long)getpid()) >= PATH_SIZE) return false;
-    unlink(path);
-    const int fd = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    bool ok = fd >= 0 && hash_file(from, hash, fd);
-    if (fd >= 0) ok = close(fd) == 0 && ok;
-    if (!ok) unlink(path);
-    return ok;
-}
-
+/* A hard link would not do, since the user may modify the files of a run. */
 bool cache_copy(const char *folder, const char *key, const char *to) {
-    char from[PATH_SIZE], path[PATH_SIZE], beside[PATH_SIZE], hash[CACHE_KEY_SIZE], found[CACHE_KEY_SIZE];
-    const char *slash = strrchr(to, '/');
-    snprintf(beside, sizeof beside, "%.*s", slash ? (int)(slash - to) : 1, slash ? to : ".");
-    if (!find_entry(folder, key, from, sizeof from, hash) || !copy_beside(from, beside, path, found)) return false;
-    if (strcmp(found, hash) == 0 && rename(path, to) == 0) return true;
-    unlink(path);
-    return false;
+    char from[PATH_SIZE], hash[CACHE_KEY_SIZE], found[CACHE_KEY_SIZE];
+    struct complete_file copy;
+    if (!find_entry(folder, key, from, sizeof from, hash) || !complete_open(&copy, to, NULL)) return false;
+    const bool same = hash_file(from, key, found, copy.file) && strcmp(found, hash) == 0;
+    return complete_close(&copy, same, false, NULL);
 }
 
 static bool make_folders(const char *folder) {
@@ -111,9 +111,9 @@ static int oldest_first(const void *a, const void *b) {
     return (x->tv_nsec > y->tv_nsec) - (x->tv_nsec < y->tv_nsec);
 }
 
-/* Removes the least recently used entries, and temporary files that an interrupted process left behind. */
+/* Removes the least recently used entries. */
 static void trim_folder(const char *folder, uint64_t max_bytes) {
-    enum { ENTRIES_MAX = 1 << 14, ABANDONED_SECONDS = 3600 };
+    enum { ENTRIES_MAX = 1 << 14 };
     DIR *entries = opendir(folder);
     struct entry *list = calloc(ENTRIES_MAX, sizeof *list);
     size_t count = 0;
@@ -121,11 +121,8 @@ static void trim_folder(const char *folder, uint64_t max_bytes) {
     char path[PATH_SIZE];
     struct stat file;
     for (struct dirent *entry; entries && list && count < ENTRIES_MAX && (entry = readdir(entries));) {
-        if (!join_path(path, sizeof path, folder, entry->d_name) || lstat(path, &file) != 0) continue;
-        if (strncmp(entry->d_name, temporary, sizeof temporary - 1) == 0 &&
-            file.st_mtim.tv_sec + ABANDONED_SECONDS < time(NULL))
-            unlink(path);
-        if (!is_entry(entry->d_name)) continue;
+        if (!is_entry(entry->d_name) || !join_path(path, sizeof path, folder, entry->d_name) || lstat(path, &file) != 0)
+            continue;
         struct entry *one = &list[count++];
         memcpy(one->name, entry->d_name, sizeof one->name);
         one->bytes = (uint64_t)file.st_size;
@@ -139,12 +136,21 @@ static void trim_folder(const char *folder, uint64_t max_bytes) {
     free(list);
 }
 
-void cache_store(const char *folder, const char *key, const char *file, uint64_t max_bytes) {
-    char hash[CACHE_KEY_SIZE], old[CACHE_KEY_SIZE], name[NAME + 1], copied[PATH_SIZE], path[PATH_SIZE];
-    if (!make_folders(folder) || !copy_beside(file, folder, copied, hash)) return;
-    while (find_entry(folder, key, path, sizeof path, old) && unlink(path) == 0) {
-    }
+/* Whose hash becomes part of its name while it is copied. */
+static bool store_entry(const char *folder, const char *key, const char *file) {
+    char hash[CACHE_KEY_SIZE], old[CACHE_KEY_SIZE], name[NAME + 1], path[PATH_SIZE], found[PATH_SIZE];
+    struct complete_file copy;
+    if (!join_path(path, sizeof path, folder, key) || !complete_open_secret(&copy, path, NULL)) return false;
+    bool ok = hash_file(file, key, hash, copy.file);
+    while (ok && find_entry(folder, key, found, sizeof found, old) && unlink(found) == 0) continue;
     snprintf(name, sizeof name, "%s-%s.exr", key, hash);
-    if (!join_path(path, sizeof path, folder, name) || rename(copied, path) != 0) unlink(copied);
-    trim_folder(folder, max_bytes);
+    ok = ok && join_path(path, sizeof path, folder, name);
+    return complete_close(&copy, ok, false, NULL);
+}
+
+void cache_store(const char *folder, const char *key, const char *file, uint64_t max_bytes) {
+    char inside[PATH_SIZE];
+    if (!make_folders(folder) || !join_path(inside, sizeof inside, folder, "")) return;
+    glint_path_remove_temporaries(inside);
+    if (store_entry(folder, key, file)) trim_folder(folder, max_bytes);
 }

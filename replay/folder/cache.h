@@ -1,5 +1,5 @@
-/* A folder of files that later processes find by key. Names are KEY-HASH.exr, where HASH is that of the file's contents. Any failure
-   counts as a cache miss. */
+/* A folder of files that later processes find by key. Names are KEY-HASH.exr, where HASH is that of KEY and of the file's contents: so a
+   file with other contents, or those of another key, is noticed, and made anew. Any failure counts as a cache miss. */
 #ifndef GLINT_REPLAY_CACHE_H
 #define GLINT_REPLAY_CACHE_H
 

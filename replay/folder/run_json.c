@@ -13,8 +13,8 @@
 
 enum { PATH_SIZE = 4096 };
 
-/* Removes the files of a pass's images; failures are harmless: several images share a file. */
-static void remove_images(const char *folder, const json_t *pass) {
+/* Removes the files of a pass's images that are not in `kept`; failures are harmless: several images share a file. */
+static void remove_images(const char *folder, const json_t *pass, const json_t *kept) {
     char path[PATH_SIZE];
     json_t *image;
     size_t i;
@@ -22,22 +22,38 @@ static void remove_images(const char *folder, const json_t *pass) {
         const char *file = json_string_value(json_object_get(image, "file"));
         const size_t length = file ? strlen(file) : 0;
         if (length < 5 || strchr(file, '/') || strcmp(file + length - 4, ".exr") != 0) continue;
+        if (json_object_get(kept, file)) continue;
         snprintf(path, sizeof path, "%s/%s", folder, file);
         unlink(path);
     }
 }
 
-bool glint_run_remove(const char *folder, struct glint_error *err) {
-    char path[PATH_SIZE];
-    snprintf(path, sizeof path, "%s/run.json", folder);
-    json_t *root = json_load_file(path, 0, NULL), *pass;
-    size_t p;
-    bool ok = unlink(path) == 0 || errno == ENOENT || glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
-    if (ok) {
-        json_array_foreach(json_object_get(root, "passes"), p, pass) remove_images(folder, pass);
-        remove_images(folder, json_object_get(root, "compared"));
+/* {FILE: true} of a run; NULL if it cannot be read whole. */
+static json_t *list_files(const json_t *root) {
+    json_t *files = root ? json_object() : NULL, *pass, *image;
+    size_t p, i;
+    json_array_foreach(json_object_get(root, "passes"), p, pass) {
+        json_array_foreach(json_object_get(pass, "images"), i, image) {
+            record_set(&files, json_string_value(json_object_get(image, "file")), json_true());
+        }
     }
+    return files;
+}
+
+bool run_remove_images(const char *removed, const char *kept, const char *folder, struct glint_error *err) {
+    json_t *old = json_load_file(removed, 0, NULL), *root = kept ? json_load_file(kept, 0, NULL) : NULL;
+    json_t *files = kept ? list_files(root) : json_object(), *pass;
+    size_t p;
+    const bool ok = files || glint_fail(err, GLINT_ERROR_IO, "%s: cannot be read", kept);
+    if (ok) {
+        json_array_foreach(json_object_get(old, "passes"), p, pass) {
+            remove_images(folder, pass, files);
+        }
+        remove_images(folder, json_object_get(old, "compared"), files);
+    }
+    json_decref(files);
     json_decref(root);
+    json_decref(old);
     return ok;
 }
 

@@ -9,4 +9,7 @@
 /* Replaces the file atomically. */
 bool run_write_json(const char *folder, const json_t *root, struct glint_error *err);
 
+/* Removes the images from the folder that the run.json `removed` lists, except those of the run.json `kept`, unless that is NULL. */
+bool run_remove_images(const char *removed, const char *kept, const char *folder, struct glint_error *err);
+
 #endif

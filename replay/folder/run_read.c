@@ -12,6 +12,7 @@
 
 #include "glint/exr.h"
 #include "row.h"
+#include "run_writer.h"
 #include "text_file.h"
 
 struct stored_image {
@@ -113,7 +114,7 @@ static bool check_is_run(const char *folder, const char *path, struct glint_erro
     if (stat(folder, &info)) return glint_fail(err, GLINT_ERROR_IO, "%s: %s", folder, strerror(errno));
     if (!S_ISDIR(info.st_mode))
         return glint_fail(err, GLINT_ERROR_IO, "%s: expected a run, which is a folder, found a file", folder);
-    return access(path, F_OK) == 0 ||
+    return access(path, F_OK) == 0 || run_writer_recover(folder) ||
            glint_fail(err, GLINT_ERROR_IO, "%s: expected a run, found a folder without run.json", folder);
 }
 

@@ -11,6 +11,7 @@
 #include "glint/exr.h"
 #include "record.h"
 #include "run_json.h"
+#include "run_writer.h"
 
 enum { PATH_SIZE = 4096, CHANNELS = 4 };
 
@@ -233,14 +234,6 @@ char *glint_replay_json(struct glint_replay *replay, struct glint_error *err) {
     return text;
 }
 
-/* A run folder without run.json is none: what a failed call has written is removed, and the folder if that made it. */
-static void remove_files(const struct glint_replay *replay, const char *folder, bool made) {
-    char path[PATH_SIZE];
-    for (size_t p = 0; p < replay->results.count; p++)
-        if (file_of_pass(replay, p, folder, path)) unlink(path);
-    if (made) rmdir(folder);
-}
-
 static bool write_passes(struct glint_replay *replay, const char *folder, json_t *root, glint_progress progress,
                          void *user, struct glint_error *err) {
     struct job *jobs = calloc(2, sizeof *jobs);
@@ -263,22 +256,28 @@ static bool write_passes(struct glint_replay *replay, const char *folder, json_t
     return ok;
 }
 
-bool glint_replay_write(struct glint_replay *replay, const char *folder, glint_progress progress, void *user,
-                        struct glint_error *err) {
-    struct stat there;
+bool glint_replay_write_to(struct glint_replay *replay, struct glint_run_writer *writer, glint_progress progress,
+                           void *user, struct glint_error *err) {
     struct glint_error own = {0};
-    if (!replay->results.record) return glint_fail(err, GLINT_ERROR_USAGE, "%s: there is no run to write", folder);
-    const bool made = stat(folder, &there) != 0;
-    if (!glint_make_folder(folder, err) || !check_not_inputs(replay, folder, err) || !glint_run_remove(folder, err))
-        return false;
+    const char *target = run_writer_folder(writer);
+    if (!replay->results.record) return glint_fail(err, GLINT_ERROR_USAGE, "%s: there is no run to write", target);
+    const char *folder = check_not_inputs(replay, target, err) ? glint_run_writer_begin(writer, err) : NULL;
+    if (!folder) return false;
     json_t *root = json_deep_copy(replay->results.record);
     bool ok = root || glint_fail(&own, GLINT_ERROR_MEMORY, "%s: out of memory", folder);
     ok = ok && write_passes(replay, folder, root, progress, user, &own);
     for (size_t p = 0; ok && p < replay->results.count; p++) cache_pass(replay, p, folder);
     ok = ok && record_bad_values(replay, root, &own) && replay_count_work(replay, root, &own) &&
-         run_finish_record(replay, root, &own) && run_write_json(folder, root, &own);
+         run_finish_record(replay, root, &own) && run_write_json(folder, root, &own) &&
+         glint_run_writer_commit(writer, &own);
     json_decref(root);
-    if (ok) return true;
-    remove_files(replay, folder, made);
-    return session_fail(replay, &own, err);
+    return ok || session_fail(replay, &own, err);
+}
+
+bool glint_replay_write(struct glint_replay *replay, const char *folder, glint_progress progress, void *user,
+                        struct glint_error *err) {
+    struct glint_run_writer *writer = glint_run_writer_open(folder, err);
+    const bool ok = writer && glint_replay_write_to(replay, writer, progress, user, err);
+    glint_run_writer_close(&writer);
+    return ok;
 }

@@ -72,6 +72,7 @@ void glint_reference_destroy(struct glint_reference **pointer) {
     json_decref(reference->settings);
     json_decref(reference->sensitivity);
     json_decref(reference->record);
+    glint_folder_unlock(&reference->lock);
     free(reference->labels);
     free(reference->folder);
     free(reference);

@@ -34,6 +34,7 @@ struct glint_reference {
     struct glint_capture *capture;
     struct glint_pipeline *pipeline;
     char *folder;
+    struct glint_folder_lock *lock;
     bool all;
     uint64_t keep_bytes;
     uint32_t at_once;

@@ -76,18 +76,16 @@ static bool read_folder(struct glint_reference *reference, struct glint_run *run
            reference_measure(reference, err);
 }
 
-/* Checks before anything is traced that the folder can be written. A folder that did not exist is removed again until there is something to store. */
-static bool probe_folder(const char *folder, struct glint_error *err) {
-    const bool there = access(folder, F_OK) == 0;
-    if (!glint_make_folder(folder, err)) return false;
-    if (access(folder, W_OK) != 0) return glint_fail(err, GLINT_ERROR_IO, "%s: %s", folder, strerror(errno));
-    if (!there) rmdir(folder);
-    return true;
+/* Checks before anything is traced that the folder can be written, and keeps others from doing so. */
+static bool claim_folder(struct glint_reference *reference, struct glint_error *err) {
+    const char *folder = reference->folder;
+    return (reference->lock = glint_folder_lock(folder, err)) &&
+           (access(folder, W_OK) == 0 || glint_fail(err, GLINT_ERROR_IO, "%s: %s", folder, strerror(errno)));
 }
 
 bool reference_resume(struct glint_reference *reference, bool overwrite, struct glint_error *err) {
     char path[4096];
-    if (!probe_folder(reference->folder, err)) return false;
+    if (!claim_folder(reference, err)) return false;
     if (snprintf(path, sizeof path, "%s/run.json", reference->folder) >= (int)sizeof path)
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", reference->folder);
     if (overwrite) return reference_remove_round(reference), glint_run_remove(reference->folder, err);

@@ -3,6 +3,7 @@
 
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "fixture.h"
@@ -89,11 +90,53 @@ static void what_fails_is_named(UNUSED void **state) {
     assert_int_equal(rmdir(folder), 0);
 }
 
+/* Catches: temporary files of processes that were killed which stay; and those of running ones, and files of the user, that are removed. */
+static void what_a_killed_process_left_is_removed(UNUSED void **state) {
+    static const char *const names[] = {"complete.tmp-0123abcd", "complete.tmp-0123abc", "complete.tmp-0123abcX",
+                                        "other.tmp-0123abcd", "complete.tmp-mine"};
+    enum { NAMES = sizeof names / sizeof *names };
+    char paths[NAMES][512];
+    struct glint_error err = {0};
+    struct complete_file running, out;
+    for (int i = 0; i < NAMES; i++) write_text(fixture_path(paths[i], names[i]), "left");
+    assert_true(complete_open(&running, fixture_path(path, "complete"), &err));
+    assert_true(complete_open(&out, path, &err));
+    assert_true(exists(running.temporary));
+    assert_string_not_equal(running.temporary, out.temporary);
+#ifndef _WIN32 /* where they stay for an hour */
+    assert_false(exists(paths[0]));
+#endif
+    for (int i = 1; i < NAMES; i++) assert_true(exists(paths[i]));
+    assert_true(glint_file_write(running.file, "first", 5, 0) && complete_close(&running, true, false, &err));
+    assert_true(glint_file_write(out.file, "second", 6, 0) && complete_close(&out, true, false, &err));
+    assert_text(path, "second");
+    for (int i = 0; i < NAMES; i++) glint_path_remove(paths[i]);
+    assert_true(glint_path_remove(path));
+}
+
+#ifndef _WIN32
+/* Catches: files of a cache that others may read. */
+static void a_secret_file_is_secret(UNUSED void **state) {
+    struct glint_error err = {0};
+    struct complete_file out;
+    struct stat found;
+    assert_true(complete_open_secret(&out, fixture_path(path, "secret"), &err));
+    assert_int_equal(stat(out.temporary, &found), 0);
+    assert_int_equal(found.st_mode & 0777, 0600);
+    assert_true(complete_close(&out, true, false, &err));
+    assert_int_equal(stat(path, &found), 0);
+    assert_int_equal(found.st_mode & 0777, 0600);
+    assert_true(glint_path_remove(path));
+}
+#endif
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_complete_file_gets_its_name),
-        cmocka_unit_test(an_incomplete_file_is_removed),
-        cmocka_unit_test(what_fails_is_named),
+        cmocka_unit_test(a_complete_file_gets_its_name), cmocka_unit_test(an_incomplete_file_is_removed),
+        cmocka_unit_test(what_fails_is_named),           cmocka_unit_test(what_a_killed_process_left_is_removed),
+#ifndef _WIN32
+        cmocka_unit_test(a_secret_file_is_secret),
+#endif
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,15 +1,17 @@
 /* A library to preload (LD_PRELOAD) that lets the n-th allocation, or the n-th system call of a kind, fail in a program of glint. What is
    asked for is a text of four words, "KIND NUMBER ERROR HOW":
 
-   KIND    alloc, thread, read, write, open, rename, sync, mmap or make (folders)
+   KIND    alloc, thread, read, write, open, rename, sync, mmap, make (folders) or remove
    NUMBER  the number of the call that fails, from 1; with 0 calls are only counted
-   ERROR   the error's number (errno), 0 for what is usual for the kind, or "short": the call works with half of the bytes
+   ERROR   the error's number (errno), 0 for what is usual for the kind, or "short": the call works with half of the bytes;
+           "kill": the process ends by SIGKILL instead of making the call; "tear": it ends when the call has worked with half of the bytes
    HOW     once, all (all from that number on fail) or stacks (with 0: the stack of each call is told as well)
 
    It comes from the environment variable GLINT_FAIL, or a program serves many of them (fail_serve.c). GLINT_FAIL_REPORT names a file to
    which is written, a line each: "stack", and "OBJECT OFFSET" for each call of the stack of the first call that fails; when main returns
    "calls N", "left OBJECT OFFSET" for each block that glint allocated and nobody freed, and "open N", the number of open files. The
-   numbers of stacks go, as 64 bits each, to a file of that name with .stacks.
+   numbers of stacks go, as 64 bits each, to a file of that name with .stacks. GLINT_FAIL_LOG names a file to which is written what
+   is renamed and synced, a line each: "rename FROM TO" ("over": TO was a file), "sync FILE".
 
    Calls are counted from the beginning of main to its end, in all threads. Only those that are made on behalf of glint count, as what the
    Vulkan loader, the driver, LLVM and GLib and OpenColorIO do without memory is not glint's to mend (they end the process): fail_stack.c. */
@@ -25,12 +27,12 @@
 enum { STACKS = 1 << 20, TEXT_BYTES = 16384 };
 
 static const char *const kind_names[FAIL_KINDS] = {"alloc",  "thread", "read", "write", "open",
-                                                   "rename", "sync",   "mmap", "make"};
+                                                   "rename", "sync",   "mmap", "make",  "remove"};
 static int kind = -1;
 static long number;
 static bool all, stacks;
 static char error_text[16];
-static const char *report_path;
+static const char *report_path, *log_path;
 static atomic_long calls;
 static atomic_bool running, told;
 static _Thread_local bool inside __attribute__((tls_model("initial-exec")));
@@ -67,7 +69,7 @@ const void *fail_site(const void *caller) {
 }
 
 bool fail_watches(enum fail_kind which) {
-    return (int)which == kind;
+    return (int)which == kind || (log_path && (which == FAIL_RENAME || which == FAIL_SYNC));
 }
 
 bool fail_all(void) {
@@ -90,20 +92,38 @@ int fail_error(int otherwise) {
     return asked ? asked : otherwise;
 }
 
+static bool asked_for(const char *error) {
+    return !strcmp(error_text, error);
+}
 bool fail_short(void) {
-    return !strcmp(error_text, "short");
+    return asked_for("short") || asked_for("tear");
+}
+bool fail_tears(void) {
+    return asked_for("tear");
+}
+bool fail_kills(void) {
+    return asked_for("kill");
+}
+const char *fail_log(void) {
+    return log_path;
 }
 
-void fail_begin(const char *asked, const char *path) {
+static void begin(const char *asked) {
     char name[16], how[16];
-    report_path = path;
-    if (!asked || sscanf(asked, "%15s %ld %15s %15s", name, &number, error_text, how) != 4) return;
+    if (sscanf(asked, "%15s %ld %15s %15s", name, &number, error_text, how) != 4) return;
     for (int i = 0; i < FAIL_KINDS; i++)
         if (!strcmp(name, kind_names[i])) kind = i;
     all = !strcmp(how, "all");
     stacks = !strcmp(how, "stacks");
     const int file = open_report("", O_TRUNC);
     if (file >= 0) close(file);
+}
+
+void fail_begin(const char *asked, const char *path) {
+    report_path = path;
+    log_path = getenv("GLINT_FAIL_LOG");
+    if (!asked && !log_path) return;
+    if (asked) begin(asked);
     fail_stack_hash(); /* the first call loads the unwinder */
     fail_catch_calls();
     running = true;

@@ -16,6 +16,7 @@ enum fail_kind {
     FAIL_SYNC,
     FAIL_MMAP,
     FAIL_MAKE,
+    FAIL_REMOVE,
     FAIL_KINDS
 };
 
@@ -34,6 +35,11 @@ bool fail_all(void);
 int fail_error(int otherwise);
 /* Whether the call works in part: half of its bytes. */
 bool fail_short(void);
+/* Whether the process ends (SIGKILL) instead of making the call, or once the call has worked in part. */
+bool fail_kills(void);
+bool fail_tears(void);
+/* The file that lists what is renamed and what is on the disk for sure, or NULL. */
+const char *fail_log(void);
 /* Takes what is asked for, as fail.c has it, and counts from here on; end of it. */
 void fail_begin(const char *asked, const char *report_path);
 void fail_end(void);

@@ -4,6 +4,7 @@
 #include "fail.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <linux/audit.h>
 #include <linux/filter.h>
 #include <linux/seccomp.h>
@@ -12,6 +13,7 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <sys/prctl.h>
+#include <sys/stat.h>
 #include <sys/syscall.h>
 #include <ucontext.h>
 #include <unistd.h>
@@ -45,9 +47,37 @@ static const struct call {
     {SYS_link, FAIL_RENAME, EIO, -1},        {SYS_linkat, FAIL_RENAME, EIO, -1},
     {SYS_fsync, FAIL_SYNC, EIO, -1},         {SYS_fdatasync, FAIL_SYNC, EIO, -1},
     {SYS_mmap, FAIL_MMAP, ENOMEM, -1},       {SYS_mkdir, FAIL_MAKE, ENOSPC, -1},
-    {SYS_mkdirat, FAIL_MAKE, ENOSPC, -1},
+    {SYS_mkdirat, FAIL_MAKE, ENOSPC, -1},    {SYS_unlink, FAIL_REMOVE, EIO, -1},
+    {SYS_unlinkat, FAIL_REMOVE, EIO, -1},    {SYS_rmdir, FAIL_REMOVE, EIO, -1},
 };
 enum { CALLS = sizeof calls / sizeof *calls };
+
+/* A system call that the filter lets through. */
+static long make(long call, long a, long b, long c, long d) {
+    return fail_make_call(call, a, b, c, d, 0, 0);
+}
+
+/* In one write of a whole line, before the call: what was synced is on the disk when the next line is written. */
+static void write_log(const struct call *call, const long a[6]) {
+    char line[9000], target[4096] = "", link[64];
+    struct stat found;
+    int length = 0;
+    if (call->kind == FAIL_SYNC) {
+        snprintf(link, sizeof link, "/proc/self/fd/%ld", a[0]);
+        const ssize_t got = readlink(link, target, sizeof target - 1);
+        length = snprintf(line, sizeof line, "sync %.*s\n", got > 0 ? (int)got : 0, target);
+    } else if (call->kind == FAIL_RENAME) {
+        const bool at = call->number != SYS_rename && call->number != SYS_link;
+        const char *from = (const char *)(at ? a[1] : a[0]), *to = (const char *)(at ? a[3] : a[1]);
+        const bool over = lstat(to, &found) == 0;
+        length = snprintf(line, sizeof line, "%s %.4000s %.4000s\n", over ? "over" : "rename", from, to);
+    }
+    const long file =
+        length ? make(SYS_openat, AT_FDCWD, (long)fail_log(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600) : -1;
+    if (file < 0) return;
+    make(SYS_write, file, (long)line, length, 0);
+    make(SYS_close, file, 0, 0, 0);
+}
 
 static void handle(int signal, siginfo_t *info, void *user) {
     (void)signal;
@@ -59,9 +89,12 @@ static void handle(int signal, siginfo_t *info, void *user) {
     /* Where all fail, as on a full disk, there still is a terminal for messages. */
     const bool terminal = fail_all() && call->kind == FAIL_WRITE && a[0] == STDERR_FILENO;
     const bool fails = !terminal && fail_now(call->kind, fail_site(NULL));
+    if (fails && fail_kills()) kill(getpid(), SIGKILL);
+    if (fail_log()) write_log(call, a);
     if (fails && fail_short() && call->bytes >= 0) a[call->bytes] = (a[call->bytes] + 1) / 2;
     if (fails && !fail_short()) r[REG_RAX] = -fail_error(call->error);
     else r[REG_RAX] = fail_make_call(info->si_syscall, a[0], a[1], a[2], a[3], a[4], a[5]);
+    if (fails && fail_tears()) kill(getpid(), SIGKILL);
     errno = before;
 }
 

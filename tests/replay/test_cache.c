@@ -2,6 +2,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <dirent.h>
+#include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "cache.h"
@@ -91,6 +93,63 @@ static void a_damaged_entry_is_none(UNUSED void **state) {
     remove_place(&place);
 }
 
+/* Catches: the contents of another key under this one's name, with the hash that belongs to them. */
+static void another_keys_contents_are_none(UNUSED void **state) {
+    struct place place;
+    char path[256], other[256];
+    begin(&place);
+    for (int i = 0; i < 2; i++) {
+        write_text(place.file, i ? "first" : "other");
+        cache_store(place.folder, keys[i], place.file, UINT64_MAX);
+    }
+    assert_true(cache_find(place.folder, keys[0], other, sizeof other));
+    assert_true(cache_find(place.folder, keys[1], path, sizeof path));
+    assert_int_equal(unlink(path), 0);
+    snprintf(path, sizeof path, "%s/%s%s", place.folder, keys[1], other + strlen(place.folder) + 1 + strlen(keys[0]));
+    assert_int_equal(rename(other, path), 0);
+    assert_false(cache_copy(place.folder, keys[1], place.back));
+    assert_false(cache_find(place.folder, keys[1], path, sizeof path));
+    assert_int_equal(count_files(place.folder), 0);
+    remove_place(&place);
+}
+
+/* Catches: a wait for a pipe, and a read of what a link leads to. */
+static void what_is_no_file_is_none(UNUSED void **state) {
+    struct place place;
+    char path[256];
+    begin(&place);
+    for (int kind = 0; kind < 3; kind++) {
+        write_text(place.file, "first");
+        cache_store(place.folder, keys[0], place.file, UINT64_MAX);
+        assert_true(cache_find(place.folder, keys[0], path, sizeof path));
+        assert_int_equal(rename(path, place.back), 0); /* the very contents */
+        assert_int_equal(kind == 0 ? mkfifo(path, 0600) : kind == 1 ? symlink(place.back, path) : mkdir(path, 0700), 0);
+        assert_false(cache_copy(place.folder, keys[0], place.file));
+        assert_false(cache_find(place.folder, keys[0], path, sizeof path));
+    }
+    remove_place(&place);
+}
+
+/* Catches: temporary files that stay, and entries that others may read. */
+static void a_killed_process_leaves_nothing_for_long(UNUSED void **state) {
+    struct place place;
+    char path[256];
+    struct stat found;
+    begin(&place);
+    write_text(place.file, "first");
+    cache_store(place.folder, keys[0], place.file, UINT64_MAX);
+    snprintf(path, sizeof path, "%s/%s.tmp-0123abcd", place.folder, keys[1]);
+    write_text(path, "half");
+    cache_store(place.folder, keys[0], place.file, UINT64_MAX);
+    assert_int_equal(access(path, F_OK), -1);
+    assert_true(cache_find(place.folder, keys[0], path, sizeof path));
+    assert_int_equal(stat(path, &found), 0);
+    assert_int_equal(found.st_mode & 077, 0);
+    assert_int_equal(stat(place.folder, &found), 0);
+    assert_int_equal(found.st_mode & 077, 0);
+    remove_place(&place);
+}
+
 /* Catches: a limit that is exceeded, or that evicts recently used entries. */
 static void what_was_not_used_for_longest_goes(UNUSED void **state) {
     struct place place;
@@ -127,6 +186,9 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_was_stored_comes_back),
         cmocka_unit_test(a_damaged_entry_is_none),
+        cmocka_unit_test(another_keys_contents_are_none),
+        cmocka_unit_test(what_is_no_file_is_none),
+        cmocka_unit_test(a_killed_process_leaves_nothing_for_long),
         cmocka_unit_test(what_was_not_used_for_longest_goes),
         cmocka_unit_test(a_folder_that_cannot_be_written_keeps_nothing),
     };

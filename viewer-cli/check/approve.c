@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "check/check.h"
+#include "complete.h"
 #include "glint/replay.h"
 #include "io/memory.h"
 
@@ -74,16 +75,53 @@ static bool copy_file(const char *from, const char *to, struct glint_error *err)
     return ok;
 }
 
+static bool copy_into(const char *from, const char *to, const char *name, struct glint_error *err) {
+    char source[PATH_SIZE], copy[PATH_SIZE], file[300];
+    snprintf(file, sizeof file, "/%.290s", name);
+    return join(source, from, file, err) && join(copy, to, file, err) && copy_file(source, copy, err);
+}
+
+/* run.json last, and whole: a folder that has it is a whole run. Its names are on the disk as well then. */
 static bool copy_run(const char *from, const char *to, const json_t *files, struct glint_error *err) {
+    static const char record[] = "run.json";
+    char inside[PATH_SIZE], source[PATH_SIZE], copy[PATH_SIZE], last[PATH_SIZE];
     const char *name;
     json_t *value;
-    bool ok = glint_make_folder(to, err);
+    bool ok = join(inside, to, "/", err);
     json_object_foreach((json_t *)files, name, value) {
-        char source[PATH_SIZE], copy[PATH_SIZE], file[300];
-        snprintf(file, sizeof file, "/%.290s", name);
-        ok = ok && join(source, from, file, err) && join(copy, to, file, err) && copy_file(source, copy, err);
+        if (strcmp(name, record) != 0) ok = ok && copy_into(from, to, name, err);
     }
-    return ok;
+    return ok && join(source, from, "/run.json", err) && join(copy, to, "/run.json-copy", err) &&
+           join(last, to, "/run.json", err) && copy_file(source, copy, err) &&
+           (rename(copy, last) == 0 || fail_at(last, err)) && (glint_path_sync_folder(inside) || fail_at(to, err));
+}
+
+static bool same_contents(const char *a, const char *b) {
+    enum { PIECE = 1 << 16 };
+    FILE *first = fopen(a, "rb"), *second = fopen(b, "rb");
+    char *one = malloc(PIECE), *other = malloc(PIECE);
+    bool same = first && second && one && other;
+    for (size_t got = PIECE; same && got == PIECE;) {
+        got = fread(one, 1, PIECE, first);
+        same = fread(other, 1, PIECE, second) == got && !memcmp(one, other, got) && !ferror(first) && !ferror(second);
+    }
+    free(one);
+    free(other);
+    if (first) fclose(first);
+    if (second) fclose(second);
+    return same;
+}
+
+static bool is_same_run(const char *a, const char *b, const json_t *files) {
+    const char *name;
+    json_t *value;
+    bool same = true;
+    json_object_foreach((json_t *)files, name, value) {
+        char first[PATH_SIZE], second[PATH_SIZE];
+        same = same && snprintf(first, PATH_SIZE, "%s/%s", a, name) < PATH_SIZE &&
+               snprintf(second, PATH_SIZE, "%s/%s", b, name) < PATH_SIZE && same_contents(first, second);
+    }
+    return same;
 }
 
 /* Refuses folders with files that do not belong to the run, because they would be lost. */
@@ -102,7 +140,6 @@ static bool holds_only(const char *folder, const json_t *files, struct glint_err
     return ok;
 }
 
-/* Whether a folder contains only these files. */
 static void remove_files(const char *folder, const json_t *files) {
     const char *name;
     json_t *value;
@@ -138,34 +175,74 @@ static bool exchange(const char *fresh, const char *baseline, const char *kept, 
     return rename(kept, baseline), false;
 }
 
-static bool replace(const char *fresh, const char *baseline, struct glint_error *err) {
-    char kept[PATH_SIZE];
+static bool replace(const char *fresh, const char *baseline, const char *kept, struct glint_error *err) {
     if (access(baseline, F_OK) != 0 || rmdir(baseline) == 0)
         return rename(fresh, baseline) == 0 || fail_at(baseline, err);
     json_t *files = files_of(baseline, err);
-    const bool ok = files && holds_only(baseline, files, err) && join(kept, baseline, "~", err) &&
-                    clear_kept(kept, err) && exchange(fresh, baseline, kept, err);
+    const bool ok =
+        files && holds_only(baseline, files, err) && clear_kept(kept, err) && exchange(fresh, baseline, kept, err);
     json_decref(files);
     return ok;
 }
 
+static bool remove_contents(const char *folder, struct glint_error *err) {
+    DIR *entries = opendir(folder);
+    bool ok = entries || fail_at(folder, err);
+    for (const struct dirent *entry; entries && (entry = readdir(entries));)
+        if (strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0 &&
+            unlinkat(dirfd(entries), entry->d_name, 0) != 0)
+            ok = fail_at(folder, err);
+    if (entries) closedir(entries);
+    return ok;
+}
+
+/* Locks the folder of the copy, and clears what a process left there that was killed: the old baseline, if that has its place neither as the baseline
+   nor as the one before it (between the two steps of `exchange`), or a copy that is of no use any more. */
+static struct glint_folder_lock *begin_copy(const char *fresh, const char *kept, struct glint_error *err) {
+    char record[PATH_SIZE];
+    struct glint_folder_lock *lock = join(record, fresh, "/run.json", err) ? glint_folder_lock(fresh, err) : NULL;
+    if (lock && access(record, F_OK) == 0 && access(kept, F_OK) != 0) {
+        const bool moved = rename(fresh, kept) == 0 || fail_at(kept, err);
+        glint_folder_unlock(&lock);
+        if (moved) lock = glint_folder_lock(fresh, err);
+    }
+    if (lock && !remove_contents(fresh, err)) glint_folder_unlock(&lock);
+    return lock;
+}
+
+/* The locks are on the folders themselves, and so go with them where they are renamed: nobody else approves anything as this baseline until both have
+   their places. */
+static bool approve(const char *run, const char *baseline, const json_t *files, struct glint_error *err) {
+    char fresh[PATH_SIZE], kept[PATH_SIZE];
+    if (!join(fresh, baseline, ".new~", err) || !join(kept, baseline, "~", err)) return false;
+    struct glint_folder_lock *lock = begin_copy(fresh, kept, err), *old = NULL;
+    bool ok = lock && (access(baseline, F_OK) != 0 || (old = glint_folder_lock(baseline, err))) &&
+              copy_run(run, fresh, files, err);
+    if (ok && memory_ran_out())
+        ok = glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", run); /* a file may lack */
+    /* The one before stays what it is if this run is approved twice, as it is after an interruption. */
+    const bool again = ok && is_same_run(fresh, baseline, files);
+    ok = ok && (again || replace(fresh, baseline, kept, err)) &&
+         (glint_path_sync_folder(baseline) || fail_at(baseline, err));
+    if (lock && (again || !ok) && remove_contents(fresh, NULL)) rmdir(fresh);
+    glint_folder_unlock(&old);
+    glint_folder_unlock(&lock);
+    return ok;
+}
+
 bool check_approve(const char *run, const char *baseline, struct glint_error *err) {
-    char path[PATH_SIZE], fresh[PATH_SIZE], suffix[32];
+    char path[PATH_SIZE];
     size_t length = strlen(baseline);
     while (length > 1 && baseline[length - 1] == '/') length--;
     snprintf(path, sizeof path, "%.*s", (int)length, baseline);
-    snprintf(suffix, sizeof suffix, ".tmp-%ld", (long)getpid());
     struct stat from, to;
-    if (length >= sizeof path || !join(fresh, path, suffix, err))
-        return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", baseline);
+    if (length >= sizeof path) return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", baseline);
     if (stat(run, &from) == 0 && stat(path, &to) == 0 && from.st_dev == to.st_dev && from.st_ino == to.st_ino)
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: run and baseline are the same folder", run);
-    json_t *files = files_of(run, err);
-    bool ok = files && copy_run(run, fresh, files, err);
-    if (ok && memory_ran_out())
-        ok = glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", run); /* a file may lack */
-    ok = ok && replace(fresh, path, err);
-    if (!ok && files) remove_files(fresh, files);
+    struct glint_folder_lock *lock = glint_folder_lock_shared(run, err); /* so that its files belong together */
+    json_t *files = lock ? files_of(run, err) : NULL;
+    const bool ok = files && approve(run, path, files, err);
     json_decref(files);
+    glint_folder_unlock(&lock);
     return ok;
 }

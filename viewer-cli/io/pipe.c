@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 static bool copy(FILE *from, FILE *to, const char *what, struct glint_error *err) {
     char buffer[1 << 16];
@@ -16,16 +15,9 @@ static bool copy(FILE *from, FILE *to, const char *what, struct glint_error *err
 }
 
 static bool make_temporary(struct pipe *pipe, const char *what, struct glint_error *err) {
-    const char *folder = getenv("TMPDIR");
-    int length = snprintf(pipe->path, sizeof pipe->path, "%s/glint-%s-XXXXXX", folder ? folder : "/tmp", what);
-    int file = length < (int)sizeof pipe->path ? mkstemp(pipe->path) : -1;
-    if (file >= 0) {
-        close(file);
-        return true;
-    }
-    glint_fail(err, GLINT_ERROR_IO, "%s: %s", pipe->path, strerror(errno));
-    pipe->path[0] = '\0';
-    return false;
+    if (!temporary_make(&pipe->folder, what, err)) return false;
+    snprintf(pipe->path, sizeof pipe->path, "%s/%s", pipe->folder.path, what);
+    return true;
 }
 
 const char *pipe_input(struct pipe *pipe, const char *path, struct glint_error *err) {
@@ -55,6 +47,6 @@ bool pipe_output_flush(const struct pipe *pipe, struct glint_error *err) {
 }
 
 void pipe_finish(struct pipe *pipe) {
-    if (pipe->path[0]) unlink(pipe->path);
+    temporary_remove(&pipe->folder);
     pipe->path[0] = '\0';
 }

@@ -2,10 +2,11 @@
 #ifndef GLINT_VIEWER_PIPE_H
 #define GLINT_VIEWER_PIPE_H
 
-#include "glint/common.h"
+#include "io/temporary.h"
 
 struct pipe {
-    char path[256]; /* the temporary file, "" if there is none; pipe_finish removes it */
+    struct temporary folder; /* of the temporary file; pipe_finish removes it */
+    char path[256];          /* the file, "" if there is none */
 };
 
 /* Returns `path`, or for "-" a temporary file with the contents of stdin; NULL on failure. */

@@ -84,14 +84,11 @@ static bool check_definition(const struct journal *journal, const json_t *defini
 bool journal_open(struct journal *journal, const json_t *definition, struct glint_error *err) {
     char path[4096];
     if (!journal->folder) return true;
-    if (!glint_make_folder(journal->folder, err)) return false;
+    if (!(journal->lock = glint_folder_lock(journal->folder, err))) return false;
     if (!check_definition(journal, definition, err) || !journal_path(journal->folder, "log.jsonl", path, err))
         return false;
     journal->log = open(path, O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
     if (journal->log < 0) return glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
-    if (lockf(journal->log, F_TLOCK, 0) != 0)
-        return glint_fail(err, GLINT_ERROR_USAGE, "%s: another %s is running in this folder", journal->folder,
-                          journal->kind);
     return read_log(journal, path, err);
 }
 
@@ -134,4 +131,5 @@ void journal_describe_kept(const struct journal *journal, const char *results, c
 void journal_close(struct journal *journal) {
     if (journal->log > 0) close(journal->log);
     journal->log = 0;
+    glint_folder_unlock(&journal->lock);
 }

@@ -12,7 +12,8 @@ struct journal {
     const char *folder; /* NULL: nothing is stored on disk */
     const char *kind;   /* "sweep" */
     int log;            /* file descriptor; 0: none */
-    size_t results;     /* lines of the log */
+    struct glint_folder_lock *lock;
+    size_t results; /* lines of the log */
     /* Receives each line of the log, and may keep a reference to it. Returns false if the line does not belong to the study. */
     bool (*keep)(void *user, json_t *line);
     void *user;

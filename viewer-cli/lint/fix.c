@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "complete.h"
 #include "glint/edit.h"
 #include "lint.h"
 
@@ -207,12 +208,10 @@ static bool choose_fixes(const char *from, const char *trial, struct lint_findin
 
 bool lint_fix(const char *from, const char *to, struct lint_findings *findings, size_t *fixed,
               struct glint_error *err) {
-    const size_t length = strlen(to) + 32;
-    char *trial = malloc(length);
+    char *trial = complete_temporary(to);
     if (!trial) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    snprintf(trial, length, "%s.trial-%ld", to, (long)getpid());
     bool ok = choose_fixes(from, trial, findings, err);
-    if (ok && rename(trial, to) != 0) ok = glint_fail(err, GLINT_ERROR_IO, "%s: cannot be written", to);
+    ok = ok && complete_rename(trial, to, err);
     if (!ok) unlink(trial);
     *fixed = count_applied(findings);
     free(trial);

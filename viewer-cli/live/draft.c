@@ -13,13 +13,13 @@ static bool make_draft(const struct live_frame *frame, const char *path, struct 
 }
 
 bool draft_path(const struct live *live, size_t number, char *path, size_t size) {
-    return snprintf(path, size, "%s/draft-%zu.exr", live->folder, number) < (int)size;
+    return snprintf(path, size, "%s/draft-%zu.exr", live->temporary.path, number) < (int)size;
 }
 
 bool live_draft(struct live *live, size_t number, char *path, size_t size, struct glint_error *err) {
     struct live_frame *frame = &live->frames[number];
     if (!draft_path(live, number, path, size))
-        return glint_fail(err, GLINT_ERROR_IO, "%s: path too long", live->folder);
+        return glint_fail(err, GLINT_ERROR_IO, "%s: path too long", live->temporary.path);
     if (frame->has_draft && access(path, R_OK) == 0) return true; /* folders for temporary files are cleaned at times */
     if (!live_progress(live, "draft capture", 0)) return glint_fail(err, GLINT_ERROR_INTERRUPTED, "interrupted");
     return frame->has_draft = make_draft(frame, path, err);

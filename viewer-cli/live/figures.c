@@ -20,7 +20,7 @@ void live_close_judge(struct live *live) {
 /* A folder for the references of one effect, in which later requests find them. */
 static char *reference_folder(const struct live *live, const struct glint_effect *effect, struct glint_error *err) {
     char *folder = NULL;
-    if (asprintf(&folder, "%s/reference-%s", live->folder, effect->name) < 0) {
+    if (asprintf(&folder, "%s/reference-%s", live->temporary.path, effect->name) < 0) {
         fail_memory(err);
         return NULL;
     }

@@ -1,6 +1,5 @@
 /* Begins and ends glint live: its captures, its private folder, its threads. */
 #include <errno.h>
-#include <ftw.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -79,28 +78,6 @@ static bool list_presets(struct live *live, struct glint_error *err) {
     return true;
 }
 
-static bool make_folder(struct live *live, struct glint_error *err) {
-    const char *where = getenv("TMPDIR");
-    if (asprintf(&live->folder, "%s/glint-live-XXXXXX", where && where[0] ? where : "/tmp") < 0) {
-        live->folder = NULL;
-        return fail_memory(err);
-    }
-    if (mkdtemp(live->folder)) return true;
-    glint_fail(err, GLINT_ERROR_IO, "%s: %s", live->folder, strerror(errno));
-    free(live->folder);
-    live->folder = NULL;
-    return false;
-}
-
-static int remove_entry(const char *path, const struct stat *info, int kind, struct FTW *walk) {
-    (void)info, (void)kind, (void)walk;
-    return remove(path);
-}
-
-void live_remove_folder(const char *folder) {
-    nftw(folder, remove_entry, 16, FTW_DEPTH | FTW_PHYS);
-}
-
 static bool is_ending(void *user) {
     struct live *live = user;
     pthread_mutex_lock(&live->lock);
@@ -132,9 +109,9 @@ bool live_begin(struct live *live, struct glint_error *err) {
     pthread_mutex_init(&live->converting, NULL);
     pthread_cond_init(&live->wake, NULL);
     pthread_cond_init(&live->changed, NULL);
-    if (!check_texts(live, err) || !read_frames(live, err) || !list_presets(live, err) || !make_folder(live, err) ||
-        !(live->times = json_object()) || !(live->device = pipeline_args_device(live->args, err)) ||
-        !(live->registry = live_registry(live, err)))
+    if (!check_texts(live, err) || !read_frames(live, err) || !list_presets(live, err) ||
+        !temporary_make(&live->temporary, "live", err) || !(live->times = json_object()) ||
+        !(live->device = pipeline_args_device(live->args, err)) || !(live->registry = live_registry(live, err)))
         return false;
     /* What the command line says is checked before there is an address. */
     const bool ok = state_read(&state, live, json_object_get(live->registry, "start"), err) &&
@@ -179,8 +156,7 @@ void live_end(struct live *live) {
     if (live->watching) pthread_join(live->watcher, NULL);
     watch_files_finish(&live->files);
     runs_finish(&live->runs);
-    if (live->folder) live_remove_folder(live->folder);
-    free(live->folder);
+    temporary_remove(&live->temporary);
     free(live->frames);
     free(live->presets);
     json_decref(live->registry);

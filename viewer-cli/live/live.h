@@ -10,6 +10,7 @@
 #include "draw/view/ocio.h"
 #include "draw/view/source.h"
 #include "glint/judge.h"
+#include "io/temporary.h"
 #include "live/http.h"
 #include "options/pipeline_args.h"
 #include "watch/watch.h"
@@ -74,7 +75,8 @@ struct live {
     struct pipeline_args *args;
     const struct list *captures;
     const char *reference, *out; /* folders, or NULL */
-    char *cache, *folder;        /* a cache folder or NULL; a private folder for drafts and pages */
+    char *cache;                 /* a folder, or NULL */
+    struct temporary temporary;  /* for drafts and pages */
     struct live_frame *frames;
     size_t count;         /* of frames */
     const char **presets; /* names that states may have, NULL-terminated */
@@ -120,8 +122,6 @@ bool live_begin(struct live *live, struct glint_error *err);
 /* Ends jobs and streams, before the server is stopped. */
 void live_stop(struct live *live);
 void live_end(struct live *live);
-/* Removes a folder of the private one with all that is in it; no link is followed. */
-void live_remove_folder(const char *folder);
 /* The conversion of colours for a display and view, which stays until the end. NULL on failure. */
 const struct ocio_conversion *live_conversion(struct live *live, const struct ocio_options *options,
                                               struct glint_error *err);

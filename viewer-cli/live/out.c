@@ -140,10 +140,10 @@ static bool write_page(struct live *live, struct reporting *r, const char *folde
 
 static bool work_report(struct live *live, void *user, struct glint_error *err) {
     char folder[4096];
-    snprintf(folder, sizeof folder, "%.4000s/report-XXXXXX", live->folder);
+    snprintf(folder, sizeof folder, "%.4000s/report-XXXXXX", live->temporary.path);
     if (!mkdtemp(folder)) return glint_fail(err, GLINT_ERROR_IO, "%s: %s", folder, strerror(errno));
     const bool ok = write_page(live, user, folder, err);
-    live_remove_folder(folder);
+    temporary_remove_folder(folder);
     return ok;
 }
 

@@ -77,12 +77,7 @@ bool shot_begin(const char *folder, const json_t *settings, char *const *runs, s
     json_decref(before);
     json_decref(now);
     free(text);
-    for (size_t i = 0; !same && ok && i < count; i++) {
-        char record[4096];
-        if (snprintf(record, sizeof record, "%s/run.json", runs[i]) >= (int)sizeof record) continue;
-        ok = unlink(record) == 0 || errno == ENOENT || errno == ENOTDIR ||
-             glint_fail(err, GLINT_ERROR_IO, "%s: %s", record, strerror(errno));
-    }
+    for (size_t i = 0; !same && ok && i < count; i++) ok = glint_run_remove(runs[i], err);
     return ok && (same || write_settings(path, settings, err));
 }
 

@@ -143,10 +143,11 @@ static bool write_sheet(const char *folder, const struct glint_stability *s, str
     return ok;
 }
 
-bool stability_write(const char *folder, const struct stability_report *report, struct glint_error *err) {
+/* Everything into the folder of a run that is being written. */
+static bool write_files(const char *folder, const struct stability_report *report, struct glint_error *err) {
     const struct glint_stability *s = report->stability;
     json_t *passes = json_array();
-    bool ok = glint_make_folder(folder, err);
+    bool ok = true;
     for (size_t i = 0; ok && i < s->pass_count; i++) ok = write_pass(folder, s, &s->passes[i], passes, err);
     ok = ok && write_all(folder, s, passes, err) && write_text(folder, "stability.json", stability_json(report), err);
     json_t *run = json_pack("{s:i, s:{s:s}, s:s, s:O}", "format", 1, "tool", "name", "glint stability", "preset",
@@ -157,4 +158,12 @@ bool stability_write(const char *folder, const struct stability_report *report, 
         return false;
     }
     return write_text(folder, "run.json", run, err) && write_sheet(folder, s, err);
+}
+
+bool stability_write(const char *folder, const struct stability_report *report, struct glint_error *err) {
+    struct glint_run_writer *writer = glint_run_writer_open(folder, err);
+    const char *inside = writer ? glint_run_writer_begin(writer, err) : NULL;
+    const bool ok = inside && write_files(inside, report, err) && glint_run_writer_commit(writer, err);
+    glint_run_writer_close(&writer);
+    return ok;
 }

@@ -51,7 +51,7 @@ struct glint_exr_part {
     enum glint_compression compression;
 };
 
-/* Writes path.tmp-PID beside `path`, then renames. The memory is read during the call only. threads 0: all cores. */
+/* Writes path.tmp-XXXXXXXX beside `path`, then renames. The memory is read during the call only. threads 0: all cores. */
 bool glint_exr_write(const char *path, const struct glint_exr_part *parts, size_t count, uint32_t threads,
                      struct glint_error *err);
 

@@ -360,15 +360,38 @@ bool glint_replay_capture_hash(struct glint_replay *replay, char hash[33], struc
 bool glint_replay_shader_hash(struct glint_replay *replay, const struct glint_pipeline *pipeline,
                               const struct glint_pass *pass, uint64_t *hash, struct glint_error *err);
 /* Writes `folder`/run.json and one file NN-SLOT.exr for each pass, where NN is the place of the pass in the pipeline. A run that
-   the folder already holds is removed first. Each file appears complete or not at all, run.json last. A call that
-   fails removes what it has written. */
+   the folder already holds is replaced at once when the new one is whole. A call that fails, or whose process ends, leaves what
+   the folder held. Fails while another process writes into the folder. */
 bool glint_replay_write(struct glint_replay *replay, const char *folder, glint_progress progress, void *user,
                         struct glint_error *err);
+struct glint_run_writer;
+/* The same into the folder of a writer, which other processes cannot write into since it was opened. */
+bool glint_replay_write_to(struct glint_replay *replay, struct glint_run_writer *writer, glint_progress progress,
+                           void *user, struct glint_error *err);
 /* Seconds since the last load in one phase: "read", "upload", "passes", "readback" or "write". The phases overlap: files are
    written while the next pass is read back. */
 double glint_replay_seconds(const struct glint_replay *replay, const char *phase);
 
 /* ---- Run folders ---- */
+
+/* Keeps other processes, and other locks of this one, from writing into a folder, which is made if necessary, and in which temporary files of
+   processes that were killed are removed. The lock ends when the process does.
+   Fails at once if somebody has it, with an error that names the folder and the process. File systems that do not lock folders, such as NFS, let
+   everybody have it. */
+struct glint_folder_lock *glint_folder_lock(const char *folder, struct glint_error *err);
+/* For who reads several files that belong together: any number of processes may have it, while nobody writes. The folder has to exist. */
+struct glint_folder_lock *glint_folder_lock_shared(const char *folder, struct glint_error *err);
+/* Also removes the folder if it was made for the lock and is empty. NULL is allowed. */
+void glint_folder_unlock(struct glint_folder_lock **lock);
+
+/* Puts a run into a folder, all at once. Opening locks the folder. */
+struct glint_run_writer *glint_run_writer_open(const char *folder, struct glint_error *err);
+/* An empty folder for the files of the new run, run.json last; none may be a folder. Valid until the writer is closed. NULL on failure. */
+const char *glint_run_writer_begin(struct glint_run_writer *writer, struct glint_error *err);
+/* The new run takes the place of the old one, whose images are removed. Files of the folder that are in neither run.json stay. */
+bool glint_run_writer_commit(struct glint_run_writer *writer, struct glint_error *err);
+/* Without a commit the folder keeps what it held. NULL is allowed. */
+void glint_run_writer_close(struct glint_run_writer **writer);
 
 struct glint_run;
 struct glint_run_image {
@@ -397,8 +420,8 @@ const char *glint_run_json(const struct glint_run *run);
 size_t glint_run_image_count(const struct glint_run *run);
 const struct glint_run_image *glint_run_image(const struct glint_run *run, size_t i);
 const struct glint_run_image *glint_run_find(const struct glint_run *run, const char *name);
-/* Removes run.json and then the files that it lists, so that an interrupted removal leaves no folder that looks complete. It is no
-   error if the folder holds no run. */
+/* Removes run.json and then the images that it lists; what an interrupted removal leaves, the next removal or run removes. It is no error if the
+   folder holds no run. */
 bool glint_run_remove(const char *folder, struct glint_error *err);
 /* Replaces `folder`/run.json atomically. */
 bool glint_run_write_json(const char *folder, const char *text, struct glint_error *err);
