@@ -2,6 +2,8 @@
    file declares. Nothing else is checked here. */
 #include "gltf_check.h"
 
+#include "inside.h"
+
 #include <jansson.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -102,11 +104,12 @@ static bool stays_inside(const char *uri) {
     return true;
 }
 
-static FILE *open_beside(const struct check *c, const char *uri) {
-    char path[8192];
-    const char *slash = strrchr(c->path, '/');
-    int n = snprintf(path, sizeof path, "%.*s%s", slash ? (int)(slash + 1 - c->path) : 0, c->path, uri);
-    return n > 0 && (size_t)n < sizeof path ? fopen(path, "rb") : NULL;
+static bool open_beside(const struct check *c, const char *uri, glint_file *file, uint64_t *bytes,
+                        struct glint_error *err) {
+    char *path = inside_beside(c->path, uri, err);
+    const bool ok = path && inside_open(file, path, MAX_FILE, bytes, err);
+    free(path);
+    return ok;
 }
 
 static bool check_buffer(const struct check *c, size_t i, const json_t *buffer) {
@@ -119,11 +122,10 @@ static bool check_buffer(const struct check *c, size_t i, const json_t *buffer) 
         there = comma ? strlen(comma + 1) / 4 * 3 : 0;
     } else {
         if (!stays_inside(uri)) return bad(c, "buffer", i, "its file must lie in the glTF file's folder or below");
-        FILE *file = open_beside(c, uri);
-        long end = file && !fseek(file, 0, SEEK_END) ? ftell(file) : -1;
-        if (file) fclose(file);
-        if (end < 0) return bad(c, "buffer", i, "its file is missing");
-        there = (uint64_t)end;
+        struct glint_error why = {0};
+        glint_file file;
+        if (!open_beside(c, uri, &file, &there, &why)) return bad(c, "buffer", i, why.message);
+        glint_file_close(file);
     }
     return bytes <= there || bad(c, "buffer", i, "shorter than its byteLength");
 }
@@ -165,9 +167,12 @@ static bool read_buffer(const struct check *c, uint64_t buffer, uint64_t offset,
         memcpy(out, c->chunk + offset, bytes);
         return true;
     }
-    FILE *file = strncmp(uri, "data:", 5) ? open_beside(c, uri) : NULL;
-    bool ok = file && !fseek(file, (long)offset, SEEK_SET) && fread(out, 1, bytes, file) == bytes;
-    if (file) fclose(file);
+    glint_file file;
+    uint64_t there;
+    size_t got = 0;
+    if (!strncmp(uri, "data:", 5) || !open_beside(c, uri, &file, &there, NULL)) return false;
+    const bool ok = glint_file_read(file, out, bytes, offset, &got) && got == bytes;
+    glint_file_close(file);
     return ok;
 }
 
@@ -410,7 +415,7 @@ bool gltf_check(const char *path, struct gltf_facts *facts, struct glint_error *
     json_error_t fault;
     bool ok = false;
     unsigned char *data = read_file(path, &bytes, err);
-    if (!data || !find_text(&c, data, bytes, &text, &length)) goto done;
+    if (!data || !find_text(&c, data, bytes, &text, &length) || !inside_json_fits(path, text, length, err)) goto done;
     c.root = json_loadb(text, length, JSON_REJECT_DUPLICATES, &fault);
     if (!c.root) {
         glint_fail(err, GLINT_ERROR_FORMAT, "%s: line %d: %s", path, fault.line, fault.text);

@@ -9,6 +9,7 @@
 
 #include "complete.h"
 #include "glint/replay.h"
+#include "inside.h"
 #include "record.h"
 
 enum { PATH_SIZE = 4096 };
@@ -30,7 +31,8 @@ static void remove_images(const char *folder, const json_t *pass) {
 bool glint_run_remove(const char *folder, struct glint_error *err) {
     char path[PATH_SIZE];
     snprintf(path, sizeof path, "%s/run.json", folder);
-    json_t *root = json_load_file(path, 0, NULL), *pass;
+    char *text = inside_text(path, 1 << 24, NULL);
+    json_t *root = text && inside_json_fits(path, text, strlen(text), NULL) ? json_loads(text, 0, NULL) : NULL, *pass;
     size_t p;
     bool ok = unlink(path) == 0 || errno == ENOENT || glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
     if (ok) {
@@ -38,6 +40,7 @@ bool glint_run_remove(const char *folder, struct glint_error *err) {
         remove_images(folder, json_object_get(root, "compared"));
     }
     json_decref(root);
+    free(text);
     return ok;
 }
 

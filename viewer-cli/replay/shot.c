@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "io/output.h"
+#include "journal/journal.h"
 
 static json_t *names_json(const struct list *list) {
     json_t *names = json_array();
@@ -29,7 +30,7 @@ static json_t *passes_json(const struct glint_pipeline *pipeline) {
 }
 
 /* Texts of the user's shader files. */
-static json_t *shaders_json(const struct list *shaders) {
+static json_t *shader_texts_json(const struct list *shaders) {
     json_t *texts = json_object();
     for (size_t i = 0; i < shaders->count; i++) {
         const char *path = strchr(shaders->items[i], '=');
@@ -47,7 +48,7 @@ static json_t *shaders_json(const struct list *shaders) {
 json_t *shot_settings(const struct glint_pipeline *pipeline, const struct pipeline_args *args, const char *device) {
     const struct glint_replay_options *o = &args->replay;
     return json_pack("{s:s, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:s?, s:s?, s:b, s:b, s:b}", "tool", GLINT_VERSION,
-                     "device", device, "pipeline", passes_json(pipeline), "shaders", shaders_json(&args->shader),
+                     "device", device, "pipeline", passes_json(pipeline), "shaders", shader_texts_json(&args->shader),
                      "passes", names_json(&args->passes), "outputs", names_json(&args->outputs), "skip",
                      names_json(&args->skip), "force", names_json(&args->force), "inputs", o->inputs, "history",
                      o->history, "all", o->all, "diagnostics", o->diagnostics, "float", o->float_precision);
@@ -67,7 +68,7 @@ bool shot_begin(const char *folder, const json_t *settings, char *const *runs, s
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
     /* What is compared went through a file once, as the other did. */
     char *text = json_dumps(settings, 0);
-    json_t *before = json_load_file(path, 0, NULL), *now = text ? json_loads(text, 0, NULL) : NULL;
+    json_t *before = json_inside(path, NULL), *now = text ? json_loads(text, 0, NULL) : NULL;
     bool same = now && json_equal(before, now), ok = true;
     json_decref(before);
     json_decref(now);
