@@ -26,7 +26,8 @@ static vec3 transformed(const struct aiMatrix4x4 *m, struct aiVector3D p, float 
 static vec3 turned_normal(const struct aiMatrix4x4 *m, struct aiVector3D n) {
     vec3 x = v3(m->a1, m->b1, m->c1), y = v3(m->a2, m->b2, m->c2), z = v3(m->a3, m->b3, m->c3);
     vec3 sum = add(add(scale(cross(y, z), n.x), scale(cross(z, x), n.y)), scale(cross(x, y), n.z));
-    return unit(dot(cross(x, y), z) < 0 ? scale(sum, -1) : sum);
+    vec3 normal = unit(dot(cross(x, y), z) < 0 ? scale(sum, -1) : sum);
+    return length(normal) > 0.5f ? normal : v3(0, 1, 0); /* a file's may be 0 or no numbers, of which Embree makes no rays */
 }
 
 struct corner {
@@ -192,7 +193,7 @@ static bool file_camera(const struct aiScene *file, const struct gltf_facts *fac
     if (!find_node(file->mRootNode, &camera->mName, identity, &m, 0)) return false;
     /* glTF cameras are at the origin of their node; Assimp 5.2 also adds the node's translation to mPosition */
     vec3 eye = transformed(&m, (struct aiVector3D){0, 0, 0}, 1), ahead = unit(transformed(&m, camera->mLookAt, 0));
-    if (!(length(ahead) > 0.5f) || !isfinite(length(eye))) return false;
+    if (!(length(ahead) > 0.5f) || !(length(eye) < 1e6f)) return false;
     scene->eye = eye;
     scene->target = add(eye, ahead);
     if (facts->fov_y_rad > 0.01 && facts->fov_y_rad < 2.8) scene->fov_y_rad = (float)facts->fov_y_rad;

@@ -15,7 +15,7 @@
 #include "row.h"
 
 /* More than any run has. */
-enum { RUN_JSON_BYTES = 1 << 24, RUN_IMAGES = 4096, IMAGE_TEXELS = 1 << 28 };
+enum { RUN_JSON_BYTES = 1 << 24, RUN_IMAGES = 4096, IMAGE_TEXELS = 1 << 27 };
 
 struct stored_image {
     struct glint_run_image info;

@@ -216,7 +216,7 @@ def mutate_entry(path, rng, secret, entries):
         write(path, b"")
     elif what == "sparse":
         write(path, kept)
-        os.truncate(path, rng.choice([1 << 24, 1 << 32, 1 << 42]))
+        os.truncate(path, rng.choice([1 << 24, 1 << 33, 1 << 42]))
     elif what == "other file":
         write(path, other)
     elif what == "unreadable name":

@@ -117,7 +117,7 @@ static bool holds_only(const char *folder, const json_t *files, struct glint_err
         if (strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0 &&
             !json_object_get(files, entry->d_name))
             ok = glint_fail(
-                err, GLINT_ERROR_USAGE,
+                err, GLINT_ERROR_IO,
                 "%s: %s does not belong to this run and would be moved by --approve; move it elsewhere first", folder,
                 entry->d_name);
     closedir(directory);
