@@ -13,6 +13,7 @@ from mutate import TEXTS, mutate_file, mutate_json, read, write
 class Kind:
     """`commands` are (words, statuses) with paths relative to the folder."""
     name, commands, timeout_s = "", [], 20
+    slow = False  # replays, in seconds
     unchanged = (0,)  # exit statuses where nothing is changed
     named = None  # what a message may name instead of a file
     environment = {}
@@ -229,6 +230,7 @@ class Ocio(Kind):
 
 class Journal(Kind):
     name = "journal"
+    slow = True
     timeout_s = 60
     commands = [("sweep tiny.exr -o sweep -p PLAIN --vary screen_trace.steps=4,8 --repeat 1", None), ("report sweep -o out.html", None), ("report compare -o out.html", None),
                 ("reference tiny.exr -o reference -p PLAIN --rays 16", None)]
@@ -246,6 +248,7 @@ class Journal(Kind):
 
 class Shader(Kind):
     name = "shader"
+    slow = True
     environment = {"GLINT_PASSES": "passes"}
     given = ("mine/bilinear.comp",)
     timeout_s = 60
@@ -267,6 +270,7 @@ class Shader(Kind):
 
 class Cache(Kind):
     name = "cache"
+    slow = True
     environment = {"GLINT_CACHE": "cache"}
     timeout_s = 60
     commands = [("replay tiny.exr -p mafia3 -o out", None)]
@@ -283,7 +287,7 @@ class Cache(Kind):
 
 class Environment(Kind):
     name = "environment"
-    commands = [("info run", None), ("view run -o out.png", None), ("view run", None), ("passes", None), ("plan tiny.exr -p kf2", None), ("lint tiny.exr", None), ("report run -o out.html", None),
+    commands = [("info run", None), ("view run -o out.png", None), ("passes", None), ("plan tiny.exr -p kf2", None), ("lint tiny.exr", None), ("report run -o out.html", None),
                 ("info -", None), ("--help", None), ("devices", None)]
     variables = ["GLINT_CACHE", "GLINT_PRESETS", "GLINT_PASSES", "GLINT_DEVICE", "GLINT_VALIDATION", "OCIO", "TMPDIR", "HOME", "XDG_CACHE_HOME", "XDG_RUNTIME_DIR", "NO_COLOR", "COLUMNS",
                  "LINES", "TERM", "LANG", "LC_ALL", "LC_NUMERIC", "COLORTERM", "VK_ICD_FILENAMES", "VK_LAYER_PATH", "ARGP_HELP_FMT", "POSIXLY_CORRECT"]
