@@ -27,7 +27,8 @@ static vec3 turned_normal(const struct aiMatrix4x4 *m, struct aiVector3D n) {
     vec3 x = v3(m->a1, m->b1, m->c1), y = v3(m->a2, m->b2, m->c2), z = v3(m->a3, m->b3, m->c3);
     vec3 sum = add(add(scale(cross(y, z), n.x), scale(cross(z, x), n.y)), scale(cross(x, y), n.z));
     vec3 normal = unit(dot(cross(x, y), z) < 0 ? scale(sum, -1) : sum);
-    return length(normal) > 0.5f ? normal : v3(0, 1, 0); /* a file's may be 0 or no numbers, of which Embree makes no rays */
+    return length(normal) > 0.5f ? normal
+                                 : v3(0, 1, 0); /* a file's may be 0 or no numbers, of which Embree makes no rays */
 }
 
 struct corner {

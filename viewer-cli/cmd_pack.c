@@ -33,7 +33,8 @@ static const struct argp_option options[] = {
     {"camera", KEY_CAMERA, "FILE", 0, "The manifest that belongs to it, with the camera (default: FRAME.camera.json)",
      0},
     {"outside", KEY_OUTSIDE, NULL, 0,
-     "Let the manifest name files outside its folder, by absolute paths, .. or links: only for manifests that you trust",
+     "Let the manifest name files outside its folder, by absolute paths, .. or links: only for manifests that you "
+     "trust",
      0},
     {"jobs", 'j', "N", 0, "Number of threads (default: one per core)", 0},
     PROGRESS_OPTION,

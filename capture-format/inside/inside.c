@@ -63,14 +63,16 @@ char *inside_path(const char *folder, const char *name, struct glint_error *err)
     const size_t length = root ? strlen(root) : 0, size = length + strlen(name) + 2;
     char *path = root ? malloc(size) : NULL;
     if (path) {
-        snprintf(path, size, "%s/%s", root, name);
+        snprintf(path, size, "%s%s%s", name[0] == '/' ? "" : root, name[0] == '/' ? "" : "/", name);
         real = realpath(path, NULL);
     }
     const int reason = errno;
-    const bool below = real && name[0] != '/' &&
-                       (length == 1 || (strncmp(real, root, length) == 0 && real[length] == '/'));
-    if (!real) glint_fail(err, GLINT_ERROR_IO, "%s/%s: %s", folder, name, strerror(reason));
-    else if (!below) glint_fail(err, GLINT_ERROR_FORMAT, "%s/%s: lies outside this folder", folder, name);
+    const bool below =
+        real && name[0] != '/' && (length == 1 || (strncmp(real, root, length) == 0 && real[length] == '/'));
+    if (!real && name[0] == '/') glint_fail(err, GLINT_ERROR_IO, "%s: %s", name, strerror(reason));
+    else if (!real) glint_fail(err, GLINT_ERROR_IO, "%s/%s: %s", folder, name, strerror(reason));
+    else if (!below)
+        glint_fail(err, GLINT_ERROR_FORMAT, "%s: expected a file in %s or below, found one outside", name, folder);
     if (!below) {
         free(real);
         real = NULL;
@@ -82,7 +84,7 @@ char *inside_path(const char *folder, const char *name, struct glint_error *err)
 
 char *inside_beside(const char *file, const char *name, struct glint_error *err) {
     const size_t length = glint_path_folder(file);
-    char *folder = length ? strndup(file, length) : strdup(".");
+    char *folder = length ? strndup(file, length > 1 ? length - 1 : 1) : strdup(".");
     if (!folder) glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", file);
     char *path = folder ? inside_path(folder, name, err) : NULL;
     free(folder);

@@ -92,8 +92,8 @@ glint_file glint_file_open(const char *path) {
 }
 
 glint_file glint_file_open_unlinked(const char *path) {
-    const glint_file file =
-        open_wide(path, GENERIC_READ, SHARE_ALL, OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS | FILE_FLAG_OPEN_REPARSE_POINT);
+    const glint_file file = open_wide(path, GENERIC_READ, SHARE_ALL, OPEN_EXISTING,
+                                      FILE_FLAG_BACKUP_SEMANTICS | FILE_FLAG_OPEN_REPARSE_POINT);
     BY_HANDLE_FILE_INFORMATION info;
     if (file == GLINT_NO_FILE || !GetFileInformationByHandle((HANDLE)file, &info) ||
         !(info.dwFileAttributes & FILE_ATTRIBUTE_REPARSE_POINT))

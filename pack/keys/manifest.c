@@ -37,9 +37,12 @@ char *manifest_file(const struct node *node, const char *name, struct glint_erro
     const struct manifest *manifest = node->manifest;
     const bool anywhere = manifest->options->outside || (manifest->own && file_same(manifest->own, name));
     char *path = anywhere ? file_beside(manifest->path, name) : inside_beside(manifest->path, name, err);
+    char *real = path && anywhere ? realpath(path, NULL) : NULL; /* for what takes no links */
     if (!path && anywhere) node_no_memory(node, err);
     else if (!path) node_wrap(node, err);
-    return path;
+    if (!real) return path;
+    free(path);
+    return real;
 }
 
 void manifest_close(struct manifest *manifest) {

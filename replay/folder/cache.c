@@ -32,7 +32,8 @@ static bool hash_file(const char *path, char hex[CACHE_KEY_SIZE], int to) {
     XXH3_state_t *state = XXH3_createState();
     char *chunk = malloc(CHUNK);
     ssize_t got = -1;
-    bool ok = fd >= 0 && fstat(fd, &info) == 0 && S_ISREG(info.st_mode) && state && chunk && XXH3_128bits_reset(state) == XXH_OK;
+    bool ok = fd >= 0 && fstat(fd, &info) == 0 && S_ISREG(info.st_mode) && state && chunk &&
+              XXH3_128bits_reset(state) == XXH_OK;
     while (ok && (got = read(fd, chunk, CHUNK)) > 0) {
         XXH3_128bits_update(state, chunk, (size_t)got);
         for (ssize_t done = 0, some; to >= 0 && ok && done < got; done += some)

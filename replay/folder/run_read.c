@@ -133,7 +133,8 @@ struct glint_run *glint_run_open(const char *folder, struct glint_error *err) {
         return NULL;
     }
     snprintf(path, sizeof path, "%s/run.json", folder);
-    if (!check_is_run(folder, path, err) || !(run->text = inside_text(path, RUN_JSON_BYTES, err)) || !parse_run(run, err))
+    if (!check_is_run(folder, path, err) || !(run->text = inside_text(path, RUN_JSON_BYTES, err)) ||
+        !parse_run(run, err))
         glint_run_close(&run);
     return run;
 }

@@ -135,6 +135,18 @@ class Tests:
             if file not in ("fifo",):
                 glint("pack", "loose/manifest.json", "-o", "packed.exr", "--outside", status=0, folder=self.folder)
 
+    def test_a_sibling_is_a_file_beside_the_capture(self):
+        tap.glint("sample", "room", "-o", "shot.exr", "--size", "16x9", "--cube-size", "8", "--frames", "2", folder=self.folder)
+        sibling = self.path(next(name for name in os.listdir(self.folder) if name.startswith("shot.") and "000" not in name))
+        os.rename(sibling, self.path("kept"))
+        for make in (os.mkfifo, lambda path: os.symlink("/dev/zero", path), lambda path: os.symlink("secret", path), lambda path: os.symlink("kept", path)):
+            make(sibling)
+            for words in (["extract", "shot.0001.exr", "-o", "taken"], ["info", "shot.0001.exr"], ["crop", "shot.0001.exr", "0,0,8,8", "-o", "cropped.exr"]):
+                said = glint(*words, status=1, folder=self.folder)
+                assert os.path.basename(sibling) in said, said
+            assert not os.path.exists(self.path("taken", os.path.basename(sibling)))
+            os.remove(sibling)
+
     def scene(self, change, data=None):
         scene, own = gltf_scene()
         change(scene)

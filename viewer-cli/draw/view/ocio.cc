@@ -107,8 +107,7 @@ void check_files(const OCIO::ConstConfigRcPtr &config, const OCIO::ConstTransfor
 void check_all_files(const OCIO::ConstConfigRcPtr &config) {
     const auto any = OCIO::SEARCH_REFERENCE_SPACE_ALL;
     for (int i = 0; i < config->getNumColorSpaces(any, OCIO::COLORSPACE_ALL); i++) {
-        const auto space =
-            config->getColorSpace(config->getColorSpaceNameByIndex(any, OCIO::COLORSPACE_ALL, i));
+        const auto space = config->getColorSpace(config->getColorSpaceNameByIndex(any, OCIO::COLORSPACE_ALL, i));
         if (!space) continue;
         check_files(config, space->getTransform(OCIO::COLORSPACE_DIR_TO_REFERENCE));
         check_files(config, space->getTransform(OCIO::COLORSPACE_DIR_FROM_REFERENCE));
@@ -126,8 +125,7 @@ void check_all_files(const OCIO::ConstConfigRcPtr &config) {
         check_files(config, look->getInverseTransform());
     }
     for (int i = 0; i < config->getNumNamedTransforms(OCIO::NAMEDTRANSFORM_ALL); i++) {
-        const auto named =
-            config->getNamedTransform(config->getNamedTransformNameByIndex(OCIO::NAMEDTRANSFORM_ALL, i));
+        const auto named = config->getNamedTransform(config->getNamedTransformNameByIndex(OCIO::NAMEDTRANSFORM_ALL, i));
         if (!named) continue;
         check_files(config, named->getTransform(OCIO::TRANSFORM_DIR_FORWARD));
         check_files(config, named->getTransform(OCIO::TRANSFORM_DIR_INVERSE));
