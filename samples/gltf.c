@@ -10,7 +10,7 @@
 #include "gltf_material.h"
 #include "texture.h"
 
-enum { MAX_DEPTH = 64, VERTEX_BUDGET = 300000 };
+enum { MAX_DEPTH = 64, MAX_TRIANGLES = 20000000, VERTEX_BUDGET = 300000 };
 
 static vec3 daylight(vec3 d) {
     vec3 horizon = v3(0.9f, 0.92f, 0.95f), zenith = v3(0.25f, 0.42f, 0.78f), ground = v3(0.22f, 0.2f, 0.18f);
@@ -153,12 +153,14 @@ static void visit_mesh(struct reading *r, const struct aiMesh *mesh, const struc
 }
 
 static void visit_node(struct reading *r, const struct aiNode *node, struct aiMatrix4x4 m, int depth) {
+    if (r->triangles > MAX_TRIANGLES) return; /* however often nodes repeat a mesh */
     if (depth > MAX_DEPTH) {
         r->bad = true;
         return;
     }
     aiMultiplyMatrix4(&m, &node->mTransformation);
-    for (unsigned i = 0; i < node->mNumMeshes; i++) visit_mesh(r, r->file->mMeshes[node->mMeshes[i]], &m);
+    for (unsigned i = 0; i < node->mNumMeshes && r->triangles <= MAX_TRIANGLES; i++)
+        visit_mesh(r, r->file->mMeshes[node->mMeshes[i]], &m);
     for (unsigned i = 0; i < node->mNumChildren; i++) visit_node(r, node->mChildren[i], m, depth + 1);
 }
 
@@ -227,8 +229,8 @@ static bool take_over(struct reading *r, const struct gltf_facts *facts, struct 
     if (r->bad)
         return glint_fail(err, GLINT_ERROR_FORMAT, "%s: expected positions within 1,000 km and at most %d nested nodes",
                           r->path, MAX_DEPTH);
-    if (r->triangles > 20000000)
-        return glint_fail(err, GLINT_ERROR_LIMIT, "%s: %zu triangles, at most 20000000", r->path, r->triangles);
+    if (r->triangles > MAX_TRIANGLES)
+        return glint_fail(err, GLINT_ERROR_LIMIT, "%s: more than %d triangles", r->path, MAX_TRIANGLES);
     r->cell = fmaxf(length(sub(r->high, r->low)) / 100, 1e-6f);
     for (visit(r); r->vertices > VERTEX_BUDGET + 3 * r->triangles; visit(r)) r->cell *= 1.5f;
     set_stage(r->file, facts, scene, r->low, r->high);

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #define MAX_FILE ((uint64_t)1 << 31)
+enum { MAX_NESTED = 1000 };
 
 struct check {
     const char *path;
@@ -351,11 +352,69 @@ static bool check_tree(const struct check *c) {
         }
     for (i = 0; i < count && ok; i++) {
         size_t steps = 0;
-        for (size_t at = i + 1; at && steps <= count; at = parents[at - 1]) steps++;
-        if (steps > count) ok = bad(c, "node", i, "is its own ancestor");
+        for (size_t at = i + 1; at && steps <= MAX_NESTED; at = parents[at - 1]) steps++;
+        if (steps > MAX_NESTED) ok = bad(c, "node", i, "is its own ancestor, or has more than 1000 of them");
     }
     free(parents);
     return ok;
+}
+
+static uint64_t number_of(const json_t *object, const char *key) {
+    uint64_t number = 0;
+    return get_number(object, key, 0, &number) ? number : 0;
+}
+
+/* What the importer makes of all elements of these accessors: it unpacks an accessor again for each use. */
+static uint64_t unpacked_attributes(const struct check *c, const json_t *attributes) {
+    enum { ELEMENT_BYTES = 16 };
+    const char *key;
+    json_t *index;
+    uint64_t sum = 0;
+    json_object_foreach((json_t *)(uintptr_t)attributes, key, index) sum +=
+        number_of(accessor_at(c, index), "count") * ELEMENT_BYTES;
+    return sum;
+}
+
+static uint64_t unpacked_mesh(const struct check *c, const json_t *mesh) {
+    enum { INDEX_BYTES = 16 };
+    size_t k, t;
+    json_t *primitive, *target;
+    uint64_t sum = 0;
+    json_array_foreach(json_object_get(mesh, "primitives"), k, primitive) {
+        sum += unpacked_attributes(c, json_object_get(primitive, "attributes"));
+        sum += number_of(accessor_at(c, json_object_get(primitive, "indices")), "count") * INDEX_BYTES;
+        json_array_foreach(json_object_get(primitive, "targets"), t, target) sum += unpacked_attributes(c, target);
+    }
+    return sum;
+}
+
+static uint64_t unpacked_animation(const struct check *c, const json_t *animation) {
+    size_t k;
+    json_t *channel;
+    uint64_t sum = 0;
+    json_array_foreach(json_object_get(animation, "channels"), k, channel) {
+        const json_t *sampler =
+            json_array_get(json_object_get(animation, "samplers"), (size_t)number_of(channel, "sampler"));
+        sum += number_of(accessor_at(c, json_object_get(sampler, "input")), "count") * 32;
+    }
+    return sum;
+}
+
+/* A small file can name the same data many times, and takes as many times its memory when it is imported. */
+static bool check_unpacked(const struct check *c) {
+    uint64_t sum = 0;
+    size_t i;
+    json_t *item;
+    json_array_foreach(json_object_get(c->root, "buffers"), i, item) sum += number_of(item, "byteLength");
+    json_array_foreach(json_object_get(c->root, "accessors"), i, item) if (json_object_get(item, "sparse")) sum +=
+        number_of(item, "count") * element_bytes(item);
+    json_array_foreach(json_object_get(c->root, "images"), i, item) sum += number_of(
+        json_array_get(json_object_get(c->root, "bufferViews"), (size_t)number_of(item, "bufferView")), "byteLength");
+    json_array_foreach(json_object_get(c->root, "meshes"), i, item) sum += unpacked_mesh(c, item);
+    json_array_foreach(json_object_get(c->root, "animations"), i, item) sum += unpacked_animation(c, item);
+    return sum <= MAX_FILE ||
+           glint_fail(c->err, GLINT_ERROR_LIMIT, "%s: %llu bytes when it is unpacked, the limit is 2 GiB", c->path,
+                      (unsigned long long)sum);
 }
 
 static uint64_t count_triangles(const struct check *c) {
@@ -403,7 +462,7 @@ static bool check_all(const struct check *c) {
     }
     return (check_reference(c, c->root, "scene", "scenes") ||
             glint_fail(c->err, GLINT_ERROR_FORMAT, "%s: no such scene", c->path)) &&
-           check_tree(c);
+           check_tree(c) && check_unpacked(c);
 }
 
 bool gltf_check(const char *path, struct gltf_facts *facts, struct glint_error *err) {

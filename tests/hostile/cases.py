@@ -176,6 +176,32 @@ class Tests:
         self.scene(lambda scene: scene["nodes"][1].update(translation=[0, 1e30, 0]))
         self.sample(0)
 
+    def test_a_scene_that_repeats_its_data_is_counted(self):
+        def primitives(scene):
+            count = 200000
+            scene["meshes"][0]["primitives"] = [{"attributes": {"POSITION": 0}}] * 20000
+            scene["accessors"][0].update(count=count)
+            scene["bufferViews"][0].update(buffer=1, byteLength=12 * count)
+            scene["buffers"].append({"byteLength": 12 * count, "uri": "big.bin"})
+        self.scene(primitives)
+        write(self.path("scene", "big.bin"), bytes(12 * 200000))
+        assert "unpacked" in self.sample(1)
+
+        def chain(scene):
+            scene["nodes"] += [{"children": [i + 4]} for i in range(50000)] + [{}]
+        self.scene(chain)
+        assert "ancestor" in self.sample(1)
+
+        def instances(scene):
+            scene["nodes"] = [{"mesh": 0}] * 40000
+            scene["scenes"] = [{"nodes": list(range(40000))}]
+            scene["accessors"][1].update(count=3000)
+            scene["bufferViews"][2].update(buffer=1, byteOffset=0, byteLength=6000)
+            scene["buffers"].append({"byteLength": 6000, "uri": "big.bin"})
+        self.scene(instances)
+        write(self.path("scene", "big.bin"), struct.pack("<3H", 0, 2, 1) * 1000)
+        assert "triangles" in self.sample(1)
+
     def config(self, colorspaces):
         text = read(os.path.join(os.path.dirname(tap.PLAIN), "..", "viewer-cli", "draw", "glint.ocio")).decode()
         text = text.replace("active_views: [", "active_views: [mine, ").replace("  sRGB:\n", "  sRGB:\n    - !<View> {name: mine, colorspace: mine}\n", 1)

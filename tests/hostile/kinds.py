@@ -288,7 +288,7 @@ class Cache(Kind):
 class Environment(Kind):
     name = "environment"
     commands = [("info run", None), ("view run -o out.png", None), ("passes", None), ("plan tiny.exr -p kf2", None), ("lint tiny.exr", None), ("report run -o out.html", None),
-                ("info -", None), ("--help", None), ("devices", None)]
+                ("--help", None), ("devices", None)]
     variables = ["GLINT_CACHE", "GLINT_PRESETS", "GLINT_PASSES", "GLINT_DEVICE", "GLINT_VALIDATION", "OCIO", "TMPDIR", "HOME", "XDG_CACHE_HOME", "XDG_RUNTIME_DIR", "NO_COLOR", "COLUMNS",
                  "LINES", "TERM", "LANG", "LC_ALL", "LC_NUMERIC", "COLORTERM", "VK_ICD_FILENAMES", "VK_LAYER_PATH", "ARGP_HELP_FMT", "POSIXLY_CORRECT"]
 
