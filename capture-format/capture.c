@@ -29,6 +29,7 @@ static struct glint_sibling *open_sibling(struct glint_capture *capture, struct 
     struct glint_error err = {0};
     struct glint_limits limits = capture->exr->limits;
     limits.memory_bytes /= GLINT_SIBLING_SHARE;
+    limits.no_link = true;
     char *path = glint_sibling_path(capture->exr->path, part->sibling);
     sibling->name = glint_arena_string(&capture->arena, part->sibling);
     if (!path || !sibling->name) {

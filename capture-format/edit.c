@@ -188,7 +188,9 @@ static struct glint_exr *open_sibling(struct glint_edit *edit, const char *name,
     char hex[33] = "", *path = glint_sibling_path(edit->exr->path, name);
     struct glint_edit_sibling *sibling = &edit->siblings[edit->sibling_count];
     sibling->name = glint_arena_string(&edit->arena, name);
-    if (path && sibling->name) sibling->exr = glint_exr_open(path, &edit->exr->limits, err);
+    struct glint_limits limits = edit->exr->limits;
+    limits.no_link = true;
+    if (path && sibling->name) sibling->exr = glint_exr_open(path, &limits, err);
     else glint_edit_fail_memory(edit, err);
     edit->sibling_count += sibling->exr != NULL;
     bool ok = sibling->exr && glint_hash_file(sibling->exr->stream.file, path, hex, err);

@@ -77,7 +77,10 @@ static const char *other_kind(const struct glint_exr *exr) {
 
 static bool open_file(struct glint_exr *exr, struct glint_error *err) {
     struct glint_file_info info;
-    exr->stream.file = glint_file_open(exr->path);
+    exr->stream.file = exr->limits.no_link ? glint_file_open_unlinked(exr->path) : glint_file_open(exr->path);
+    if (exr->stream.file == GLINT_NO_FILE && errno == ELOOP && exr->limits.no_link)
+        return glint_fail(err, GLINT_ERROR_IO, "%s: expected an EXR file, found a symbolic link, which is not followed",
+                          exr->path);
     if (exr->stream.file == GLINT_NO_FILE || !glint_file_describe(exr->stream.file, &info))
         return glint_fail(err, GLINT_ERROR_IO, "%s: %s", exr->path, strerror(errno));
     if (info.kind != GLINT_FILE_REGULAR)

@@ -10,7 +10,7 @@
 #include "gltf_material.h"
 #include "texture.h"
 
-enum { MAX_DEPTH = 64, VERTEX_BUDGET = 300000 };
+enum { MAX_DEPTH = 64, MAX_TRIANGLES = 20000000, VERTEX_BUDGET = 300000 };
 
 static vec3 daylight(vec3 d) {
     vec3 horizon = v3(0.9f, 0.92f, 0.95f), zenith = v3(0.25f, 0.42f, 0.78f), ground = v3(0.22f, 0.2f, 0.18f);
@@ -26,7 +26,9 @@ static vec3 transformed(const struct aiMatrix4x4 *m, struct aiVector3D p, float 
 static vec3 turned_normal(const struct aiMatrix4x4 *m, struct aiVector3D n) {
     vec3 x = v3(m->a1, m->b1, m->c1), y = v3(m->a2, m->b2, m->c2), z = v3(m->a3, m->b3, m->c3);
     vec3 sum = add(add(scale(cross(y, z), n.x), scale(cross(z, x), n.y)), scale(cross(x, y), n.z));
-    return unit(dot(cross(x, y), z) < 0 ? scale(sum, -1) : sum);
+    vec3 normal = unit(dot(cross(x, y), z) < 0 ? scale(sum, -1) : sum);
+    return length(normal) > 0.5f ? normal
+                                 : v3(0, 1, 0); /* a file's may be 0 or no numbers, of which Embree makes no rays */
 }
 
 struct corner {
@@ -151,12 +153,14 @@ static void visit_mesh(struct reading *r, const struct aiMesh *mesh, const struc
 }
 
 static void visit_node(struct reading *r, const struct aiNode *node, struct aiMatrix4x4 m, int depth) {
+    if (r->triangles > MAX_TRIANGLES) return; /* however often nodes repeat a mesh */
     if (depth > MAX_DEPTH) {
         r->bad = true;
         return;
     }
     aiMultiplyMatrix4(&m, &node->mTransformation);
-    for (unsigned i = 0; i < node->mNumMeshes; i++) visit_mesh(r, r->file->mMeshes[node->mMeshes[i]], &m);
+    for (unsigned i = 0; i < node->mNumMeshes && r->triangles <= MAX_TRIANGLES; i++)
+        visit_mesh(r, r->file->mMeshes[node->mMeshes[i]], &m);
     for (unsigned i = 0; i < node->mNumChildren; i++) visit_node(r, node->mChildren[i], m, depth + 1);
 }
 
@@ -192,7 +196,7 @@ static bool file_camera(const struct aiScene *file, const struct gltf_facts *fac
     if (!find_node(file->mRootNode, &camera->mName, identity, &m, 0)) return false;
     /* glTF cameras are at the origin of their node; Assimp 5.2 also adds the node's translation to mPosition */
     vec3 eye = transformed(&m, (struct aiVector3D){0, 0, 0}, 1), ahead = unit(transformed(&m, camera->mLookAt, 0));
-    if (!(length(ahead) > 0.5f) || !isfinite(length(eye))) return false;
+    if (!(length(ahead) > 0.5f) || !(length(eye) < 1e6f)) return false;
     scene->eye = eye;
     scene->target = add(eye, ahead);
     if (facts->fov_y_rad > 0.01 && facts->fov_y_rad < 2.8) scene->fov_y_rad = (float)facts->fov_y_rad;
@@ -225,8 +229,8 @@ static bool take_over(struct reading *r, const struct gltf_facts *facts, struct 
     if (r->bad)
         return glint_fail(err, GLINT_ERROR_FORMAT, "%s: expected positions within 1,000 km and at most %d nested nodes",
                           r->path, MAX_DEPTH);
-    if (r->triangles > 20000000)
-        return glint_fail(err, GLINT_ERROR_LIMIT, "%s: %zu triangles, at most 20000000", r->path, r->triangles);
+    if (r->triangles > MAX_TRIANGLES)
+        return glint_fail(err, GLINT_ERROR_LIMIT, "%s: more than %d triangles", r->path, MAX_TRIANGLES);
     r->cell = fmaxf(length(sub(r->high, r->low)) / 100, 1e-6f);
     for (visit(r); r->vertices > VERTEX_BUDGET + 3 * r->triangles; visit(r)) r->cell *= 1.5f;
     set_stage(r->file, facts, scene, r->low, r->high);

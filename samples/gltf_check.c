@@ -2,6 +2,8 @@
    file declares. Nothing else is checked here. */
 #include "gltf_check.h"
 
+#include "inside.h"
+
 #include <jansson.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -9,6 +11,7 @@
 #include <string.h>
 
 #define MAX_FILE ((uint64_t)1 << 31)
+enum { MAX_NESTED = 1000 };
 
 struct check {
     const char *path;
@@ -102,11 +105,12 @@ static bool stays_inside(const char *uri) {
     return true;
 }
 
-static FILE *open_beside(const struct check *c, const char *uri) {
-    char path[8192];
-    const char *slash = strrchr(c->path, '/');
-    int n = snprintf(path, sizeof path, "%.*s%s", slash ? (int)(slash + 1 - c->path) : 0, c->path, uri);
-    return n > 0 && (size_t)n < sizeof path ? fopen(path, "rb") : NULL;
+static bool open_beside(const struct check *c, const char *uri, glint_file *file, uint64_t *bytes,
+                        struct glint_error *err) {
+    char *path = inside_beside(c->path, uri, err);
+    const bool ok = path && inside_open(file, path, MAX_FILE, bytes, err);
+    free(path);
+    return ok;
 }
 
 static bool check_buffer(const struct check *c, size_t i, const json_t *buffer) {
@@ -119,11 +123,10 @@ static bool check_buffer(const struct check *c, size_t i, const json_t *buffer) 
         there = comma ? strlen(comma + 1) / 4 * 3 : 0;
     } else {
         if (!stays_inside(uri)) return bad(c, "buffer", i, "its file must lie in the glTF file's folder or below");
-        FILE *file = open_beside(c, uri);
-        long end = file && !fseek(file, 0, SEEK_END) ? ftell(file) : -1;
-        if (file) fclose(file);
-        if (end < 0) return bad(c, "buffer", i, "its file is missing");
-        there = (uint64_t)end;
+        struct glint_error why = {0};
+        glint_file file;
+        if (!open_beside(c, uri, &file, &there, &why)) return bad(c, "buffer", i, why.message);
+        glint_file_close(file);
     }
     return bytes <= there || bad(c, "buffer", i, "shorter than its byteLength");
 }
@@ -165,9 +168,12 @@ static bool read_buffer(const struct check *c, uint64_t buffer, uint64_t offset,
         memcpy(out, c->chunk + offset, bytes);
         return true;
     }
-    FILE *file = strncmp(uri, "data:", 5) ? open_beside(c, uri) : NULL;
-    bool ok = file && !fseek(file, (long)offset, SEEK_SET) && fread(out, 1, bytes, file) == bytes;
-    if (file) fclose(file);
+    glint_file file;
+    uint64_t there;
+    size_t got = 0;
+    if (!strncmp(uri, "data:", 5) || !open_beside(c, uri, &file, &there, NULL)) return false;
+    const bool ok = glint_file_read(file, out, bytes, offset, &got) && got == bytes;
+    glint_file_close(file);
     return ok;
 }
 
@@ -348,11 +354,69 @@ static bool check_tree(const struct check *c) {
         }
     for (i = 0; i < count && ok; i++) {
         size_t steps = 0;
-        for (size_t at = i + 1; at && steps <= count; at = parents[at - 1]) steps++;
-        if (steps > count) ok = bad(c, "node", i, "is its own ancestor");
+        for (size_t at = i + 1; at && steps <= MAX_NESTED; at = parents[at - 1]) steps++;
+        if (steps > MAX_NESTED) ok = bad(c, "node", i, "is its own ancestor, or has more than 1000 of them");
     }
     free(parents);
     return ok;
+}
+
+static uint64_t number_of(const json_t *object, const char *key) {
+    uint64_t number = 0;
+    return get_number(object, key, 0, &number) ? number : 0;
+}
+
+/* What the importer makes of all elements of these accessors: it unpacks an accessor again for each use. */
+static uint64_t unpacked_attributes(const struct check *c, const json_t *attributes) {
+    enum { ELEMENT_BYTES = 16 };
+    const char *key;
+    json_t *index;
+    uint64_t sum = 0;
+    json_object_foreach((json_t *)(uintptr_t)attributes, key, index) sum +=
+        number_of(accessor_at(c, index), "count") * ELEMENT_BYTES;
+    return sum;
+}
+
+static uint64_t unpacked_mesh(const struct check *c, const json_t *mesh) {
+    enum { INDEX_BYTES = 16 };
+    size_t k, t;
+    json_t *primitive, *target;
+    uint64_t sum = 0;
+    json_array_foreach(json_object_get(mesh, "primitives"), k, primitive) {
+        sum += unpacked_attributes(c, json_object_get(primitive, "attributes"));
+        sum += number_of(accessor_at(c, json_object_get(primitive, "indices")), "count") * INDEX_BYTES;
+        json_array_foreach(json_object_get(primitive, "targets"), t, target) sum += unpacked_attributes(c, target);
+    }
+    return sum;
+}
+
+static uint64_t unpacked_animation(const struct check *c, const json_t *animation) {
+    size_t k;
+    json_t *channel;
+    uint64_t sum = 0;
+    json_array_foreach(json_object_get(animation, "channels"), k, channel) {
+        const json_t *sampler =
+            json_array_get(json_object_get(animation, "samplers"), (size_t)number_of(channel, "sampler"));
+        sum += number_of(accessor_at(c, json_object_get(sampler, "input")), "count") * 32;
+    }
+    return sum;
+}
+
+/* A small file can name the same data many times, and takes as many times its memory when it is imported. */
+static bool check_unpacked(const struct check *c) {
+    uint64_t sum = 0;
+    size_t i;
+    json_t *item;
+    json_array_foreach(json_object_get(c->root, "buffers"), i, item) sum += number_of(item, "byteLength");
+    json_array_foreach(json_object_get(c->root, "accessors"), i, item) if (json_object_get(item, "sparse")) sum +=
+        number_of(item, "count") * element_bytes(item);
+    json_array_foreach(json_object_get(c->root, "images"), i, item) sum += number_of(
+        json_array_get(json_object_get(c->root, "bufferViews"), (size_t)number_of(item, "bufferView")), "byteLength");
+    json_array_foreach(json_object_get(c->root, "meshes"), i, item) sum += unpacked_mesh(c, item);
+    json_array_foreach(json_object_get(c->root, "animations"), i, item) sum += unpacked_animation(c, item);
+    return sum <= MAX_FILE ||
+           glint_fail(c->err, GLINT_ERROR_LIMIT, "%s: %llu bytes when it is unpacked, the limit is 2 GiB", c->path,
+                      (unsigned long long)sum);
 }
 
 static uint64_t count_triangles(const struct check *c) {
@@ -400,7 +464,7 @@ static bool check_all(const struct check *c) {
     }
     return (check_reference(c, c->root, "scene", "scenes") ||
             glint_fail(c->err, GLINT_ERROR_FORMAT, "%s: no such scene", c->path)) &&
-           check_tree(c);
+           check_tree(c) && check_unpacked(c);
 }
 
 bool gltf_check(const char *path, struct gltf_facts *facts, struct glint_error *err) {
@@ -412,7 +476,7 @@ bool gltf_check(const char *path, struct gltf_facts *facts, struct glint_error *
     json_error_t fault;
     bool ok = false;
     unsigned char *data = read_file(path, &bytes, err);
-    if (!data || !find_text(&c, data, bytes, &text, &length)) goto done;
+    if (!data || !find_text(&c, data, bytes, &text, &length) || !inside_json_fits(path, text, length, err)) goto done;
     c.root = json_loadb(text, length, JSON_REJECT_DUPLICATES, &fault);
     if (!c.root) {
         glint_fail(err, GLINT_ERROR_FORMAT, "%s: line %d: %s", path, fault.line, fault.text);

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "image.h"
+#include "inside.h"
 #include "texture.h"
 
 enum { MAX_IMAGE_FILE = 1 << 28 };
@@ -21,22 +22,21 @@ struct source {
     struct glint_error *err;
 };
 
-/* The contents of an image file beside the glTF file; release with free(). */
-static uint8_t *read_bytes(const char *path, size_t *size, struct glint_error *err) {
-    FILE *file = fopen(path, "rb");
-    long end = file && !fseek(file, 0, SEEK_END) ? ftell(file) : -1;
-    uint8_t *bytes = NULL;
-    if (end > MAX_IMAGE_FILE) glint_fail(err, GLINT_ERROR_LIMIT, "%s: larger than 256 MiB", path);
-    else if (end < 0 || fseek(file, 0, SEEK_SET)) glint_fail(err, GLINT_ERROR_IO, "%s: cannot be read", path);
-    else if (!(bytes = malloc((size_t)end + 1))) glint_fail(err, GLINT_ERROR_MEMORY, "%s: no memory", path);
-    else if (fread(bytes, 1, (size_t)end, file) != (size_t)end) {
-        glint_fail(err, GLINT_ERROR_IO, "%s: cannot be read to its end", path);
-        free(bytes);
-        bytes = NULL;
+/* The contents of an image file that the glTF file names; release with free(). */
+static uint8_t *read_bytes(const char *beside, const char *name, size_t *size, struct glint_error *err) {
+    glint_file file;
+    uint64_t bytes = 0;
+    char *path = inside_beside(beside, name, err);
+    const bool open = path && inside_open(&file, path, MAX_IMAGE_FILE, &bytes, err);
+    uint8_t *contents = open ? malloc((size_t)bytes + 1) : NULL;
+    if (open && (!contents || !glint_file_read(file, contents, (size_t)bytes, 0, size))) {
+        glint_fail(err, contents ? GLINT_ERROR_IO : GLINT_ERROR_MEMORY, "%s: cannot be read", path);
+        free(contents);
+        contents = NULL;
     }
-    *size = end < 0 ? 0 : (size_t)end;
-    if (file) fclose(file);
-    return bytes;
+    if (open) glint_file_close(file);
+    free(path);
+    return contents;
 }
 
 static uint8_t *pixels_of(const struct source *s, const char *name, uint32_t *width, uint32_t *height) {
@@ -53,7 +53,7 @@ static uint8_t *pixels_of(const struct source *s, const char *name, uint32_t *wi
     }
     snprintf(where, sizeof where, "%.*s%s", slash ? (int)(slash + 1 - s->path) : 0, s->path, name);
     size_t size;
-    uint8_t *bytes = read_bytes(where, &size, s->err), *pixels = NULL;
+    uint8_t *bytes = read_bytes(s->path, name, &size, s->err), *pixels = NULL;
     if (bytes) pixels = image_decode(where, bytes, size, width, height, s->err);
     free(bytes);
     return pixels;

@@ -65,7 +65,7 @@ static inline void frame_of(vec3 n, vec3 *t, vec3 *b) {
 }
 
 static inline float clampf(float v, float low, float high) {
-    return v < low ? low : v > high ? high : v;
+    return v >= low ? v > high ? high : v : low; /* low where it is no number */
 }
 static inline float smooth(float low, float high, float v) {
     float t = clampf((v - low) / (high - low), 0, 1);

@@ -183,7 +183,8 @@ static void print_introduction(void) {
           "- **possible** if another convention explains the data about as well; both are then named.\n\n"
           "Other findings are measured in one image alone, or say that two images match under no convention. `--fix` "
           "writes a copy of the capture in which\ncertain findings and a wrong up axis are corrected, where the last "
-          "column says that it can, unless another comparison would match less.\n",
+          "column says that it can, unless another comparison would match less. The copy "
+          "follows every\nrule that `glint validate` checks, or none is written.\n",
           stdout);
 }
 

@@ -9,11 +9,11 @@
 #include "command.h"
 #include "options/args.h"
 
-enum { KEY_PROGRESS = 256, KEY_BLENDER, KEY_CAMERA };
+enum { KEY_PROGRESS = 256, KEY_BLENDER, KEY_CAMERA, KEY_OUTSIDE };
 
 struct arguments {
     const char *manifest, *blender, *camera, *out;
-    bool explain, overwrite;
+    bool explain, overwrite, outside;
     uint32_t jobs;
     bool lines;
 };
@@ -32,6 +32,10 @@ static const struct argp_option options[] = {
     {"blender", KEY_BLENDER, "FRAME.exr", 0, "In place of MANIFEST: a multilayer EXR file of Blender", 0},
     {"camera", KEY_CAMERA, "FILE", 0, "The manifest that belongs to it, with the camera (default: FRAME.camera.json)",
      0},
+    {"outside", KEY_OUTSIDE, NULL, 0,
+     "Let the manifest name files outside its folder, by absolute paths, .. or links: only for manifests that you "
+     "trust",
+     0},
     {"jobs", 'j', "N", 0, "Number of threads (default: one per core)", 0},
     PROGRESS_OPTION,
     {0},
@@ -40,6 +44,7 @@ static const struct arg_target targets[] = {
     STORED_OUTPUT('o', struct arguments, out, OUTPUT_EXR),
     STORED(KEY_OVERWRITE, struct arguments, overwrite),
     STORED('e', struct arguments, explain),
+    STORED(KEY_OUTSIDE, struct arguments, outside),
     STORED_NUMBER('j', struct arguments, jobs, 1, 1024),
     STORED(KEY_PROGRESS, struct arguments, lines),
     STORED(KEY_BLENDER, struct arguments, blender),
@@ -113,6 +118,7 @@ static enum status cmd_pack_run(int argc, char **argv) {
     if (a.out && !out) return command_fail(&cmd_pack, &err);
     progress_begin(&progress);
     const struct glint_pack_options pack = {.threads = a.jobs,
+                                            .outside = a.outside,
                                             .note = on_note,
                                             .note_user = &a,
                                             .fault = on_fault,

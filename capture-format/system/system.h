@@ -26,6 +26,8 @@ struct glint_file_info {
 
 /* For reading. Returns at once for a pipe, too. Others may replace or remove the file meanwhile. */
 glint_file glint_file_open(const char *path);
+/* The same, but fails with ELOOP where the path itself is a symbolic link. */
+glint_file glint_file_open_unlinked(const char *path);
 /* For writing; a file that exists is emptied. */
 glint_file glint_file_create(const char *path);
 /* For writing; fails with EEXIST if anything has this name. It counts as in use until it is closed. Nobody else may read it if `secret`. */

@@ -92,6 +92,18 @@ glint_file glint_file_open(const char *path) {
     return open_wide(path, GENERIC_READ, SHARE_ALL, OPEN_EXISTING, FILE_FLAG_BACKUP_SEMANTICS);
 }
 
+glint_file glint_file_open_unlinked(const char *path) {
+    const glint_file file = open_wide(path, GENERIC_READ, SHARE_ALL, OPEN_EXISTING,
+                                      FILE_FLAG_BACKUP_SEMANTICS | FILE_FLAG_OPEN_REPARSE_POINT);
+    BY_HANDLE_FILE_INFORMATION info;
+    if (file == GLINT_NO_FILE || !GetFileInformationByHandle((HANDLE)file, &info) ||
+        !(info.dwFileAttributes & FILE_ATTRIBUTE_REPARSE_POINT))
+        return file;
+    CloseHandle((HANDLE)file);
+    errno = ELOOP;
+    return GLINT_NO_FILE;
+}
+
 glint_file glint_file_create(const char *path) {
     return open_wide(path, GENERIC_WRITE, FILE_SHARE_READ | FILE_SHARE_DELETE, CREATE_ALWAYS, FILE_ATTRIBUTE_NORMAL);
 }

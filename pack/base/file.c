@@ -10,6 +10,9 @@
 #include <unistd.h>
 
 #include "complete.h"
+#include "inside.h"
+
+static const uint64_t MOST_COPIED = (uint64_t)64 << 30; /* as of a capture */
 
 static bool read_all(int file, const char *path, struct bytes *bytes, struct glint_error *err) {
     size_t done = 0;
@@ -74,19 +77,27 @@ bool file_write(const char *path, const void *data, size_t size, struct glint_er
     return complete_close(&out, ok, false, err);
 }
 
-bool file_equal(const char *a, const char *b) {
-    FILE *first = fopen(a, "rb"), *second = fopen(b, "rb");
+static bool same_bytes(glint_file first, glint_file second) {
     static const size_t piece = 65536;
     char *one = malloc(piece), *other = malloc(piece);
-    bool same = first && second && one && other;
-    for (size_t got = piece; same && got == piece;) {
-        got = fread(one, 1, piece, first);
-        same = fread(other, 1, piece, second) == got && !memcmp(one, other, got) && !ferror(first) && !ferror(second);
-    }
+    bool same = one && other;
+    uint64_t done = 0;
+    for (size_t got = piece, also; same && got == piece; done += got)
+        same = glint_file_read(first, one, piece, done, &got) && glint_file_read(second, other, piece, done, &also) &&
+               got == also && !memcmp(one, other, got);
     free(one);
     free(other);
-    if (first) fclose(first);
-    if (second) fclose(second);
+    return same;
+}
+
+bool file_equal(const char *a, const char *b) {
+    glint_file first = GLINT_NO_FILE, second = GLINT_NO_FILE;
+    uint64_t bytes, others;
+    const bool open =
+        inside_open(&first, a, UINT64_MAX, &bytes, NULL) && inside_open(&second, b, UINT64_MAX, &others, NULL);
+    const bool same = open && bytes == others && same_bytes(first, second);
+    if (first != GLINT_NO_FILE) glint_file_close(first);
+    if (second != GLINT_NO_FILE) glint_file_close(second);
     return same;
 }
 
@@ -103,8 +114,9 @@ static bool copy_all(glint_file from, glint_file to) {
 
 bool file_copy(const char *from, const char *to, struct glint_error *err) {
     struct complete_file out;
-    const glint_file in = glint_file_open(from);
-    if (in == GLINT_NO_FILE) return glint_fail(err, GLINT_ERROR_IO, "%s: %s", from, strerror(errno));
+    glint_file in;
+    uint64_t bytes;
+    if (!inside_open(&in, from, MOST_COPIED, &bytes, err)) return false;
     bool ok = complete_open(&out, to, err);
     if (ok) {
         ok = copy_all(in, out.file);

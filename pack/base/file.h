@@ -17,9 +17,9 @@ bool file_read(const char *path, uint64_t most, struct bytes *bytes, struct glin
 char *file_beside(const char *beside, const char *name);
 /* Whether both paths name one file. */
 bool file_same(const char *a, const char *b);
-/* Whether both files can be read and hold the same bytes. */
+/* Whether both are ordinary files, and no links, that hold the same bytes. */
 bool file_equal(const char *a, const char *b);
-/* Copies a file of any size; it appears under `to` only when it is complete. */
+/* Copies an ordinary file, and no link; it appears under `to` only when it is complete. */
 bool file_copy(const char *from, const char *to, struct glint_error *err);
 /* Writes NAME.tmp-XXXXXXXX, then renames it. */
 bool file_write(const char *path, const void *data, size_t size, struct glint_error *err);

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "manifest.h"
 #include "nearest.h"
 #include "read.h"
 
@@ -58,8 +59,8 @@ size_t texture_name_length(const struct textures *textures, const char *text) {
 /* ---- Reading ---- */
 
 static bool read_file(struct texture *texture, const char *name, struct glint_error *err) {
-    char *path = file_beside(texture->node.manifest->path, name);
-    if (!path) return node_no_memory(&texture->node, err);
+    char *path = manifest_file(&texture->node, name, err);
+    if (!path) return false;
     const bool ok = image_read(&texture->images[texture->image_count++], &texture->node, path, texture->is_cube, err);
     free(path);
     return ok;

@@ -5,6 +5,7 @@
 
 #include "check.h"
 #include "file.h"
+#include "inside.h"
 
 enum { LONGEST_MANIFEST = 64 << 20 };
 
@@ -16,6 +17,7 @@ bool manifest_open(struct manifest *manifest, const char *path, const struct gli
     if (!file_read(path, LONGEST_MANIFEST, &bytes, err)) return false;
     manifest->text = (char *)bytes.data;
     manifest->size = bytes.size;
+    if (!inside_json_fits(path, manifest->text, manifest->size, err)) return false;
     manifest->root = json_loadb(manifest->text, manifest->size, JSON_REJECT_DUPLICATES, &where);
     if (!manifest->root)
         return glint_fail(err, GLINT_ERROR_FORMAT, "%s:%d: column %d: %s", path, where.line > 0 ? where.line : 1,
@@ -29,6 +31,18 @@ bool manifest_open(struct manifest *manifest, const char *path, const struct gli
     const long long number = json_integer_value(version.value);
     return number == 1 || node_fail(&version, err, GLINT_ERROR_FORMAT,
                                     "expected version 1, found %lld: this glint is older than the manifest", number);
+}
+
+char *manifest_file(const struct node *node, const char *name, struct glint_error *err) {
+    const struct manifest *manifest = node->manifest;
+    const bool anywhere = manifest->options->outside || (manifest->own && file_same(manifest->own, name));
+    char *path = anywhere ? file_beside(manifest->path, name) : inside_beside(manifest->path, name, err);
+    char *real = path && anywhere ? realpath(path, NULL) : NULL; /* for what takes no links */
+    if (!path && anywhere) node_no_memory(node, err);
+    else if (!path) node_wrap(node, err);
+    if (!real) return path;
+    free(path);
+    return real;
 }
 
 void manifest_close(struct manifest *manifest) {

@@ -17,6 +17,7 @@ struct faults {
 
 struct manifest {
     const char *path; /* the caller's */
+    const char *own;  /* a file that the caller named, and that may lie anywhere; or NULL */
     char *text;
     size_t size;
     json_t *root;

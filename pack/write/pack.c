@@ -15,6 +15,7 @@
 #include "keys.h"
 #include "light.h"
 #include "manifest.h"
+#include "system.h"
 
 struct pack {
     struct manifest manifest;
@@ -57,9 +58,11 @@ static bool read_sibling(const struct part *part, const char *out, const char **
     if (!path) return true;
     if (!**name || !strcmp(*name, ".") || !strcmp(*name, "..") || strchr(*name, '\\') || strlen(*name) > 255)
         return node_fail(&node, err, GLINT_ERROR_FORMAT, "expected the path of a file, found \"%.100s\"", path);
-    char *from = file_beside(part->node.manifest->path, path);
-    if (!from) return node_no_memory(&node, err);
-    bool ok = !access(from, R_OK) || node_fail(&node, err, GLINT_ERROR_IO, "%s cannot be read", from);
+    char *from = manifest_file(&node, path, err);
+    if (!from) return false;
+    struct glint_file_info info;
+    bool ok = glint_path_describe(from, &info) && info.kind == GLINT_FILE_REGULAR;
+    if (!ok) node_fail(&node, err, GLINT_ERROR_IO, "%s cannot be read as a file", from);
     ok = ok && (!out || place_sibling(part, out, from, *name, err));
     free(from);
     return ok;
@@ -345,8 +348,9 @@ static bool pack_file(const char *manifest, const char *blender, const char *out
     struct glint_error own = {0};
     if (!err) err = &own; /* messages of what lies below are put together with lines */
     if (options) pack.options = *options;
-    bool ok = manifest_open(&pack.manifest, manifest, &pack.options, &pack.faults, err) &&
-              (!blender || blender_add(&pack.manifest, blender, err)) && pack_opened(&pack, out, err);
+    bool ok = manifest_open(&pack.manifest, manifest, &pack.options, &pack.faults, err);
+    pack.manifest.own = blender;
+    ok = ok && (!blender || blender_add(&pack.manifest, blender, err)) && pack_opened(&pack, out, err);
     ok = faults_none(&pack.faults, &pack.options, err) && ok;
     faults_finish(&pack.faults);
     textures_finish(&pack.textures);

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "inside.h"
+
 /* All of the file, or its first bytes if there are more than `limit`; NULL without memory. */
 static char *read_all(FILE *file, size_t limit, size_t *size) {
     enum { FIRST = 4096 };
@@ -47,4 +49,12 @@ char *file_text(const char *path, size_t limit, struct glint_error *err) {
     else glint_fail(err, GLINT_ERROR_LIMIT, "%s: expected at most %zu bytes of text", path, limit);
     free(text);
     return NULL;
+}
+
+char *file_text_found(const char *path, size_t limit, struct glint_error *err) {
+    char *real = realpath(path, NULL);
+    if (!real) glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
+    char *text = real ? inside_text(real, limit, err) : NULL;
+    free(real);
+    return text;
 }

@@ -9,4 +9,7 @@
 /* A whole text file of at most `limit` bytes, NUL-terminated. The caller frees it. */
 char *file_text(const char *path, size_t limit, struct glint_error *err);
 
+/* The same where the user named only the folder, or where another file names it: links are followed, but a pipe or a device is no file. */
+char *file_text_found(const char *path, size_t limit, struct glint_error *err);
+
 #endif

@@ -77,7 +77,7 @@ bool run_restore(struct run *run, struct step *step) {
     if (options->no_cache || options->repeat) return false; /* execution is to be measured */
     if (!cache_find(options->cache, step->cache_key, path, sizeof path)) return false;
     const double start = glint_now_seconds();
-    struct glint_exr *exr = glint_exr_open(path, NULL, &ignored);
+    struct glint_exr *exr = glint_exr_open(path, &(struct glint_limits){.no_link = true}, &ignored);
     bool ok = exr != NULL;
     for (size_t i = 0; ok && i < run->graph->image_count; i++) {
         if (run->graph->images[i].source != SOURCE_MADE || run->graph->images[i].maker != place) continue;

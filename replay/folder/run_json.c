@@ -9,6 +9,7 @@
 
 #include "complete.h"
 #include "glint/replay.h"
+#include "inside.h"
 #include "record.h"
 
 enum { PATH_SIZE = 4096 };
@@ -28,6 +29,14 @@ static void remove_images(const char *folder, const json_t *pass, const json_t *
     }
 }
 
+/* A run.json, which may be anybody's; NULL if it cannot be read. */
+static json_t *load_run(const char *path) {
+    char *text = inside_text(path, 1 << 24, NULL);
+    json_t *root = text && inside_json_fits(path, text, strlen(text), NULL) ? json_loads(text, 0, NULL) : NULL;
+    free(text);
+    return root;
+}
+
 /* {FILE: true} of a run; NULL if it cannot be read whole. */
 static json_t *list_files(const json_t *root) {
     json_t *files = root ? json_object() : NULL, *pass, *image;
@@ -41,7 +50,7 @@ static json_t *list_files(const json_t *root) {
 }
 
 bool run_remove_images(const char *removed, const char *kept, const char *folder, struct glint_error *err) {
-    json_t *old = json_load_file(removed, 0, NULL), *root = kept ? json_load_file(kept, 0, NULL) : NULL;
+    json_t *old = load_run(removed), *root = kept ? load_run(kept) : NULL;
     json_t *files = kept ? list_files(root) : json_object(), *pass;
     size_t p;
     const bool ok = files || glint_fail(err, GLINT_ERROR_IO, "%s: cannot be read", kept);

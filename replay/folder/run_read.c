@@ -11,9 +11,12 @@
 #include <jansson.h>
 
 #include "glint/exr.h"
+#include "inside.h"
 #include "row.h"
 #include "run_writer.h"
-#include "text_file.h"
+
+/* More than any run has. */
+enum { RUN_JSON_BYTES = 1 << 24, RUN_IMAGES = 4096, IMAGE_TEXELS = 1 << 27 };
 
 struct stored_image {
     struct glint_run_image info;
@@ -48,6 +51,8 @@ static bool holds_cubes(const struct glint_run_image *image) {
 }
 
 static bool add_image(struct glint_run *run, const json_t *pass, const json_t *image, struct glint_error *err) {
+    if (run->count == RUN_IMAGES)
+        return glint_fail(err, GLINT_ERROR_LIMIT, "%s/run.json: more than %d images", run->folder, RUN_IMAGES);
     struct stored_image *larger = realloc(run->images, (run->count + 1) * sizeof *larger);
     if (!larger) return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", run->folder);
     run->images = larger;
@@ -67,10 +72,11 @@ static bool add_image(struct glint_run *run, const json_t *pass, const json_t *i
     for (const char *at = stored.info.channels; *at; at += strcspn(at, " "), at += strspn(at, " "))
         stored.info.components++;
     if (!stored.info.name[0] || stored.info.components < 1 || stored.info.components > 4 || width < 1 ||
-        width > 1 << 16 || height < 1 || height > 1 << 19)
+        width > 1 << 16 || height < 1 || height > 1 << 19 || width * height > IMAGE_TEXELS)
         return glint_fail(err, GLINT_ERROR_FORMAT,
-                          "%s/run.json: slot %s: image %s: expected a name, 1 to 4 channels and a size", run->folder,
-                          stored.info.slot, stored.info.name);
+                          "%s/run.json: slot %s: image %s: expected a name, 1 to 4 channels and a size of at most %d "
+                          "texels",
+                          run->folder, stored.info.slot, stored.info.name, IMAGE_TEXELS);
     if (!stored.file[0] || strchr(stored.file, '/') || stored.file[0] == '.')
         return glint_fail(err, GLINT_ERROR_FORMAT,
                           "%s/run.json: image %s: expected the name of a file in the folder, found '%s'", run->folder,
@@ -86,6 +92,7 @@ static bool parse_run(struct glint_run *run, struct glint_error *err) {
     json_error_t fault;
     json_t *pass, *image;
     size_t p, i;
+    if (!inside_json_fits(run->folder, run->text, strlen(run->text), err)) return false;
     run->root = json_loads(run->text, 0, &fault);
     if (!run->root)
         return glint_fail(err, GLINT_ERROR_FORMAT, "%s/run.json:%d:%d: %s", run->folder, fault.line, fault.column,
@@ -127,7 +134,8 @@ struct glint_run *glint_run_open(const char *folder, struct glint_error *err) {
         return NULL;
     }
     snprintf(path, sizeof path, "%s/run.json", folder);
-    if (!check_is_run(folder, path, err) || !(run->text = file_text(path, 1 << 24, err)) || !parse_run(run, err))
+    if (!check_is_run(folder, path, err) || !(run->text = inside_text(path, RUN_JSON_BYTES, err)) ||
+        !parse_run(run, err))
         glint_run_close(&run);
     return run;
 }
@@ -166,7 +174,7 @@ static bool open_file(struct glint_run *run, const char *file, struct glint_erro
     if (run->exr) glint_exr_close(&run->exr);
     snprintf(path, sizeof path, "%s/%s", run->folder, file);
     run->open_file = file;
-    run->exr = glint_exr_open(path, NULL, err);
+    run->exr = glint_exr_open(path, &(struct glint_limits){.no_link = true}, err);
     return run->exr != NULL;
 }
 

@@ -31,7 +31,7 @@ static char *preset_text(const char *preset, char where[PATH_SIZE], struct glint
     const bool is_path = strchr(preset, '/') || (length > 5 && strcmp(preset + length - 5, ".json") == 0);
     if (!is_path && folder && folder[0] && snprintf(where, PATH_SIZE, "%s/%s.json", folder, preset) < PATH_SIZE &&
         access(where, F_OK) == 0)
-        return file_text(where, LIMIT, err);
+        return file_text_found(where, LIMIT, err);
     snprintf(where, PATH_SIZE, "%s", preset);
     if (is_path) return file_text(preset, LIMIT, err);
     for (size_t i = 0; i < BUILTIN; i++) {

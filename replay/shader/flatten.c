@@ -73,7 +73,7 @@ static bool flatten_text(struct flatten *out, const char *file, const char *text
                          struct glint_error *err);
 
 static bool flatten_disk(struct flatten *out, const char *path, int depth, struct glint_error *err) {
-    char *text = file_text(path, TEXT_MAX / 4, err);
+    char *text = depth ? file_text_found(path, TEXT_MAX / 4, err) : file_text(path, TEXT_MAX / 4, err);
     bool ok = text && flatten_text(out, path, text, true, depth, err);
     free(text);
     return ok;
@@ -90,7 +90,7 @@ static bool flatten_pass_file(struct flatten *out, const char *path, int depth, 
     char own[PATH_SIZE];
     if (!out->folder || snprintf(own, sizeof own, "%s/%s", out->folder, path) >= PATH_SIZE || access(own, R_OK) != 0)
         return flatten_text(out, path, glint_pass_text(path), false, depth, err);
-    char *text = file_text(own, TEXT_MAX / 4, err);
+    char *text = file_text_found(own, TEXT_MAX / 4, err);
     bool ok = text && flatten_text(out, path, text, false, depth, err);
     out->foreign = true;
     free(text);

@@ -125,7 +125,7 @@ bool reference_resume_round(struct glint_reference *reference, struct glint_erro
     char path[4096];
     if (!file_path(reference, path, err)) return false;
     if (access(path, F_OK) != 0) return true;
-    struct glint_exr *exr = glint_exr_open(path, NULL, err);
+    struct glint_exr *exr = glint_exr_open(path, &(struct glint_limits){.no_link = true}, err);
     const bool ok = exr && read_round(reference, exr, path, err);
     glint_exr_close(&exr);
     return ok;

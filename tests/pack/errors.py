@@ -65,7 +65,7 @@ def mistakes(base):
         ({"textures.lit.width": -1}, "textures.lit.width", "expected an integer from 0, found -1"),
         ({"textures.lit.width": MISSING}, "textures.lit", "raw memory: expected format, width and height, found no width"),
         ({"textures.lit.file": "nothing.raw"}, "textures.lit", "No such file"),
-        ({"textures.lit.file": "/dev/zero"}, "textures.lit", "expected a file, found none"),
+        ({"textures.lit.file": "/dev/zero"}, "textures.lit", "/dev/zero: expected a file in "),
         ({"textures.lit.layer": 1}, "textures.lit", "2 layers"),
         ({"textures.sky.cube": {"layout": "cross_vertical"}}, "textures.sky", "cross_vertical: expected square faces, found 4 x 24 texels"),
         ({"textures.sky.cube": {"order": ["+x"] * 6}}, "textures.sky.cube.order", "expected each face once, found +x twice"),

@@ -84,7 +84,7 @@ class Tests:
         with open(os.path.join(base, "NOTES"), "w", encoding="utf-8") as file:
             file.write("keep me")
         before = contents(base)
-        assert "NOTES" in glint("check", self.other, "--baseline", base, "--approve", status=5).stderr
+        assert "NOTES" in glint("check", self.other, "--baseline", base, "--approve", status=4).stderr
         assert contents(base) == before and not os.path.exists(base + "~")
         assert not [name for name in os.listdir(self.folder) if ".tmp-" in name]
         assert "the same folder" in glint("check", self.one, "--baseline", self.one, "--approve", status=5).stderr

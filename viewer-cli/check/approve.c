@@ -11,7 +11,9 @@
 
 #include "check/check.h"
 #include "complete.h"
+#include "glint/exr.h"
 #include "glint/replay.h"
+#include "inside.h"
 #include "io/memory.h"
 
 enum { PATH_SIZE = 4096 };
@@ -55,22 +57,42 @@ static bool write_all(int file, const char *bytes, size_t size) {
     return true;
 }
 
+/* The most that a file of a run may have: the bytes of its pixels, which compression never adds to, and room for headers and tables. */
+static bool find_most_bytes(const char *path, uint64_t *most, struct glint_error *err) {
+    struct glint_exr *exr = glint_exr_open(path, &(struct glint_limits){.no_link = true}, err);
+    *most = 1 << 22;
+    for (size_t p = 0; exr && p < glint_exr_part_count(exr); p++) {
+        const struct glint_exr_part_info *part = glint_exr_part(exr, p);
+        uint64_t texel = 0;
+        for (size_t c = 0; c < part->channel_count; c++) texel += part->channels[c].stored == GLINT_STORED_HALF ? 2 : 4;
+        *most += ((uint64_t)part->width * texel + 32) * part->height;
+    }
+    const bool ok = exr != NULL;
+    glint_exr_close(&exr);
+    return ok;
+}
+
 static bool copy_file(const char *from, const char *to, struct glint_error *err) {
     static const size_t size = 1 << 20;
-    const int in = open(from, O_RDONLY | O_CLOEXEC),
-              out = in < 0 ? -1 : open(to, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    uint64_t most = 1 << 22, bytes;
+    glint_file in;
+    const char *suffix = strrchr(from, '.');
+    if (strcmp(suffix ? suffix : "", ".json") != 0 && !find_most_bytes(from, &most, err)) return false;
+    if (!inside_open(&in, from, most, &bytes, err)) return false;
+    const int out = open(to, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     char *block = malloc(size);
     bool ok = block || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    if (ok && (in < 0 || out < 0)) ok = fail_at(in < 0 ? from : to, err);
-    for (ssize_t count = 1; ok && count > 0;) {
-        count = read(in, block, size);
-        if (count < 0 && errno == EINTR) count = 1;
-        else if (count < 0) ok = fail_at(from, err);
-        else if (count > 0) ok = write_all(out, block, (size_t)count) || fail_at(to, err);
+    if (ok && out < 0) ok = fail_at(to, err);
+    for (uint64_t done = 0; ok && done < bytes;) {
+        size_t count = bytes - done < size ? (size_t)(bytes - done) : size;
+        ok = glint_file_read(in, block, count, done, &count) || fail_at(from, err);
+        if (ok && !count) ok = glint_fail(err, GLINT_ERROR_IO, "%s: it shrinks", from);
+        ok = ok && (write_all(out, block, count) || fail_at(to, err));
+        done += count;
     }
     if (ok && fsync(out) != 0) ok = fail_at(to, err);
     if (out >= 0 && close(out) != 0 && ok) ok = fail_at(to, err);
-    if (in >= 0) close(in);
+    glint_file_close(in);
     free(block);
     return ok;
 }
@@ -133,7 +155,7 @@ static bool holds_only(const char *folder, const json_t *files, struct glint_err
         if (strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0 &&
             !json_object_get(files, entry->d_name))
             ok = glint_fail(
-                err, GLINT_ERROR_USAGE,
+                err, GLINT_ERROR_IO,
                 "%s: %s does not belong to this run and would be moved by --approve; move it elsewhere first", folder,
                 entry->d_name);
     closedir(directory);

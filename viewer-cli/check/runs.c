@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "check/check.h"
@@ -34,6 +35,13 @@ static char *inside(const char *folder, const char *name) {
     return asprintf(&path, "%s/%s", folder, name) < 0 ? NULL : path;
 }
 
+/* A folder of runs may come from anybody: a link in it, which may lead to a run elsewhere, is refused. */
+static bool check_is_no_link(const char *path, struct glint_error *err) {
+    struct stat info;
+    return lstat(path, &info) != 0 || !S_ISLNK(info.st_mode) ||
+           glint_fail(err, GLINT_ERROR_IO, "%s: expected a run, found a symbolic link, which is not followed", path);
+}
+
 /* The runs in one of two folders; those of the second that the first has too are there already. */
 static bool add_folder(struct check_pairs *pairs, const char *run, const char *baseline, bool second,
                        struct glint_error *err) {
@@ -46,7 +54,9 @@ static bool add_folder(struct check_pairs *pairs, const char *run, const char *b
         const char *name = entries[i]->d_name;
         const bool hidden = name[0] == '.' || name[strlen(name) - 1] == '~';
         char *a = hidden ? NULL : inside(run, name), *b = hidden ? NULL : inside(baseline, name);
-        if (ok && a && b && is_run(second ? b : a) && !(second && is_run(a))) ok = add_check_pair(pairs, a, b, err);
+        const bool run = ok && a && b && is_run(second ? b : a) && !(second && is_run(a));
+        ok = ok && (!run || (check_is_no_link(a, err) && check_is_no_link(b, err)));
+        if (run && ok) ok = add_check_pair(pairs, a, b, err);
         else {
             free(a);
             free(b);

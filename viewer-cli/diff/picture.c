@@ -99,7 +99,7 @@ bool diff_draw(struct diff *diff, const struct diff_pair *pair, struct diff_draw
     bool integers = false, ok = true;
     const size_t count = drawn_channels(pair, names, &integers);
     *d = (struct diff_drawing){0};
-    if (!count) return glint_fail(err, GLINT_ERROR_USAGE, "%s: the two sides have no common channel", pair->a->name);
+    if (!count) return glint_fail(err, GLINT_ERROR_FORMAT, "%s: the two sides have no common channel", pair->a->name);
     for (int k = 0; ok && k < 2; k++)
         ok = read_source(&diff->sides[k], images[k], names, count, integers, &d->sources[k], err) &&
              render_range(&d->sources[k], &options, range, err);
@@ -148,7 +148,7 @@ static const struct diff_pair *find_drawn_pair(const struct diff *diff, struct g
         if (differs(&diff->pairs[i])) return &diff->pairs[i];
         if (diff->pairs[i].difference.marks) last = &diff->pairs[i];
     }
-    if (!last) glint_fail(err, GLINT_ERROR_USAGE, "no image could be compared, so there is nothing to draw");
+    if (!last) glint_fail(err, GLINT_ERROR_FORMAT, "no image could be compared, so there is nothing to draw");
     return last;
 }
 

@@ -197,8 +197,9 @@ bool diff_sides_open(struct diff_side sides[2], const char *const paths[2], stru
         const bool engine = side->is_capture && sides[1 - k].run;
         if (!(side->run ? list_run(side, err) : engine ? list_engine(side, err) : list_file(side, err))) return false;
         if (!side->count)
-            return glint_fail(err, GLINT_ERROR_USAGE, "%s: expected an image%s%s, found none", side->text,
-                              side->part ? " of the name " : "", side->part ? side->part : "");
+            return glint_fail(err, side->part ? GLINT_ERROR_USAGE : GLINT_ERROR_FORMAT,
+                              "%s: expected an image%s%s, found none", side->text, side->part ? " of the name " : "",
+                              side->part ? side->part : "");
     }
     return true;
 }

@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "io/output.h"
@@ -70,15 +71,27 @@ static bool write_definition(const json_t *definition, const char *path, struct 
 /* Compares our definition with the stored one, if there is one. */
 static bool check_definition(const struct journal *journal, const json_t *definition, struct glint_error *err) {
     char path[4096], name[64];
-    json_error_t error;
     snprintf(name, sizeof name, "%s.json", journal->kind);
     if (!journal_path(journal->folder, name, path, err)) return false;
     if (access(path, F_OK) != 0) return write_definition(definition, path, err);
-    json_t *theirs = json_load_file(path, 0, &error);
-    const bool ok = theirs ? same_definition(journal, theirs, definition, err)
-                           : glint_fail(err, GLINT_ERROR_FORMAT, "%s: line %d: %s", path, error.line, error.text);
+    json_t *theirs = json_inside(path, err);
+    const bool ok = theirs && same_definition(journal, theirs, definition, err);
     json_decref(theirs);
     return ok;
+}
+
+/* The folder may come from somebody else: the log is a file of this folder, not a link to another, which would be cut off, nor a pipe. */
+static bool open_log(struct journal *journal, const char *path, struct glint_error *err) {
+    static const off_t most = 1 << 28;
+    struct stat info = {0};
+    const int log = open(path, O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
+    if (log < 0) return glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
+    if (fstat(log, &info) == 0 && S_ISREG(info.st_mode) && info.st_size <= most) {
+        journal->log = log;
+        return true;
+    }
+    close(log);
+    return glint_fail(err, GLINT_ERROR_FORMAT, "%s: expected a file of at most %lld bytes", path, (long long)most);
 }
 
 bool journal_open(struct journal *journal, const json_t *definition, struct glint_error *err) {
@@ -87,8 +100,7 @@ bool journal_open(struct journal *journal, const json_t *definition, struct glin
     if (!(journal->lock = glint_folder_lock(journal->folder, err))) return false;
     if (!check_definition(journal, definition, err) || !journal_path(journal->folder, "log.jsonl", path, err))
         return false;
-    journal->log = open(path, O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
-    if (journal->log < 0) return glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
+    if (!open_log(journal, path, err)) return false;
     return read_log(journal, path, err);
 }
 

@@ -32,6 +32,8 @@ bool journal_path(const char *folder, const char *name, char path[4096], struct 
 
 /* ---- Contents of definitions and lines ---- */
 
+/* The value in a file of a folder, which somebody else may have made; NULL with an error. */
+json_t *json_inside(const char *path, struct glint_error *err);
 json_t *strings_json(const char *const *items);
 /* Preset, number of rays, and each slot's variant and parameters. */
 json_t *pipeline_json(const struct glint_pipeline *pipeline);

@@ -4,7 +4,19 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "inside.h"
 #include "journal/journal.h"
+
+json_t *json_inside(const char *path, struct glint_error *err) {
+    enum { MOST_BYTES = 1 << 24 };
+    json_error_t fault;
+    char *text = inside_text(path, MOST_BYTES, err);
+    const bool fits = text && inside_json_fits(path, text, strlen(text), err);
+    json_t *json = fits ? json_loads(text, JSON_REJECT_DUPLICATES, &fault) : NULL;
+    if (fits && !json) glint_fail(err, GLINT_ERROR_FORMAT, "%s: line %d: %s", path, fault.line, fault.text);
+    free(text);
+    return json;
+}
 
 json_t *strings_json(const char *const *items) {
     json_t *list = json_array();

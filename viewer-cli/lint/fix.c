@@ -206,11 +206,34 @@ static bool choose_fixes(const char *from, const char *trial, struct lint_findin
     return write_copy(from, trial, findings, err);
 }
 
+/* ---- Is the copy valid? ---- */
+
+struct violation {
+    size_t count;
+    char text[400]; /* of the first */
+};
+
+static void keep_first(void *user, const char *rule, const char *message) {
+    struct violation *first = user;
+    if (!first->count++) snprintf(first->text, sizeof first->text, "%.300s [%.80s]", message, rule);
+}
+
+/* Everything that is written follows the rules of FORMAT.md. What the capture breaks beside its findings is not ours to repair. */
+static bool check_is_valid(const char *from, const char *trial, const char *to, struct glint_error *err) {
+    struct violation first = {0}, own = {0};
+    size_t count;
+    if (!glint_capture_validate(trial, NULL, keep_first, &first, &count, err)) return false;
+    if (!count) return true;
+    if (!glint_capture_validate(from, NULL, keep_first, &own, &count, err)) return false;
+    return glint_fail(err, GLINT_ERROR_FORMAT, "%s: not written, because the copy would not be valid: %s", to,
+                      own.count ? own.text : first.text);
+}
+
 bool lint_fix(const char *from, const char *to, struct lint_findings *findings, size_t *fixed,
               struct glint_error *err) {
     char *trial = complete_temporary(to);
     if (!trial) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    bool ok = choose_fixes(from, trial, findings, err);
+    bool ok = choose_fixes(from, trial, findings, err) && check_is_valid(from, trial, to, err);
     ok = ok && complete_rename(trial, to, err);
     if (!ok) unlink(trial);
     *fixed = count_applied(findings);

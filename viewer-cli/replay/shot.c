@@ -29,19 +29,18 @@ static json_t *passes_json(const struct glint_pipeline *pipeline) {
     return passes;
 }
 
-/* The file's text, malloc'd; NULL with no error set if it is empty or not there. */
-static char *text_of(const char *path, struct glint_error *err) {
-    FILE *file = fopen(path, "rb");
-    char *text = NULL;
-    size_t size = 0;
-    if (!file && errno == ENOENT) return NULL;
-    const bool read = file && getdelim(&text, &size, '\0', file) > 0;
-    if (!file || ferror(file) || (!read && !feof(file)))
-        glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
-    if (file) fclose(file);
-    if (read && !err->code) return text;
-    free(text);
-    return NULL;
+/* What memory or the system refused says nothing about a file. */
+static bool is_refusal(const struct glint_error *err) {
+    return err->code == GLINT_ERROR_MEMORY || err->code == GLINT_ERROR_IO;
+}
+
+/* The settings that are stored; NULL with no error set if there are none. */
+static json_t *read_settings(const char *path, struct glint_error *err) {
+    struct glint_error why = {0};
+    if (access(path, F_OK) != 0 && errno == ENOENT) return NULL;
+    json_t *settings = json_inside(path, &why);
+    if (!settings && is_refusal(&why)) *err = why;
+    return settings;
 }
 
 json_t *shot_settings(const struct glint_pipeline *pipeline, const struct pipeline_args *args, const char *device,
@@ -70,10 +69,8 @@ bool shot_begin(const char *folder, const json_t *settings, char *const *runs, s
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
     /* What is compared went through a file once, as the other did. */
     char *text = json_dumps(settings, 0);
-    char *there = text_of(path, err);
-    json_t *before = there ? json_loads(there, 0, NULL) : NULL, *now = text ? json_loads(text, 0, NULL) : NULL;
+    json_t *before = read_settings(path, err), *now = text ? json_loads(text, 0, NULL) : NULL;
     bool same = now && json_equal(before, now), ok = !err->code && (now || fail_memory(err));
-    free(there);
     json_decref(before);
     json_decref(now);
     free(text);
@@ -93,11 +90,6 @@ static bool files_are_there(const char *run, const json_t *record) {
         }
     }
     return true;
-}
-
-/* What memory or the system refused says nothing about a file. */
-static bool is_refusal(const struct glint_error *err) {
-    return err->code == GLINT_ERROR_MEMORY || err->code == GLINT_ERROR_IO;
 }
 
 bool shot_has(const char *run, const char *capture, bool *has, struct glint_error *err) {

@@ -5,6 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "journal/journal.h"
 #include "replay/against.h"
 #include "report/report.h"
 #include "io/output.h"
@@ -222,7 +223,7 @@ void report_errors(const struct report *r) {
     json_t **stored = calloc(r->count, sizeof *stored), **errors = calloc(r->count, sizeof *errors);
     for (size_t k = 0; stored && k < r->count; k++) {
         char path[4096];
-        if (errors_path(path, r->folders[k], NULL)) stored[k] = json_load_file(path, 0, NULL);
+        if (errors_path(path, r->folders[k], NULL)) stored[k] = json_inside(path, NULL);
     }
     for (size_t e = 0; stored && errors && e < count; e++) {
         bool any = false;

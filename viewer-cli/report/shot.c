@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "report/shot.h"
@@ -31,7 +32,11 @@ static bool add_frame(struct shot_report *shot, const char *name, struct glint_e
     if (snprintf(frame.folder, sizeof frame.folder, "%s/%s", shot->folder, name) >= (int)sizeof frame.folder)
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", shot->folder);
     snprintf(record, sizeof record, "%s/run.json", frame.folder);
+    struct stat info;
     if (access(record, F_OK) != 0) return true; /* not complete */
+    if (lstat(frame.folder, &info) != 0 || S_ISLNK(info.st_mode))
+        return glint_fail(err, GLINT_ERROR_IO, "%s: expected a run, found a symbolic link, which is not followed",
+                          frame.folder);
     struct glint_run *run = glint_run_open(frame.folder, err);
     if (!run) return false;
     frame.run = json_loads(glint_run_json(run), 0, NULL);

@@ -343,6 +343,7 @@ struct glint_limits {
     uint64_t memory_bytes; /* memory of one open capture at a time; 0: 4 GiB */
     uint32_t width;        /* of any part; 0: 32768 (heights: six times that) */
     uint32_t parts;        /* 0: 1024 */
+    bool no_link;          /* the path may not be a symbolic link, because somebody else chose the name */
 };
 
 enum glint_stored { GLINT_STORED_HALF, GLINT_STORED_FLOAT, GLINT_STORED_UINT };

@@ -26,6 +26,7 @@ struct glint_pack_options {
     /* Called with errors of the manifest beyond the first, which glint_pack returns: "FILE:LINE: KEY: what is wrong". May be NULL. */
     void (*fault)(void *user, const char *text);
     void *fault_user;
+    bool outside;            /* the manifest may name files outside its folder; otherwise that is an error */
     glint_progress progress; /* may be NULL */
     void *progress_user;
 };

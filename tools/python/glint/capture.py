@@ -30,7 +30,7 @@ _can_read = function("glint_part_can_read", "part channel")
 _validate = function("glint_capture_validate", "path limits report user violations")
 _report = callback("glint_report")
 _notes = function("glint_frame_notes", "frame notes")
-_limits = struct("glint_limits", "file_bytes memory_bytes width parts")
+_limits = struct("glint_limits", "file_bytes memory_bytes width parts no_link")
 struct("glint_channel_info", "name stored storage")
 struct("glint_part_info", "name role index level previous width height channels channel_count encodings has_cubemap has_planar has_sky has_probe "
        "has_indirect has_shadow has_volume has_froxels has_truth cubemap planar sky probe indirect shadow volume froxels truth sibling sibling_hash attributes attribute_count")

@@ -8,6 +8,7 @@
 #include "options/args.h"
 #include "draw/page/page.h"
 #include "io/output.h"
+#include "journal/journal.h"
 
 /* File names may not be UTF-8, but JSON must be. */
 static json_t *text_json(const char *text) {
@@ -89,12 +90,7 @@ bool page_store(const char *folder, const json_t *document, struct glint_error *
 json_t *page_load(const char *folder, struct glint_error *err) {
     char path[4096];
     if (!page_json(path, folder, err)) return NULL;
-    json_error_t error;
-    FILE *file = fopen(path, "rb");
-    json_t *document = file ? json_loadf(file, JSON_REJECT_DUPLICATES, &error) : NULL;
-    if (!file) glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
-    else fclose(file);
-    if (file && !document) glint_fail(err, GLINT_ERROR_FORMAT, "%s: line %d: %s", path, error.line, error.text);
+    json_t *document = json_inside(path, err);
     if (!document || json_integer_value(json_object_get(document, "format")) == 1) return document;
     glint_fail(err, GLINT_ERROR_FORMAT, "%s: format: expected 1, the only version that this program supports", path);
     json_decref(document);

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "draw/blobs.h"
+#include "inside.h"
 #include "io/output.h"
 
 /* ---- Pictures: each is stored once and referred to by its index ---- */
@@ -37,32 +38,23 @@ static void number_files(struct files *files, json_t *json) {
     }
 }
 
-/* Reads a file below `folder`, malloc'd. Links must not lead out of it, because documents may come from untrusted sources. */
+/* Reads a file below `folder`, malloc'd. Documents may come from anybody. */
 static uint8_t *read_below(const char *folder, const char *name, size_t *size, struct glint_error *err) {
     enum { LARGEST_BYTES = 256 << 20 };
-    char *path = NULL, *root = folder ? realpath(folder, NULL) : NULL, *real = NULL;
-    uint8_t *bytes = NULL;
-    FILE *file = NULL;
-    if (root && asprintf(&path, "%s/%s", root, name) < 0) path = NULL;
-    real = path ? realpath(path, NULL) : NULL;
-    size_t length = root ? strlen(root) : 0;
-    if (!root || !path || !real || strncmp(real, root, length) != 0 || real[length] != '/') {
-        glint_fail(err, GLINT_ERROR_IO, "%s: picture %s: %s", folder ? folder : "page", name,
-                   root && path && !real ? strerror(errno) : "not in this folder");
-        goto done;
+    glint_file file = GLINT_NO_FILE;
+    uint64_t bytes = 0;
+    char *path = folder ? inside_path(folder, name, err) : NULL;
+    if (!folder) glint_fail(err, GLINT_ERROR_IO, "page: picture %s: not in a folder", name);
+    const bool open = path && inside_open(&file, path, LARGEST_BYTES, &bytes, err);
+    uint8_t *contents = open ? malloc((size_t)bytes + 1) : NULL;
+    if (open && (!contents || !glint_file_read(file, contents, (size_t)bytes, 0, size))) {
+        glint_fail(err, GLINT_ERROR_IO, "%s: cannot be read as a picture", path);
+        free(contents);
+        contents = NULL;
     }
-    file = fopen(real, "rb");
-    long end = file && fseek(file, 0, SEEK_END) == 0 ? ftell(file) : -1;
-    if (end > 0 && end < LARGEST_BYTES && (bytes = malloc((size_t)end)) != NULL) {
-        rewind(file);
-        *size = fread(bytes, 1, (size_t)end, file);
-    } else glint_fail(err, GLINT_ERROR_IO, "%s: cannot be read as a picture", real);
-done:
-    if (file) fclose(file);
-    free(real);
+    if (open) glint_file_close(file);
     free(path);
-    free(root);
-    return bytes;
+    return contents;
 }
 
 static json_t *picture_file(const char *folder, const char *name, size_t bytes, struct glint_error *err) {

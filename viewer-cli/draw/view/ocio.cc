@@ -3,6 +3,8 @@
 
 #include <OpenColorIO/OpenColorIO.h>
 
+#include <sys/stat.h>
+
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -67,11 +69,77 @@ void check_version(const std::string &path) {
                                  "…_ocio-v2.1.ocio says for which");
 }
 
+// YAML lets a text of a few kilobytes stand for one of gigabytes: a name for a list that has another name twice, and so on. Configurations have no
+// use for that. Throws if this one does, or is longer than any.
+void check_size(const std::string &path) {
+    const std::streamoff most = 1 << 24;
+    const int most_aliases = 16; // they multiply to a few hundred at most
+    std::ifstream file(path, std::ios::binary);
+    int aliases = 0;
+    std::streamoff size = 0;
+    for (char byte, before = ' '; size <= most && file.get(byte); size++) {
+        if (byte == '*' && std::strchr(" ,[:-", before)) aliases++;
+        before = byte == '\n' || byte == '\t' ? ' ' : byte;
+    }
+    if (size > most) throw std::runtime_error(path + ": longer than 16 MiB");
+    if (aliases > most_aliases)
+        throw std::runtime_error(path + ": more than " + std::to_string(most_aliases) + " aliases (*name)");
+}
+
+// Throws if a file that the transform reads is a pipe or a device, which may never end, or larger than any table.
+void check_files(const OCIO::ConstConfigRcPtr &config, const OCIO::ConstTransformRcPtr &transform) {
+    const off_t most = 1 << 28;
+    if (const auto group = OCIO_DYNAMIC_POINTER_CAST<const OCIO::GroupTransform>(transform))
+        for (int i = 0; i < group->getNumTransforms(); i++) check_files(config, group->getTransform(i));
+    const auto file = OCIO_DYNAMIC_POINTER_CAST<const OCIO::FileTransform>(transform);
+    if (!file) return;
+    std::string path;
+    try {
+        path = config->getCurrentContext()->resolveFileLocation(file->getSrc());
+    } catch (const OCIO::Exception &) {
+        return; // it is missing, which matters only if it is used
+    }
+    struct stat info;
+    if (stat(path.c_str(), &info) == 0 && (!S_ISREG(info.st_mode) || info.st_size > most))
+        throw std::runtime_error(path + ": expected a file of at most 256 MiB");
+}
+
+void check_all_files(const OCIO::ConstConfigRcPtr &config) {
+    const auto any = OCIO::SEARCH_REFERENCE_SPACE_ALL;
+    for (int i = 0; i < config->getNumColorSpaces(any, OCIO::COLORSPACE_ALL); i++) {
+        const auto space = config->getColorSpace(config->getColorSpaceNameByIndex(any, OCIO::COLORSPACE_ALL, i));
+        if (!space) continue;
+        check_files(config, space->getTransform(OCIO::COLORSPACE_DIR_TO_REFERENCE));
+        check_files(config, space->getTransform(OCIO::COLORSPACE_DIR_FROM_REFERENCE));
+    }
+    for (int i = 0; i < config->getNumViewTransforms(); i++) {
+        const auto view = config->getViewTransform(config->getViewTransformNameByIndex(i));
+        if (!view) continue;
+        check_files(config, view->getTransform(OCIO::VIEWTRANSFORM_DIR_TO_REFERENCE));
+        check_files(config, view->getTransform(OCIO::VIEWTRANSFORM_DIR_FROM_REFERENCE));
+    }
+    for (int i = 0; i < config->getNumLooks(); i++) {
+        const auto look = config->getLook(config->getLookNameByIndex(i));
+        if (!look) continue;
+        check_files(config, look->getTransform());
+        check_files(config, look->getInverseTransform());
+    }
+    for (int i = 0; i < config->getNumNamedTransforms(OCIO::NAMEDTRANSFORM_ALL); i++) {
+        const auto named = config->getNamedTransform(config->getNamedTransformNameByIndex(OCIO::NAMEDTRANSFORM_ALL, i));
+        if (!named) continue;
+        check_files(config, named->getTransform(OCIO::TRANSFORM_DIR_FORWARD));
+        check_files(config, named->getTransform(OCIO::TRANSFORM_DIR_INVERSE));
+    }
+}
+
 OCIO::ConstConfigRcPtr open_config(const char *path) {
     if (!path) path = std::getenv("OCIO");
     if (path && *path) {
         check_version(path);
-        return OCIO::Config::CreateFromFile(path);
+        check_size(path);
+        OCIO::ConstConfigRcPtr config = OCIO::Config::CreateFromFile(path);
+        check_all_files(config);
+        return config;
     }
     std::istringstream text(std::string(reinterpret_cast<const char *>(blob_ocio), size_t(blob_ocio_end - blob_ocio)));
     return OCIO::Config::CreateFromStream(text);
