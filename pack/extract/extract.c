@@ -12,6 +12,7 @@
 #include "glint/pack.h"
 #include "keys.h"
 #include "roles.h"
+#include "shown.h"
 
 struct extract {
     const char *capture, *folder;
@@ -245,7 +246,7 @@ static bool extract_all(struct extract *x, struct glint_error *err) {
             return false;
     json_object_set(x->manifest, "textures", x->textures);
     json_object_set(x->manifest, "parts", x->parts);
-    char *text = json_dumps(x->manifest, JSON_INDENT(1) | JSON_REAL_PRECISION(17));
+    char *text = shown_json(json_dumps(x->manifest, JSON_INDENT(1) | JSON_REAL_PRECISION(17)));
     if (!text) return no_memory(x, err);
     const bool ok = write_file(x, "manifest.json", text, strlen(text), err);
     free(text);

@@ -13,6 +13,8 @@
 
 #include <xxhash.h>
 
+#include "glint/replay.h"
+
 enum { PATH_SIZE = 4096, CHUNK = 1 << 20, DIGITS = CACHE_KEY_SIZE - 1, NAME = 2 * DIGITS + 5 };
 static const char temporary[] = "tmp-"; /* prefix of the names of incomplete files */
 
@@ -23,6 +25,15 @@ static bool is_entry(const char *name) {
 
 static bool join_path(char *path, size_t size, const char *folder, const char *name) {
     return snprintf(path, size, "%s/%s", folder, name) < (int)size;
+}
+
+const char *glint_cache_refusal(const char *folder) {
+    struct stat info;
+    if (lstat(folder, &info) != 0) return errno == ENOENT ? NULL : strerror(errno);
+    if (S_ISLNK(info.st_mode)) return "it is a symbolic link";
+    if (!S_ISDIR(info.st_mode)) return "it is no folder";
+    if (info.st_uid != geteuid()) return "it belongs to another user";
+    return info.st_mode & (S_IWGRP | S_IWOTH) ? "others may write to it" : NULL;
 }
 
 /* Hashes a file, and also copies it to the descriptor `to` unless that is negative. */
@@ -48,7 +59,7 @@ static bool hash_file(const char *path, char hex[CACHE_KEY_SIZE], int to) {
 
 /* The path of a key's entry and the hash that its name states. The file itself is not verified. */
 static bool find_entry(const char *folder, const char *key, char *path, size_t size, char hash[CACHE_KEY_SIZE]) {
-    DIR *entries = opendir(folder);
+    DIR *entries = glint_cache_refusal(folder) ? NULL : opendir(folder);
     bool found = false;
     for (struct dirent *entry; entries && !found && (entry = readdir(entries));) {
         found = is_entry(entry->d_name) && strncmp(entry->d_name, key, DIGITS) == 0 &&
@@ -68,10 +79,10 @@ bool cache_find(const char *folder, const char *key, char *path, size_t size) {
 }
 
 /* Copies a file to a temporary file in `folder`. A hard link would not do, since the user may modify the files of a run. */
-static bool copy_beside(const char *from, const char *folder, char path[PATH_SIZE], char hash[CACHE_KEY_SIZE]) {
+static bool copy_beside(const char *from, const char *folder, mode_t mode, char path[PATH_SIZE], char hash[CACHE_KEY_SIZE]) {
     if (snprintf(path, PATH_SIZE, "%s/%s%ld", folder, temporary, (long)getpid()) >= PATH_SIZE) return false;
     unlink(path);
-    const int fd = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    const int fd = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
     bool ok = fd >= 0 && hash_file(from, hash, fd);
     if (fd >= 0) ok = close(fd) == 0 && ok;
     if (!ok) unlink(path);
@@ -82,7 +93,7 @@ bool cache_copy(const char *folder, const char *key, const char *to) {
     char from[PATH_SIZE], path[PATH_SIZE], beside[PATH_SIZE], hash[CACHE_KEY_SIZE], found[CACHE_KEY_SIZE];
     const char *slash = strrchr(to, '/');
     snprintf(beside, sizeof beside, "%.*s", slash ? (int)(slash - to) : 1, slash ? to : ".");
-    if (!find_entry(folder, key, from, sizeof from, hash) || !copy_beside(from, beside, path, found)) return false;
+    if (!find_entry(folder, key, from, sizeof from, hash) || !copy_beside(from, beside, 0666, path, found)) return false;
     if (strcmp(found, hash) == 0 && rename(path, to) == 0) return true;
     unlink(path);
     return false;
@@ -141,7 +152,7 @@ static void trim_folder(const char *folder, uint64_t max_bytes) {
 
 void cache_store(const char *folder, const char *key, const char *file, uint64_t max_bytes) {
     char hash[CACHE_KEY_SIZE], old[CACHE_KEY_SIZE], name[NAME + 1], copied[PATH_SIZE], path[PATH_SIZE];
-    if (!make_folders(folder) || !copy_beside(file, folder, copied, hash)) return;
+    if (!make_folders(folder) || glint_cache_refusal(folder) || !copy_beside(file, folder, 0600, copied, hash)) return;
     while (find_entry(folder, key, path, sizeof path, old) && unlink(path) == 0) {
     }
     snprintf(name, sizeof name, "%s-%s.exr", key, hash);

@@ -11,6 +11,7 @@
 #include "glint/exr.h"
 #include "no_memory.h"
 #include "values.h"
+#include "shown.h"
 
 /* What follows the name of the result in the names of the images. The mean has the name of the result itself. */
 static const struct {
@@ -215,7 +216,7 @@ bool reference_save(struct glint_reference *reference, struct glint_error *err) 
     json_array_foreach(json_object_get(last_run_pass(reference->record), "images"), i, image) {
         json_object_set_new(image, "file", json_string(file));
     }
-    char *text = json_dumps(reference->record, JSON_REAL_PRECISION(17));
+    char *text = shown_json(json_dumps(reference->record, JSON_REAL_PRECISION(17)));
     const bool written = text ? glint_run_write_json(reference->folder, text, err) : no_memory(err, "reference");
     free(text);
     if (!written) return false;

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "no_memory.h"
+#include "shown.h"
 
 static json_t *values_json(const struct glint_pipeline *pipeline, const struct glint_pass *pass) {
     json_t *values = json_object();
@@ -46,7 +47,7 @@ bool reference_settings(struct glint_reference *reference, struct glint_error *e
                                  reference->all, "passes", passes)
                      : NULL;
     /* Written and read once, so that numbers are rounded as in a file. */
-    char *text = all ? json_dumps(all, JSON_REAL_PRECISION(REFERENCE_DIGITS)) : NULL;
+    char *text = all ? shown_json(json_dumps(all, JSON_REAL_PRECISION(REFERENCE_DIGITS))) : NULL;
     reference->settings = text ? json_loads(text, 0, NULL) : NULL;
     free(text);
     json_decref(all);
@@ -96,7 +97,7 @@ json_t *reference_json(const struct glint_reference *reference) {
 
 char *glint_reference_json(const struct glint_reference *reference) {
     json_t *json = reference_json(reference);
-    char *text = json ? json_dumps(json, JSON_REAL_PRECISION(REFERENCE_DIGITS)) : NULL;
+    char *text = json ? shown_json(json_dumps(json, JSON_REAL_PRECISION(REFERENCE_DIGITS))) : NULL;
     json_decref(json);
     return text;
 }
@@ -105,7 +106,8 @@ char *glint_reference_json(const struct glint_reference *reference) {
 
 static void json_text(const json_t *value, char text[80]) {
     char *dumped =
-        value ? json_dumps(value, JSON_ENCODE_ANY | JSON_COMPACT | JSON_REAL_PRECISION(REFERENCE_DIGITS)) : NULL;
+        value ? shown_json(json_dumps(value, JSON_ENCODE_ANY | JSON_COMPACT | JSON_REAL_PRECISION(REFERENCE_DIGITS)))
+              : NULL;
     snprintf(text, 80, "%.70s", dumped ? dumped : "nothing");
     free(dumped);
 }

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "glint/exr.h"
+#include "shown.h"
 
 enum { ATTRIBUTES = 4 };
 static const char *const part_names[2] = {"batch_a", "batch_b"};
@@ -33,7 +34,7 @@ bool reference_save_round(struct glint_reference *reference, struct glint_error 
     struct glint_exr_attribute attributes[2][ATTRIBUTES];
     struct glint_exr_part parts[2];
     char path[4096];
-    char *settings = json_dumps(reference->settings, JSON_REAL_PRECISION(REFERENCE_DIGITS));
+    char *settings = shown_json(json_dumps(reference->settings, JSON_REAL_PRECISION(REFERENCE_DIGITS)));
     bool ok = settings || glint_fail(err, GLINT_ERROR_MEMORY, "reference: out of memory");
     size_t count = 0;
     for (int h = 0; h < 2 && halves->batched[h]; h++, count++) {

@@ -6,6 +6,7 @@
    GLINT_FAULT_TIMES   how many calls fail; all from the first on without it
    GLINT_FAULT_FILE    while a file of this name exists, devices are lost at the next call that a lost device fails, and none can be created
    GLINT_FAULT_COUNTS  a file to which each process appends how often it called each function, when its last instance is destroyed
+   GLINT_FAULT_LIVE    a file that says at each submission how many objects of the device there are, and how many bytes of the heap are in use
 
    GLINT_FAULT_STAY    a library that is not unloaded, so that a sanitizer can name what the driver never frees
 
@@ -14,6 +15,8 @@
    A device of which any call has returned VK_ERROR_DEVICE_LOST is lost: from then on it executes nothing, and returns that from the calls that wait, submit
    and read results. Its other functions go on working, as the specification has it: objects of a lost device are created and destroyed. */
 #include <dlfcn.h>
+#include <fcntl.h>
+#include <malloc.h>
 #include <pthread.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -228,9 +231,26 @@ static void count_made(struct object *object, enum call call, long more) {
     pthread_mutex_unlock(&lock);
 }
 
+/* Overwrites the line of the submission before, which has the same length. */
+static void tell_live(const struct object *object) {
+    const char *path = getenv("GLINT_FAULT_LIVE");
+    const int file = path ? open(path, O_WRONLY | O_CREAT | O_CLOEXEC, 0600) : -1;
+    if (file < 0) return;
+    long count = 0;
+#define DESTROY(made_by, name, type) count += object->made[CALL_##made_by];
+    DESTROYS
+#undef DESTROY
+    const struct mallinfo2 heap = mallinfo2();
+    if (dprintf(file, "%20ld %20zu\n", count, heap.uordblks + heap.hblkhd) < 0) abort();
+    close(file);
+}
+
 static void note_success(struct object *object, enum call call) {
     count_made(object, call, 1);
-    if (call == CALL_QueueSubmit || call == CALL_QueueSubmit2) object->executes = true;
+    if (call == CALL_QueueSubmit || call == CALL_QueueSubmit2) {
+        object->executes = true;
+        tell_live(object);
+    }
     if (call == CALL_WaitForFences || call == CALL_QueueWaitIdle || call == CALL_DeviceWaitIdle)
         object->executes = false;
 }

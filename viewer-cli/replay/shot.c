@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "io/output.h"
+#include "shown.h"
 
 static json_t *names_json(const struct list *list) {
     json_t *names = json_array();
@@ -54,7 +55,7 @@ json_t *shot_settings(const struct glint_pipeline *pipeline, const struct pipeli
 }
 
 static bool write_settings(const char *path, const json_t *settings, struct glint_error *err) {
-    char *text = json_dumps(settings, JSON_INDENT(1) | JSON_SORT_KEYS);
+    char *text = shown_json(json_dumps(settings, JSON_INDENT(1) | JSON_SORT_KEYS));
     bool ok = text ? output_text(path, text, err) : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     free(text);
     return ok;
@@ -66,7 +67,7 @@ bool shot_begin(const char *folder, const json_t *settings, char *const *runs, s
     if (snprintf(path, sizeof path, "%s/shot.json", folder) >= (int)sizeof path)
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
     /* What is compared went through a file once, as the other did. */
-    char *text = json_dumps(settings, 0);
+    char *text = shown_json(json_dumps(settings, 0));
     json_t *before = json_load_file(path, 0, NULL), *now = text ? json_loads(text, 0, NULL) : NULL;
     bool same = now && json_equal(before, now), ok = true;
     json_decref(before);
