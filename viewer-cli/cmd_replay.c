@@ -402,6 +402,7 @@ static enum status cmd_replay_run(int argc, char **argv) {
     a.pipeline.without_fog = fogged != NULL;
     if (prepared && !a.watch) job.pipeline = pipeline_args_create(&a.pipeline, &err);
     if (job.pipeline) pipeline_note_fog(&cmd_replay, job.pipeline, fogged);
+    if (job.pipeline && a.out && a.captures.count > 1) shot_keep_history(&a.pipeline.outputs, job.pipeline);
     if (job.pipeline || a.watch) job.device = pipeline_args_device(&a.pipeline, &err);
     if (job.pipeline && job.device) job.replay = glint_replay_create(job.device, &err);
     if (job.device && a.watch) {

@@ -45,6 +45,7 @@ struct program {
     VkPipelineLayout layout;
     VkPipeline pipeline;
     bool generic; /* reads parameters from memory: set 2 */
+    uint32_t uses;
     struct program *next;
 };
 
@@ -61,6 +62,8 @@ struct programs {
 };
 bool programs_init(struct programs *programs, struct gpu *gpu, struct glint_error *err);
 void programs_finish(struct programs *programs, struct gpu *gpu);
+/* Before the first program of a run is asked for: none may be in use. */
+void programs_begin_run(struct programs *programs, struct gpu *gpu);
 /* Finds or creates the program of a pass with these constants, which differ between its phases. With `quick` it is a generic one unless there
    is one for the values of the parameters already. */
 struct program *programs_get(struct programs *programs, struct gpu *gpu, const struct glint_pass *pass,

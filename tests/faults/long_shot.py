@@ -105,8 +105,9 @@ def fit(points):
     return slope, (rest / (len(points) - 2) / spread) ** 0.5, mean_y
 
 
-# What is looked at, its unit, and how much of it a frame may take for good, which is less than any leak of that kind.
-KINDS = [("heap in use", "bytes", 48), ("anonymous memory", "bytes", 16384), ("threads", "", 0.005), ("open files", "", 0.005), ("Vulkan objects", "", 0.005)]
+# What is looked at, its unit, and how much of it a frame may take for good, which is less than any leak of that kind. The heap of the main thread is glint's, and what the
+# driver takes in its calls; the rest of memory goes up and down, as Lavapipe keeps copies of shaders until glint destroys the pipelines, every 128 frames.
+KINDS = [("heap of the main thread", "bytes", 64), ("heap", "bytes", 16384), ("anonymous memory", "bytes", 16384), ("threads", "", 0.005), ("open files", "", 0.005), ("Vulkan objects", "", 0.005)]
 
 
 class Tests:
@@ -131,10 +132,10 @@ class Tests:
             last = now
             try:
                 memory, threads, files = status_of(shot.process.pid)
-                objects, heap = map(int, shot.live.read_text().split())
+                objects, heap, main = map(int, shot.live.read_text().split())
             except (OSError, KeyError, ValueError):  # it ended, or is just writing
                 continue
-            looks.append((i, heap, memory, threads, files, objects))
+            looks.append((i, main, heap, memory, threads, files, objects))
         shot.finish()
         assert len(looks) >= 8, looks
         grown = []
@@ -158,7 +159,7 @@ class Tests:
         shot.process.wait()
         kept = sum(shot.done(i) for i in range(count))
         assert count // 2 < kept < count, f"killed too late: {kept} of {count}"
-        Shot(self.frames[:count], out, live, "--resume").finish()
+        Shot(self.frames[:count], out, live).finish()  # the same command goes on
         expected, found = self.images(self.folder / "whole", count), self.images(out, count)
         assert expected and expected == found, [name for name in {*expected, *found} if expected.get(name) != found.get(name)][:5]
         print(f"# killed after {kept} of {count} frames; {len(found)} images are the same")
