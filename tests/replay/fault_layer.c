@@ -7,7 +7,7 @@
    GLINT_FAULT_FILE    while a file of this name exists, devices are lost at the next call that a lost device fails, and none can be created
    GLINT_FAULT_COUNTS  a file to which each process appends how often it called each function, when its last instance is destroyed
    GLINT_FAULT_LIVE    a file that says at each submission how many objects of the device there are, how many bytes of the heap are in use, and how many of
-                       the part of it that malloc has for the main thread
+                       them threads of glint hold, if tests/faults/live_heap.c is preloaded
 
    GLINT_FAULT_STAY    a library that is not unloaded, so that a sanitizer can name what the driver never frees
 
@@ -232,22 +232,6 @@ static void count_made(struct object *object, enum call call, long more) {
     pthread_mutex_unlock(&lock);
 }
 
-/* malloc_info begins with the heap of the main thread: what is free of it, in bins and otherwise, and its size. */
-static size_t main_heap(void) {
-    char *text = NULL;
-    size_t length = 0, fast = 0, rest = 0, size = 0;
-    FILE *file = open_memstream(&text, &length);
-    if (!file || malloc_info(0, file) != 0 || fclose(file) != 0) abort();
-    const char *at = strstr(text, "<total type=\"fast\"");
-    if (!at || sscanf(at,
-                      "<total type=\"fast\" count=\"%*u\" size=\"%zu\"/> <total type=\"rest\" count=\"%*u\" "
-                      "size=\"%zu\"/> <system type=\"current\" size=\"%zu\"",
-                      &fast, &rest, &size) != 3)
-        abort();
-    free(text);
-    return size - fast - rest;
-}
-
 /* Overwrites the line of the submission before, which has the same length. */
 static void tell_live(const struct object *object) {
     const char *path = getenv("GLINT_FAULT_LIVE");
@@ -258,7 +242,9 @@ static void tell_live(const struct object *object) {
     DESTROYS
 #undef DESTROY
     const struct mallinfo2 heap = mallinfo2();
-    if (dprintf(file, "%20ld %20zu %20zu\n", count, heap.uordblks + heap.hblkhd, main_heap()) < 0) abort();
+    size_t (*held)(void) = NULL;
+    *(void **)&held = dlsym(RTLD_DEFAULT, "live_heap_bytes");
+    if (dprintf(file, "%20ld %20zu %20zu\n", count, heap.uordblks + heap.hblkhd, held ? held() : 0) < 0) abort();
     close(file);
 }
 
