@@ -79,7 +79,8 @@ bool cache_find(const char *folder, const char *key, char *path, size_t size) {
 }
 
 /* Copies a file to a temporary file in `folder`. A hard link would not do, since the user may modify the files of a run. */
-static bool copy_beside(const char *from, const char *folder, mode_t mode, char path[PATH_SIZE], char hash[CACHE_KEY_SIZE]) {
+static bool copy_beside(const char *from, const char *folder, mode_t mode, char path[PATH_SIZE],
+                        char hash[CACHE_KEY_SIZE]) {
     if (snprintf(path, PATH_SIZE, "%s/%s%ld", folder, temporary, (long)getpid()) >= PATH_SIZE) return false;
     unlink(path);
     const int fd = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
@@ -93,7 +94,8 @@ bool cache_copy(const char *folder, const char *key, const char *to) {
     char from[PATH_SIZE], path[PATH_SIZE], beside[PATH_SIZE], hash[CACHE_KEY_SIZE], found[CACHE_KEY_SIZE];
     const char *slash = strrchr(to, '/');
     snprintf(beside, sizeof beside, "%.*s", slash ? (int)(slash - to) : 1, slash ? to : ".");
-    if (!find_entry(folder, key, from, sizeof from, hash) || !copy_beside(from, beside, 0666, path, found)) return false;
+    if (!find_entry(folder, key, from, sizeof from, hash) || !copy_beside(from, beside, 0666, path, found))
+        return false;
     if (strcmp(found, hash) == 0 && rename(path, to) == 0) return true;
     unlink(path);
     return false;
