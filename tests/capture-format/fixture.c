@@ -331,7 +331,10 @@ static void make_folder(void) {
     snprintf(folder, sizeof folder, "%.400s/glint-test-XXXXXX", root ? root : "/tmp");
     const bool made = mkdtemp(folder) != NULL;
 #endif
-    if (!made) fail_msg("%s: cannot be made", folder);
+    if (!made) {
+        perror(folder);
+        exit(1);
+    }
     atexit(remove_folder);
 }
 
