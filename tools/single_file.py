@@ -5,6 +5,7 @@ import hashlib
 import io
 import os
 import sys
+import tempfile
 import tarfile
 
 START = 10 # digits of the place where the packed folder begins
@@ -32,8 +33,8 @@ def write(folder, program, name, path):
         script = script.replace(f"@{word}@", text)
     length = len(script.replace("@START@", "0" * START).encode())
     script = script.replace("@START@", f"{length + 1:<{START}}") # tail counts from 1; blanks end the line
-    temporary = path + ".tmp-single"
-    with open(temporary, "wb") as file:
+    number, temporary = tempfile.mkstemp(prefix=os.path.basename(path) + ".tmp-", dir=os.path.dirname(path) or ".")
+    with open(number, "wb") as file:
         file.write(script.encode() + data)
     os.chmod(temporary, 0o755)
     os.rename(temporary, path)

@@ -18,11 +18,20 @@ if [ -z "$cache" ]; then
 fi
 folder=$cache/$sum
 
+# What others could put there would be run.
+check() {
+    [ ! -L "$cache" ] || fail "$cache is a symbolic link; GLINT_BUNDLE_CACHE=DIR names another folder"
+    set -- $(stat -c '%u %A' "$cache")
+    [ "$1" = "$(id -u)" ] || [ "$1" = 0 ] || fail "$cache belongs to another user; GLINT_BUNDLE_CACHE=DIR names another folder"
+    case $2 in ?????w* | ????????w*) fail "others may write to $cache; GLINT_BUNDLE_CACHE=DIR names another folder" ;; esac
+}
+
 # Complete or not there: what is unpacked gets its name, the checksum of the contents, last. Of several that start at once, one is first.
 unpack() {
     found=$(tail -c +$start "$0" | sha256sum | cut -c 1-64) || fail "cannot read itself"
     [ "$found" = "$sum" ] || fail "is damaged or not whole: expected the checksum $sum, found $found"
-    mkdir -p "$cache" 2>/dev/null || fail "cannot make the folder $cache; GLINT_BUNDLE_CACHE=DIR names another one"
+    (umask 077 && mkdir -p "$cache") 2>/dev/null || fail "cannot make the folder $cache; GLINT_BUNDLE_CACHE=DIR names another one"
+    check
     part=$(mktemp -d "$cache/part-XXXXXX") || fail "cannot write to $cache; GLINT_BUNDLE_CACHE=DIR names another folder"
     trap 'rm -rf "$part"' EXIT
     trap 'exit 130' INT
@@ -35,7 +44,7 @@ unpack() {
     trap - EXIT INT TERM HUP
 }
 
-[ -x "$folder/@PROGRAM@" ] || unpack
+if [ -x "$folder/@PROGRAM@" ]; then check; else unpack; fi
 if [ "${1-}" = --bundle-folder ]; then
     printf '%s\n' "$folder"
     exit

@@ -1,5 +1,6 @@
 /* glint check: compares runs with approved baselines. */
 #include "command.h"
+#include "io/console.h"
 #include "check/check.h"
 #include "diff/options.h"
 
@@ -77,7 +78,7 @@ static void say_approved(const struct arguments *a, const struct check_pair *pai
     else if (!a->diff.quiet && pair->has_baseline)
         printf("approved: %zu images changed, %zu added, %zu removed; the previous baseline is %s~\n", counts->changed,
                counts->added, counts->gone, pair->baseline);
-    else if (!a->diff.quiet) printf("approved: new baseline %s\n", pair->baseline);
+    else if (!a->diff.quiet) printf("approved: new baseline %s\n", name_text(pair->baseline));
 }
 
 /* While nobody writes into either folder. */
@@ -146,7 +147,8 @@ static bool check_all(const struct arguments *a, const struct check_pairs *pairs
                           pairs->count);
     for (size_t i = 0; i < pairs->count; i++) {
         enum diff_status status = DIFF_SAME;
-        if (pairs->count > 1 && !list && !a->diff.quiet) printf("%s%s\n", i ? "\n" : "", pairs->items[i].run);
+        if (pairs->count > 1 && !list && !a->diff.quiet)
+            printf("%s%s\n", i ? "\n" : "", name_text(pairs->items[i].run));
         if (!check_one(a, &pairs->items[i], list, &status, err)) return false;
         if (status > *worst) *worst = status;
     }

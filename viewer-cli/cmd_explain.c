@@ -103,13 +103,7 @@ static bool load_truth(struct explain *e, const char *against, struct glint_erro
 static void print_sentences(const json_t *sentences) {
     size_t i;
     const json_t *sentence;
-    json_array_foreach(sentences, i, sentence) {
-        char *text = strdup(json_string_value(sentence));
-        if (!text) continue;
-        text_clean(text);
-        puts(text);
-        free(text);
-    }
+    json_array_foreach(sentences, i, sentence) puts(name_text(json_string_value(sentence)));
 }
 
 static bool write_page(const struct explain *e, const char *path, const json_t *sentences, struct glint_error *err) {

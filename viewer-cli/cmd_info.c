@@ -142,7 +142,7 @@ static enum status print_capture(const struct arguments *a, struct glint_capture
     }
     struct stat file = {0};
     stat(glint_capture_path(capture), &file);
-    printf("%s: capture, %s\n", a->path, bytes_text((uint64_t)file.st_size));
+    printf("%s: capture, %s\n", name_text(a->path), bytes_text((uint64_t)file.st_size));
     info_print_camera(frame);
     if (survey) info_print_survey(survey);
     putchar('\n');
@@ -172,7 +172,7 @@ static enum status print_exr(const struct arguments *a, const struct glint_exr *
     size_t count = glint_exr_part_count(exr);
     if (a->json)
         return print_json(json_pack("{s:s, s:b, s:o}", "file", a->path, "capture", 0, "parts", parts_json(exr, all)));
-    printf("%s: an EXR file, not a capture, %zu part%s\n\n", a->path, count, count == 1 ? "" : "s");
+    printf("%s: an EXR file, not a capture, %zu part%s\n\n", name_text(a->path), count, count == 1 ? "" : "s");
     info_print_channels(all);
     return STATUS_DONE;
 }
@@ -194,7 +194,7 @@ static enum status print_run(const struct arguments *a) {
     if (!run) return command_fail(&cmd_info, &err);
     if (a->json) printf("%s\n", glint_run_json(run));
     else {
-        printf("%s: a run, %zu images\n\n", a->path, glint_run_image_count(run));
+        printf("%s: a run, %zu images\n\n", name_text(a->path), glint_run_image_count(run));
         info_print_run(run);
     }
     glint_run_close(&run);
@@ -248,7 +248,7 @@ static enum status print_invalid(const struct arguments *a, const struct glint_e
         print_json(json_pack("{s:s, s:b, s:s, s:o}", "file", a->path, "capture", 0, "fault", why->message, "parts",
                              parts_json(exr, all)));
     } else {
-        printf("%s: not a valid capture, %zu parts\n\n", a->path, glint_exr_part_count(exr));
+        printf("%s: not a valid capture, %zu parts\n\n", name_text(a->path), glint_exr_part_count(exr));
         info_print_channels(all);
         putchar('\n');
     }
@@ -266,7 +266,7 @@ static enum status print_damaged(const struct arguments *a, const char *path, co
                              "breaks_at", damaged.fault, "parts", damaged_json(&damaged)));
         command_note(&cmd_info, "%s", why->message);
     } else {
-        printf("%s: damaged, %zu part%s\n\n", a->path, damaged.count, damaged.count == 1 ? "" : "s");
+        printf("%s: damaged, %zu part%s\n\n", name_text(a->path), damaged.count, damaged.count == 1 ? "" : "s");
         damaged_print(&damaged);
         fflush(stdout);
         status = command_fail(&cmd_info, why);
@@ -295,7 +295,6 @@ static enum status print_broken(const struct arguments *a, const char *path, con
 
 /* A file that is damaged can still be looked into. */
 static enum status fail(const struct arguments *a, const char *path, struct glint_error *err) {
-    text_clean(err->message); /* it may have names of the file, and is text in JSON */
     if (a->headers) return print_broken(a, path, err);
     const size_t used = strlen(err->message);
     if (path && (err->code == GLINT_ERROR_FORMAT || err->code == GLINT_ERROR_UNSUPPORTED))

@@ -129,12 +129,12 @@ static void print_findings(const char *path, const struct lint_findings *finding
         putchar('\n');
         mark_print(strcmp(f->likelihood, "certain") ? MARK_WARN : MARK_FAIL, "%s%s%s%s", f->either[0] ? "either " : "",
                    f->what, f->either[0] ? ", or " : "", f->either);
-        printf("  [%s, %s]\n    %s\n    fix: %s\n", f->id, f->likelihood, f->evidence, f->remedy);
+        printf("  [%s, %s]\n    %s\n    fix: %s\n", f->id, f->likelihood, name_text(f->evidence), name_text(f->remedy));
     }
     printf("\nCannot be decided from the data:\n");
-    for (size_t i = 0; i < findings->undecided_count; i++) printf("  - %s\n", findings->undecided[i]);
+    for (size_t i = 0; i < findings->undecided_count; i++) printf("  - %s\n", name_text(findings->undecided[i]));
     putchar('\n');
-    mark_print(findings->count ? MARK_FAIL : MARK_GOOD, "%s: %zu finding%s", path, findings->count,
+    mark_print(findings->count ? MARK_FAIL : MARK_GOOD, "%s: %zu finding%s", name_text(path), findings->count,
                findings->count == 1 ? "" : "s");
     putchar('\n');
 }
@@ -146,7 +146,7 @@ static bool write_fixed_copy(const struct arguments *a, const char *path, struct
     for (size_t i = 0; i < findings->count && !a->json; i++)
         if (lint_is_fixable(&findings->items[i]) && findings->items[i].left_out)
             printf("%s is not fixed: another comparison would match less\n", findings->items[i].id);
-    if (!a->json) printf("%s: %zu finding%s fixed\n", a->out, fixed, fixed == 1 ? "" : "s");
+    if (!a->json) printf("%s: %zu finding%s fixed\n", name_text(a->out), fixed, fixed == 1 ? "" : "s");
     return true;
 }
 

@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 
 #include "command.h"
+#include "io/console.h"
 #include "draw/page/page.h"
 #include "live/live.h"
 
@@ -100,9 +101,9 @@ static bool take_token(const struct arguments *a, char token[TOKEN_BYTES], struc
 static void print_address(const struct arguments *a, const struct http *http, const char *token) {
     const char *host = a->listen ? a->listen : "127.0.0.1";
     const bool brackets = strchr(host, ':') != NULL;
-    printf("http://%s%s%s:%u/%s%s\n", brackets ? "[" : "", host, brackets ? "]" : "", http_port(http),
+    printf("http://%s%s%s:%u/%s%s\n", brackets ? "[" : "", name_text(host), brackets ? "]" : "", http_port(http),
            a->token_file ? "" : "#", a->token_file ? "" : token);
-    if (a->token_file) printf("the token is the first line of %s\n", a->token_file);
+    if (a->token_file) printf("the token is the first line of %s\n", name_text(a->token_file));
     puts("open this address in a browser; stop with Ctrl-C");
     fflush(stdout);
 }

@@ -81,8 +81,7 @@ static void on_note(void *user, enum glint_pack_note kind, const char *key, cons
     char line[1600];
     if (kind == GLINT_PACK_SAID && !a->explain) return;
     snprintf(line, sizeof line, "%s: %s", key, text);
-    text_clean(line);
-    if (a->explain) printf("%s\n", line);
+    if (a->explain) puts(name_text(line));
     else command_note(&cmd_pack, "%s", line);
 }
 

@@ -73,7 +73,7 @@ static void print_saved(struct table *table, const struct answer *answer, size_t
 }
 
 static void print_times(const char *what, const struct glint_savings_time *time) {
-    printf("%s: planned %.3f ms, with --all %.3f ms: %.1f %% (interquartile range %.1f to %.1f %%)\n", what,
+    printf("%s: planned %.3f ms, with --all %.3f ms: %.1f %% (interquartile range %.1f to %.1f %%)\n", name_text(what),
            milliseconds(time->planned.median_ns), milliseconds(time->whole.median_ns), 100 * time->ratio[1],
            100 * time->ratio[0], 100 * time->ratio[2]);
 }

@@ -202,12 +202,13 @@ static void print_all(const struct glint_reference *reference, const struct glin
                       const struct arguments *a, const struct glint_device_info *device, const struct missing *missing,
                       const struct glint_reference_sensitivity *sensitivity) {
     const struct glint_reference_state *state = glint_reference_state(reference);
-    printf("%s on %s: %u rays per pixel in %s\n\n", a->capture, device->name, state->rays, time_text(state->seconds));
+    printf("%s on %s: %u rays per pixel in %s\n\n", name_text(a->capture), name_text(device->name), state->rays,
+           time_text(state->seconds));
     print_noise(effect, state, missing);
     if (a->noise > 0 && state->noise[0].relative > a->noise)
         printf("the noise is still above the requested %g %%: use more --rays\n", 100 * a->noise);
     if (a->sensitivity) print_sensitivity(sensitivity);
-    if (a->out) printf("\nreference: %s\n", a->out);
+    if (a->out) printf("\nreference: %s\n", name_text(a->out));
     else puts("\nnothing written (-o RUN keeps it)");
 }
 

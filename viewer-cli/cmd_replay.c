@@ -190,7 +190,7 @@ static void print_run(const char *capture, const char *folder, const struct comp
     size_t count = 0;
     const struct glint_pass_result *results = glint_replay_results(job->replay, &count);
     const struct glint_device_info *device = glint_device_get_info(job->device);
-    printf("%s on %s%s\n\n", capture, device->name,
+    printf("%s on %s%s\n\n", name_text(capture), name_text(device->name),
            device->is_cpu ? " (a CPU device: times do not represent a GPU)" : "");
     print_passes(results, count, job->a->pipeline.replay.repeat == 0);
     print_bad_values(found->bad, found->count);
@@ -200,7 +200,7 @@ static void print_run(const char *capture, const char *folder, const struct comp
     for (size_t i = 0; i < sizeof phases / sizeof *phases; i++)
         printf("%s%s %s", i ? ", " : "", phases[i], time_text(glint_replay_seconds(job->replay, phases[i])));
     putchar('\n');
-    if (folder) printf("run: %s\n", folder);
+    if (folder) printf("run: %s\n", name_text(folder));
     else puts("nothing written (-o RUN keeps the images)");
     for (size_t e = 0; e < job->against->effect_count; e++) {
         if (compared[e].several) printf("\n%s\n", compared[e].effect->title);
@@ -347,7 +347,7 @@ static bool replay_one(struct job *job, const char *path, const char *folder, co
 static void report_kept(const struct job *job, const char *capture, const char *folder) {
     if (job->runs)
         json_array_append_new(job->runs, json_pack("{s:s, s:s, s:b}", "capture", capture, "run", folder, "kept", 1));
-    else printf("%s: already complete, kept: %s\n", capture, folder);
+    else printf("%s: already complete, kept: %s\n", name_text(capture), name_text(folder));
 }
 
 /* Number of complete frames from the first on; frames after an incomplete one depend on it through their history. */
@@ -413,6 +413,7 @@ static enum status cmd_replay_run(int argc, char **argv) {
     a.pipeline.without_fog = fogged != NULL;
     if (prepared && !a.watch) job.pipeline = pipeline_args_create(&a.pipeline, &err);
     if (job.pipeline) pipeline_note_fog(&cmd_replay, job.pipeline, fogged);
+    if (job.pipeline && a.out && a.captures.count > 1) shot_keep_history(&a.pipeline.outputs, job.pipeline);
     if (job.pipeline || a.watch) job.device = pipeline_args_device(&a.pipeline, &err);
     if (job.pipeline && job.device) job.replay = glint_replay_create(job.device, &err);
     if (job.device && a.watch) {

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "command.h"
+#include "io/shell.h"
 #include "options/pass_names.h"
 #include "options/pipeline_args.h"
 #include "tune/tune.h"
@@ -254,7 +255,10 @@ static char *command_line(int argc, char **argv) {
     FILE *out = open_memstream(&text, &size);
     if (!out) return NULL;
     fputs("glint tune", out);
-    for (int i = 1; i < argc; i++) fprintf(out, " %s", argv[i]);
+    for (int i = 1; i < argc; i++) {
+        fputc(' ', out);
+        shell_word(out, argv[i]);
+    }
     fclose(out);
     return text;
 }

@@ -37,12 +37,7 @@ struct listing {
 static void on_violation(void *user, const char *rule, const char *message) {
     struct listing *listing = user;
     if (listing->json) json_array_append_new(listing->json, json_pack("{s:s, s:s}", "rule", rule, "message", message));
-    else {
-        char text[1200];
-        snprintf(text, sizeof text, "%s", message);
-        text_clean(text);
-        printf("%s  [%s]\n", text, rule);
-    }
+    else printf("%s  [%s]\n", name_text(message), rule);
 }
 
 /* Adds the notes of a valid capture. A file of cube maps alone has no frame. */
@@ -72,8 +67,9 @@ static enum status validate(const char *path, json_t *files) {
     }
     if (files) json_array_append_new(files, record);
     else {
-        if (violations) mark_print(MARK_FAIL, "%s: %zu violation%s", path, violations, violations == 1 ? "" : "s");
-        else mark_print(MARK_GOOD, "%s: valid", path);
+        if (violations)
+            mark_print(MARK_FAIL, "%s: %zu violation%s", name_text(path), violations, violations == 1 ? "" : "s");
+        else mark_print(MARK_GOOD, "%s: valid", name_text(path));
         putchar('\n');
     }
     return violations ? STATUS_CHECK : STATUS_DONE;

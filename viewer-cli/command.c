@@ -128,6 +128,14 @@ static bool offer_options(const struct argp_option *options, const char *name, s
     return known;
 }
 
+/* "glint COMMAND: " on stderr, in colour. */
+static void print_name(const struct command *command, enum mark mark) {
+    mark_begin(stderr, mark);
+    fprintf(stderr, "glint %s:", command->name);
+    mark_end(stderr, mark);
+    fputc(' ', stderr);
+}
+
 /* argp's message on an unknown long option, with the option that is meant. Whatever is in doubt is left to argp. */
 static void check_long_options(const struct command *command, int argc, char **argv) {
     for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; i++) {
@@ -150,8 +158,8 @@ static void check_long_options(const struct command *command, int argc, char **a
             continue;
         }
         if (one) continue; /* short options may be joined */
-        fprintf(stderr, "%sglint %s:%s unrecognized option '--%s'", mark_begin(stderr, MARK_FAIL), command->name,
-                mark_end(stderr, MARK_FAIL), name);
+        print_name(command, MARK_FAIL);
+        fprintf(stderr, "unrecognized option '--%s'", name_text(name));
         if (near.best) fprintf(stderr, " (did you mean --%s?)", near.best);
         fprintf(stderr, "\nTry `glint %s --help' for more information.\n", command->name);
         exit(argp_err_exit_status);
@@ -184,13 +192,13 @@ void command_parse(const struct command *command, int argc, char **argv, void *i
     }
 }
 
-/* "glint COMMAND: message" on stderr, the name in colour. */
+/* "glint COMMAND: message" on stderr. */
 __attribute__((format(printf, 3, 0))) static void say(const struct command *command, enum mark mark, const char *format,
                                                       va_list args) {
     char text[2048];
     vsnprintf(text, sizeof text, format, args);
-    text_clean(text);
-    fprintf(stderr, "%sglint %s:%s %s\n", mark_begin(stderr, mark), command->name, mark_end(stderr, mark), text);
+    print_name(command, mark);
+    fprintf(stderr, "%s\n", name_text(text));
 }
 
 static void fail(const struct command *command, const char *format, ...) {

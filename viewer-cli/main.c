@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "complete/complete.h"
+#include "io/console.h"
 #include "io/memory.h"
 #include "io/table.h"
 #include "nearest.h"
@@ -34,7 +35,8 @@ static void print_help(FILE *out) {
 static enum status unknown_command(const char *name) {
     struct glint_nearest near = glint_nearest_to(name);
     for (size_t i = 0; i < command_count; i++) glint_nearest_offer(&near, commands[i]->name);
-    fprintf(stderr, "glint: there is no command %s%s; glint --help lists them\n", name, glint_nearest_text(&near));
+    fprintf(stderr, "glint: there is no command %s%s; glint --help lists them\n", name_text(name),
+            glint_nearest_text(&near));
     return STATUS_USAGE;
 }
 
@@ -76,7 +78,7 @@ static enum status dispatch(int argc, char **argv) {
         return STATUS_DONE;
     }
     if (first[0] == '-') {
-        fprintf(stderr, "glint: unknown option %s; options come after the command (glint --help)\n", first);
+        fprintf(stderr, "glint: unknown option %s; options come after the command (glint --help)\n", name_text(first));
         return STATUS_USAGE;
     }
     const struct command *command = command_find(first);
@@ -92,12 +94,16 @@ static bool flush_output(void) {
 
 int main(int argc, char **argv) {
     setlocale(LC_CTYPE, "");
-    console_begin();
+    if (!console_begin()) {
+        fputs("glint: out of memory\n", stderr);
+        return STATUS_CHECK;
+    }
     memory_begin();
     argp_err_exit_status = STATUS_USAGE;
     const enum status status = dispatch(argc, argv);
     const bool whole = !memory_ran_out(), written = flush_output();
     if (!whole) fputs("glint: out of memory: what was printed may be incomplete\n", stderr);
     memory_end();
+    console_end();
     return status == STATUS_DONE && !(whole && written) ? STATUS_CHECK : (int)status;
 }

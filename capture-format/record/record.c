@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "shown.h"
+
 struct text {
     char *bytes;
     size_t length, capacity;
@@ -28,7 +30,7 @@ static int append(const char *bytes, size_t length, void *user) {
 char *record_text(const json_t *record, size_t flags) {
     struct text text = {0};
     const bool whole = record && json_dump_callback(record, append, &text, flags) == 0 && !text.failed;
-    if (whole) return text.bytes;
+    if (whole) return shown_json(text.bytes);
     free(text.bytes);
     return NULL;
 }

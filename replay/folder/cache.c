@@ -13,6 +13,7 @@
 #include <xxhash.h>
 
 #include "complete.h"
+#include "glint/replay.h"
 
 enum { PATH_SIZE = 4096, CHUNK = 1 << 20, DIGITS = CACHE_KEY_SIZE - 1, NAME = 2 * DIGITS + 5 };
 
@@ -23,6 +24,15 @@ static bool is_entry(const char *name) {
 
 static bool join_path(char *path, size_t size, const char *folder, const char *name) {
     return snprintf(path, size, "%s/%s", folder, name) < (int)size;
+}
+
+const char *glint_cache_refusal(const char *folder) {
+    struct stat info;
+    if (lstat(folder, &info) != 0) return errno == ENOENT ? NULL : strerror(errno);
+    if (S_ISLNK(info.st_mode)) return "it is a symbolic link";
+    if (!S_ISDIR(info.st_mode)) return "it is no folder";
+    if (info.st_uid != geteuid()) return "it belongs to another user";
+    return info.st_mode & (S_IWGRP | S_IWOTH) ? "others may write to it" : NULL;
 }
 
 /* The descriptor of a file that can be read, or -1: not of a pipe, which would have us wait, nor of a symbolic link. */
@@ -59,7 +69,7 @@ static bool hash_file(const char *path, const char *key, char hex[CACHE_KEY_SIZE
 
 /* The path of a key's entry and the hash that its name states. The file itself is not verified. */
 static bool find_entry(const char *folder, const char *key, char *path, size_t size, char hash[CACHE_KEY_SIZE]) {
-    DIR *entries = opendir(folder);
+    DIR *entries = glint_cache_refusal(folder) ? NULL : opendir(folder);
     bool found = false;
     for (struct dirent *entry; entries && !found && (entry = readdir(entries));) {
         found = is_entry(entry->d_name) && strncmp(entry->d_name, key, DIGITS) == 0 &&
@@ -150,7 +160,7 @@ static bool store_entry(const char *folder, const char *key, const char *file) {
 
 void cache_store(const char *folder, const char *key, const char *file, uint64_t max_bytes) {
     char inside[PATH_SIZE];
-    if (!make_folders(folder) || !join_path(inside, sizeof inside, folder, "")) return;
+    if (!make_folders(folder) || glint_cache_refusal(folder) || !join_path(inside, sizeof inside, folder, "")) return;
     glint_path_remove_temporaries(inside);
     if (store_entry(folder, key, file)) trim_folder(folder, max_bytes);
 }

@@ -3,6 +3,7 @@
 
 #include <jansson.h>
 #include <math.h>
+#include <string.h>
 
 /* Whether the image of the previous frame is available. */
 static bool is_available(const struct frame_plan *plan, const struct pool *pool, const struct graph_image *image,
@@ -13,6 +14,25 @@ static bool is_available(const struct frame_plan *plan, const struct pool *pool,
 }
 
 /* ---- A run folder as history ---- */
+
+/* A pass that ran made its images. One that is missing was not asked for, and taking the fallback value for it would change the picture in silence. */
+static bool check_written(const struct frame_plan *plan, const struct graph_image *image, struct glint_error *err) {
+    const char *name = image->name + strlen(HISTORY_PREFIX);
+    if (plan_stored_image(plan, image, image->name)) return true;
+    json_t *run = json_loads(glint_run_json(plan->history), 0, NULL);
+    const json_t *pass;
+    size_t i;
+    bool made = false;
+    json_array_foreach(json_object_get(run, "passes"), i, pass) {
+        const char *slot = json_string_value(json_object_get(pass, "slot"));
+        made |= image->pass && slot && !strcmp(slot, image->pass->slot) && json_is_true(json_object_get(pass, "ran"));
+    }
+    json_decref(run);
+    return !made ||
+           glint_fail(err, GLINT_ERROR_USAGE,
+                      "%s: cannot be the history of %s: it lacks the image %s, as it was written with --outputs",
+                      plan->options->history, glint_capture_path(plan->source->capture), name);
+}
 
 /* The view matrix of the previous frame is that of the run, up to the rounding of engines that keep matrices in single precision: a few of
    its steps of 6e-8, and of the largest element, as translations are sums of products. The unit of metres makes it at least 1. */
@@ -79,6 +99,7 @@ bool plan_history(struct frame_plan *plan, const struct pool *pool, struct glint
         struct image_desc desc;
         if (!image->history) continue;
         if (!plan_describe(plan, image, &desc, err)) return false;
+        if (plan->history && !frame->cut && !check_written(plan, image, err)) return false;
         if (frame->cut || !is_available(plan, pool, image, &desc)) image->source = SOURCE_FALLBACK;
         else if (plan->history) image->source = SOURCE_RUN;
         plan->sizes.history |= image->source != SOURCE_FALLBACK;

@@ -269,6 +269,7 @@ static struct program *find_program(struct programs *programs, struct gpu *gpu, 
         if (found->key == key) {
             *at = found->next;
             found->next = programs->first;
+            found->uses++;
             return programs->first = found;
         }
         if (count == KEPT) {
@@ -280,6 +281,21 @@ static struct program *find_program(struct programs *programs, struct gpu *gpu, 
         }
     }
     return NULL;
+}
+
+/* Lavapipe 22.3 keeps a copy of the shader for each dispatch whose uniform values differ from those of the one before, until the pipeline is
+   destroyed: a megabyte or more a frame. */
+void programs_begin_run(struct programs *programs, struct gpu *gpu) {
+    enum { USES = 128 };
+    if (!gpu->info.is_cpu) return;
+    for (struct program **at = &programs->first, *old; (old = *at);) {
+        if (old->uses < USES) {
+            at = &old->next;
+            continue;
+        }
+        *at = old->next;
+        program_destroy(old, gpu);
+    }
 }
 
 static uint64_t program_key(const struct glint_pass *pass, const struct constants *constants, uint64_t module) {

@@ -321,14 +321,27 @@ static void remove_folder(void) {
     rmdir(folder);
 }
 
-const char *fixture_path(char buffer[512], const char *name) {
+/* Of this run of the test alone. */
+static void make_folder(void) {
     const char *root = getenv(TEMPORARY);
-    snprintf(buffer, 512, "%.400s/glint-test-%ld", root ? root : "/tmp", (long)getpid());
-    if (!mkdir(buffer, 0700) && !folder[0]) {
-        snprintf(folder, sizeof folder, "%s", buffer);
-        atexit(remove_folder);
+#ifdef _WIN32
+    snprintf(folder, sizeof folder, "%.400s/glint-test-%ld", root ? root : ".", (long)getpid());
+    const bool made = !mkdir(folder, 0700);
+#else
+    snprintf(folder, sizeof folder, "%.400s/glint-test-XXXXXX", root ? root : "/tmp");
+    const bool made = mkdtemp(folder) != NULL;
+#endif
+    if (!made) {
+        perror(folder);
+        exit(1);
     }
-    const size_t length = strlen(buffer);
+    atexit(remove_folder);
+}
+
+const char *fixture_path(char buffer[512], const char *name) {
+    if (!folder[0]) make_folder();
+    const size_t length = strlen(folder);
+    memcpy(buffer, folder, length);
     snprintf(buffer + length, 512 - length, "/%s", name);
     return buffer;
 }

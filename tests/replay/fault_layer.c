@@ -7,6 +7,8 @@
    GLINT_FAULT_SECONDS instead of failing they take so many seconds longer
    GLINT_FAULT_FILE    while a file of this name exists, devices are lost at the next call that a lost device fails, and none can be created
    GLINT_FAULT_COUNTS  a file to which each process appends how often it called each function, when its last instance is destroyed
+   GLINT_FAULT_LIVE    a file that says at each submission how many objects of the device there are, how many bytes of the heap are in use, and how many of
+                       them threads of glint hold, if tests/faults/live_heap.c is preloaded
 
    GLINT_FAULT_STAY    a library that is not unloaded, so that a sanitizer can name what the driver never frees
 
@@ -15,6 +17,8 @@
    A device of which any call has returned VK_ERROR_DEVICE_LOST is lost: from then on it executes nothing, and returns that from the calls that wait, submit
    and read results. Its other functions go on working, as the specification has it: objects of a lost device are created and destroyed. */
 #include <dlfcn.h>
+#include <fcntl.h>
+#include <malloc.h>
 #include <pthread.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -231,9 +235,28 @@ static void count_made(struct object *object, enum call call, long more) {
     pthread_mutex_unlock(&lock);
 }
 
+/* Overwrites the line of the submission before, which has the same length. */
+static void tell_live(const struct object *object) {
+    const char *path = getenv("GLINT_FAULT_LIVE");
+    const int file = path ? open(path, O_WRONLY | O_CREAT | O_CLOEXEC, 0600) : -1;
+    if (file < 0) return;
+    long count = 0;
+#define DESTROY(made_by, name, type) count += object->made[CALL_##made_by];
+    DESTROYS
+#undef DESTROY
+    const struct mallinfo2 heap = mallinfo2();
+    size_t (*held)(void) = NULL;
+    *(void **)&held = dlsym(RTLD_DEFAULT, "live_heap_bytes");
+    if (dprintf(file, "%20ld %20zu %20zu\n", count, heap.uordblks + heap.hblkhd, held ? held() : 0) < 0) abort();
+    close(file);
+}
+
 static void note_success(struct object *object, enum call call) {
     count_made(object, call, 1);
-    if (call == CALL_QueueSubmit || call == CALL_QueueSubmit2) object->executes = true;
+    if (call == CALL_QueueSubmit || call == CALL_QueueSubmit2) {
+        object->executes = true;
+        tell_live(object);
+    }
     if (call == CALL_WaitForFences || call == CALL_QueueWaitIdle || call == CALL_DeviceWaitIdle)
         object->executes = false;
 }

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "cache.h"
+#include "glint/replay.h"
 #include "unit.h"
 
 static const char *const keys[] = {"00000000000000000000000000000000", "11111111111111111111111111111111",
@@ -182,9 +183,51 @@ static void a_folder_that_cannot_be_written_keeps_nothing(UNUSED void **state) {
     remove_place(&place);
 }
 
+/* What others could put there would be taken for what glint computed. */
+static void a_folder_of_others_is_refused(UNUSED void **state) {
+    struct place place;
+    char path[256], link[128], with_slash[128];
+    struct stat info;
+    begin(&place);
+    write_text(place.file, "private");
+    assert_null(glint_cache_refusal(place.folder)); /* not there yet */
+    const mode_t before = umask(0);
+    cache_store(place.folder, keys[0], place.file, UINT64_MAX);
+    umask(before);
+    assert_int_equal(stat(place.folder, &info), 0);
+    assert_int_equal(info.st_mode & 07777, 0700);
+    assert_true(cache_find(place.folder, keys[0], path, sizeof path));
+    assert_int_equal(stat(path, &info), 0);
+    assert_int_equal(info.st_mode & 07777, 0600);
+
+    for (int who = 0; who < 2; who++) {
+        assert_int_equal(chmod(place.folder, who ? 0702 : 0720), 0);
+        assert_string_equal(glint_cache_refusal(place.folder), "others may write to it");
+        assert_false(cache_find(place.folder, keys[0], path, sizeof path));
+        assert_false(cache_copy(place.folder, keys[0], place.back));
+        cache_store(place.folder, keys[1], place.file, UINT64_MAX);
+        assert_int_equal(count_files(place.folder), 1);
+    }
+    assert_int_equal(chmod(place.folder, 0755), 0); /* they may read names, but no file */
+    assert_null(glint_cache_refusal(place.folder));
+
+    snprintf(link, sizeof link, "%s/link", place.top);
+    snprintf(with_slash, sizeof with_slash, "%s/", place.folder);
+    assert_int_equal(symlink(place.folder, link), 0);
+    assert_string_equal(glint_cache_refusal(link), "it is a symbolic link");
+    assert_false(cache_find(link, keys[0], path, sizeof path));
+    assert_null(glint_cache_refusal(with_slash));
+    assert_string_equal(glint_cache_refusal(place.file), "it is no folder");
+    if (geteuid() != 0) assert_string_equal(glint_cache_refusal("/"), "it belongs to another user");
+    else if (chown(place.folder, 65534, 65534) == 0)
+        assert_string_equal(glint_cache_refusal(place.folder), "it belongs to another user");
+    remove_place(&place);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_was_stored_comes_back),
+        cmocka_unit_test(a_folder_of_others_is_refused),
         cmocka_unit_test(a_damaged_entry_is_none),
         cmocka_unit_test(another_keys_contents_are_none),
         cmocka_unit_test(what_is_no_file_is_none),

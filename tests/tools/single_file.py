@@ -53,6 +53,19 @@ class Tests:
         status, out, err = self.run(None)
         assert (status, out) == (1, "") and "GLINT_BUNDLE_CACHE=DIR says where" in err, err
 
+    def test_a_folder_of_others_is_refused(self):
+        """What they could put there would be run, also where it is unpacked already."""
+        assert self.run("mine")[0] == 7 and os.stat("mine").st_mode & 0o777 == 0o700
+        os.symlink("mine", "link")
+        status, out, err = self.run("link")
+        assert (status, out) == (1, "") and "link is a symbolic link" in err, err
+        for mode in (0o720, 0o702, 0o1777):
+            os.chmod("mine", mode)
+            status, out, err = self.run("mine")
+            assert (status, out) == (1, "") and "others may write to mine" in err, (mode, err)
+        os.chmod("mine", 0o755)
+        assert self.run("mine")[0] == 7
+
     def test_starts_at_once_do_not_disturb_each_other(self):
         started = [self.start("many", "a b", "") for _ in range(8)]
         for process in started:

@@ -72,7 +72,7 @@ static void print_sum(const struct blame *blame, const char *title, const struct
         blame_how(sum, how);
         printf("%s: the error of %s against the %s is %s (%s). With every slot replaced by its ideal, it is %s. "
                "Each slot's share of the difference, %s (%s):\n\n",
-               title, glint_pipeline_name(blame->base), glint_target_name(blame_answer(blame, a)),
+               name_text(title), name_text(glint_pipeline_name(blame->base)), glint_target_name(blame_answer(blame, a)),
                number_text(sum->shapley.none[v]), glint_metric(blame->metric)->title, number_text(sum->shapley.all[v]),
                number_text(blame_total(sum, v)), how);
         print_players(blame, sum, a);
@@ -93,10 +93,10 @@ void blame_print_shares(const struct blame *blame) {
          "error that this slot makes alone. The ideals:");
     for (size_t p = blame->count; p-- > 0;) {
         const char *why = glint_player_why(blame->players, p);
-        printf("  - %s: %s%s%s%s\n", glint_player_name(blame->players, p), glint_player_change(blame->players, p),
-               why[0] ? " (" : "", why, why[0] ? ")" : "");
+        printf("  - %s: %s%s%s%s\n", glint_player_name(blame->players, p),
+               name_text(glint_player_change(blame->players, p)), why[0] ? " (" : "", why, why[0] ? ")" : "");
     }
-    if (blame->out) printf("page with charts and tables: %s/index.html\n", blame->out);
+    if (blame->out) printf("page with charts and tables: %s/index.html\n", name_text(blame->out));
     fflush(stdout);
 }
 
@@ -115,8 +115,9 @@ static void print_time(const struct blame *blame, const char *title, const struc
         percent_cell(table, already ? (double)NAN : 100 * bought / error);
         value_or_dash_cell(table, sum->time.saved[p]);
     }
-    printf("\n%s: %s takes %s ms, and with every slot ideal %s ms:\n\n", title, glint_pipeline_name(blame->base),
-           number_text(sum->time.preset), number_text(sum->time.reference));
+    printf("\n%s: %s takes %s ms, and with every slot ideal %s ms:\n\n", name_text(title),
+           name_text(glint_pipeline_name(blame->base)), number_text(sum->time.preset),
+           number_text(sum->time.reference));
     table_print(table, stdout);
     table_destroy(&table);
 }

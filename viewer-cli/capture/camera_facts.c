@@ -4,6 +4,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "io/console.h"
+
 /* View depth at NDC z = n, from z_clip = A z + B and w = s z. */
 static double depth_at(double a, double b, double s, double n) {
     double divisor = n * s - a;
@@ -35,7 +37,8 @@ json_t *frame_notes_json(const struct glint_frame *frame) {
 
 void frame_notes_print(const struct glint_frame *frame) {
     char notes[GLINT_NOTES][GLINT_NOTE_LENGTH];
-    for (size_t i = 0, count = glint_frame_notes(frame, notes); i < count; i++) printf("note: %s\n", notes[i]);
+    for (size_t i = 0, count = glint_frame_notes(frame, notes); i < count; i++)
+        printf("note: %s\n", name_text(notes[i]));
 }
 
 const char *axis_name(enum glint_axis axis) {

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "io/table.h"
+#include "shown.h"
 
 enum { MAGIC = 20000630, MULTI_PART = 0x1000, PARTS_MAX = 1024, ATTRIBUTES_MAX = 4096 };
 
@@ -22,9 +23,10 @@ static bool fault(struct walk *walk, const char *format, ...) {
     va_list args;
     if (walk->to->fault[0]) return false; /* the first one counts */
     va_start(args, format);
-    vsnprintf(walk->to->fault, sizeof walk->to->fault, format, args);
+    char text[sizeof walk->to->fault];
+    vsnprintf(text, sizeof text, format, args);
     va_end(args);
-    text_clean(walk->to->fault);
+    shown_text(walk->to->fault, sizeof walk->to->fault, text);
     return false;
 }
 
@@ -61,9 +63,10 @@ static bool take_channels(struct walk *walk, struct damaged_part *part) {
     while (part->channel_count < DAMAGED_CHANNELS) {
         struct damaged_channel *channel = &part->channels[part->channel_count];
         uint8_t rest[12];
-        if (!take_text(walk, channel->name)) return false;
-        if (!channel->name[0]) return true;
-        text_clean(channel->name);
+        char name[sizeof channel->name];
+        if (!take_text(walk, name)) return false;
+        if (!name[0]) return true;
+        shown_text(channel->name, sizeof channel->name, name);
         if (!take(walk, &channel->type, 4) || !take(walk, rest, sizeof rest)) return false;
         part->channel_count++;
     }
@@ -74,8 +77,9 @@ static bool take_value(struct walk *walk, struct damaged_part *part, const char 
     int32_t box[4], chunks;
     if (!strcmp(name, "channels")) return take_channels(walk, part);
     if (!strcmp(name, "name") && bytes > 0 && bytes < 256) {
-        if (!take(walk, part->name, (size_t)bytes)) return false;
-        text_clean(part->name);
+        char text[sizeof part->name] = "";
+        if (!take(walk, text, (size_t)bytes)) return false;
+        shown_text(part->name, sizeof part->name, text);
     }
     if (!strcmp(name, "dataWindow") && bytes == sizeof box) {
         if (!take(walk, box, sizeof box)) return false;

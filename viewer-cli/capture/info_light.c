@@ -46,11 +46,11 @@ void info_print_light(const struct glint_capture *capture) {
     for (size_t i = 0; i < glint_capture_part_count(capture); i++) {
         const struct glint_part_info *part = glint_capture_part(capture, i);
         if (part->has_volume && part->volume.slices)
-            printf("\n%s: %u × %u × %u cells of light\n", part->name, part->width, part->height / part->volume.slices,
-                   part->volume.slices);
+            printf("\n%s: %u × %u × %u cells of light\n", name_text(part->name), part->width,
+                   part->height / part->volume.slices, part->volume.slices);
         if (part->has_froxels)
-            printf("\n%s: %u × %u × %u cells of light in the air, slices %s from %s to %s units\n", part->name,
-                   part->width, part->height / part->froxels.slices, part->froxels.slices,
+            printf("\n%s: %u × %u × %u cells of light in the air, slices %s from %s to %s units\n",
+                   name_text(part->name), part->width, part->height / part->froxels.slices, part->froxels.slices,
                    part->froxels.exponential ? "exponential" : "linear", number_text(part->froxels.near_depth),
                    number_text(part->froxels.far_depth));
     }

@@ -243,7 +243,7 @@ static void print_classes(const struct glint_survey *survey, const struct glint_
     uint64_t count;
     for (uint32_t i = 0; i < frame->class_count; i++)
         if (glint_survey_class(survey, &frame->classes[i], &count))
-            printf("class %s: %llu pixels\n", frame->classes[i].name, (unsigned long long)count);
+            printf("class %s: %llu pixels\n", name_text(frame->classes[i].name), (unsigned long long)count);
 }
 
 static const char *faces_text(uint8_t faces, char text[32]) {

@@ -175,10 +175,11 @@ static void print_notes(const struct contest_table *t) {
             const char *notes = s->notes ? s->notes : "";
             uint64_t invalid = s->own.of[0].invalid;
             if (!s->failure[0] && !notes[0] && !invalid) continue;
-            printf("\n%s, %s: ", base_name(t->captures[c]), t->contest->contestants[p].label);
-            if (s->failure[0]) printf("%s%s%s", s->ran ? "no error: " : "failed: ", s->failure, notes[0] ? "; " : "");
+            printf("\n%s, %s: ", name_text(base_name(t->captures[c])), name_text(t->contest->contestants[p].label));
+            if (s->failure[0])
+                printf("%s%s%s", s->ran ? "no error: " : "failed: ", name_text(s->failure), notes[0] ? "; " : "");
             if (invalid) printf("NaN or infinite in %llu pixels%s", (unsigned long long)invalid, notes[0] ? "; " : "");
-            fputs(notes, stdout);
+            fputs(name_text(notes), stdout);
         }
     putchar('\n');
 }

@@ -5,8 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "io/console.h"
+#include "shown.h"
+
 void complete_offer(struct completion *c, const char *candidate, const char *about) {
-    if (strncmp(candidate, c->typed, strlen(c->typed)) != 0) return;
+    if (strncmp(candidate, c->typed, strlen(c->typed)) != 0 || !shown_is_plain(candidate)) return;
     for (size_t i = 0; i < c->offered_count; i++)
         if (!strcmp(c->offered[i], candidate)) return;
     char **more = realloc(c->offered, (c->offered_count + 1) * sizeof *more);
@@ -17,7 +20,9 @@ void complete_offer(struct completion *c, const char *candidate, const char *abo
     const char *end = about ? about : "";
     while (*end && *end != '\n' && *end != '\t' && !((*end == '.' || *end == ':' || *end == ';') && end[1] == ' '))
         end++;
-    printf("%s%s\t%.*s\n", c->before, candidate, about ? (int)(end - about) : 0, about ? about : "");
+    char text[512];
+    snprintf(text, sizeof text, "%.*s", about ? (int)(end - about) : 0, about ? about : "");
+    printf("%s%s\t%s\n", c->before, candidate, name_text(text));
 }
 
 void complete_finish(struct completion *c, size_t bytes) {
@@ -122,6 +127,7 @@ static void complete_of_command(struct completion *c, const struct command *comm
 
 void complete_print(int count, char *const words[]) {
     if (count < 1) return;
+    console_plain(true); /* tabs separate */
     struct completion c = {.words = (const char *const *)words, .count = (size_t)count - 1, .typed = words[count - 1]};
     const struct command *command = c.count ? command_find(c.words[0]) : NULL;
     if (!c.count || (c.count == 1 && !strcmp(c.words[0], "help"))) complete_command(&c);

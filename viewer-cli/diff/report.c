@@ -7,6 +7,7 @@
 #include "diff/diff.h"
 #include "options/metric_args.h"
 #include "io/table.h"
+#include "shown.h"
 
 enum { PLACES = 16 };
 
@@ -116,7 +117,8 @@ static void print_settings(const json_t *settings) {
         static const char *const sides[] = {"a", "b"};
         table_cell(t, "%s", json_string_value(json_object_get(row, "what")));
         for (int k = 0; k < 2; k++) {
-            char *text = json_dumps(json_object_get(row, sides[k]), JSON_ENCODE_ANY | JSON_REAL_PRECISION(6));
+            char *text =
+                shown_json(json_dumps(json_object_get(row, sides[k]), JSON_ENCODE_ANY | JSON_REAL_PRECISION(6)));
             table_cell(t, "%s", !text || !strcmp(text, "null") ? "–" : text);
             free(text);
         }
@@ -245,14 +247,15 @@ static void print_left_out(const struct diff *diff) {
         for (size_t i = 0; i < diff->count; i++) {
             const struct diff_pair *pair = &diff->pairs[i];
             if (!pair->left_out || (k ? pair->b : pair->a) || strstr(diff_pair_image(pair)->name, ".level")) continue;
-            if (named++ == 0) printf("%s %s: ", mark, diff->sides[k].text);
-            printf("%s%s", named > 1 ? ", " : "", diff_pair_image(pair)->name);
+            if (named++ == 0) printf("%s %s: ", mark, name_text(diff->sides[k].text));
+            printf("%s%s", named > 1 ? ", " : "", name_text(diff_pair_image(pair)->name));
         }
         if (named) putchar('\n');
     }
     if (diff->rayless_count)
         printf("%s traces no ray at %zu of %zu texels, where images of rays were not compared\n",
-               diff->sides[diff->planned].text, diff->rayless_count, (size_t)diff->rays_width * diff->rays_height);
+               name_text(diff->sides[diff->planned].text), diff->rayless_count,
+               (size_t)diff->rays_width * diff->rays_height);
 }
 
 void diff_print(const struct diff *diff, bool verbose) {
@@ -269,7 +272,8 @@ void diff_print(const struct diff *diff, bool verbose) {
                diff->planned >= 0 ? " that both contain" : "");
         if (first < diff->count) {
             const struct diff_image *image = diff_pair_image(&diff->pairs[first]);
-            printf("; the first that differs is %s%s%s", image->slot, image->slot[0] ? ": " : "", image->name);
+            printf("; the first that differs is %s%s%s", name_text(image->slot), image->slot[0] ? ": " : "",
+                   name_text(image->name));
         }
         putchar('\n');
         if (diff->options.metrics.metrics) print_metrics(diff, verbose);

@@ -1,4 +1,4 @@
-/* Wraps lines at the width of the terminal, and colours. */
+/* Shows hidden characters, wraps lines at the width of the terminal, and colours. */
 #include "io/console.h"
 
 #include <errno.h>
@@ -8,14 +8,16 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-/* A stream to a terminal. A word is kept until it is known whether it fits into the line. */
+#include "shown.h"
+
+/* A stream to a file or a terminal. On terminals a word is kept until it is known whether it fits into the line. */
 struct wrapping {
     FILE *stream;
     int file;
-    bool plain, leading, escape;
-    size_t columns, column, indent, gap; /* gap: spaces that are written before the next word */
-    char word[1024], out[8192];
-    size_t length, width, filled; /* of the word, in bytes and columns; of `out` */
+    bool terminal, plain, leading, escape, failed, goes_on; /* goes_on: the word is not at its end yet */
+    size_t columns, column, indent, gap;                    /* gap: spaces that are written before the next word */
+    char cut[4], word[1024], out[8192];                     /* cut: a character's first bytes */
+    size_t cut_length, length, width, filled;               /* of the word, in bytes and columns; of `out` */
 };
 
 static struct wrapping wrappings[] = {{.file = STDOUT_FILENO, .leading = true},
@@ -36,16 +38,19 @@ size_t console_width(FILE *out) {
 
 /* ---- Wrapping ---- */
 
-static bool write_out(struct wrapping *w) {
-    size_t done = 0;
-    while (done < w->filled) {
-        const ssize_t n = write(w->file, w->out + done, w->filled - done);
-        if (n < 0 && errno == EINTR) continue;
-        if (n < 0) return false;
-        done += (size_t)n;
+static bool write_all(int file, const char *text, size_t size) {
+    for (ssize_t n; size; text += n, size -= (size_t)n) {
+        while ((n = write(file, text, size)) < 0 && errno == EINTR) {
+        }
+        if (n <= 0) return false;
     }
-    w->filled = 0;
     return true;
+}
+
+static bool write_out(struct wrapping *w) {
+    if (!write_all(w->file, w->out, w->filled)) w->failed = true;
+    w->filled = 0;
+    return !w->failed;
 }
 
 static void put(struct wrapping *w, const char *text, size_t length) {
@@ -99,25 +104,43 @@ static void add(struct wrapping *w, char c) {
     w->escape = begins || (w->escape && !final);
 }
 
-static ssize_t write_wrapped(void *user, const char *text, size_t size) {
-    struct wrapping *w = user;
-    w->columns = w->plain ? 0 : columns_of(w->file);
-    for (size_t i = 0; i < size; i++) add(w, text[i]);
-    put_word(w);
-    put_spaces(w, w->gap); /* of a line that goes on in the next call */
-    w->column += w->gap;
-    w->gap = 0;
-    return write_out(w) ? (ssize_t)size : -1;
+/* The next byte of a text; a character is written when it is whole. */
+static void take(struct wrapping *w, char c) {
+    char piece[SHOWN_PIECE] = "";
+    w->cut[w->cut_length++] = c;
+    for (size_t taken; w->cut_length; w->cut_length -= taken) {
+        taken = 1;
+        if (w->cut[0] == '\n') strcpy(piece, "\n");
+        else if (!(taken = shown_piece(w->cut, w->cut_length, piece))) return;
+        if (!w->terminal) put(w, piece, strlen(piece));
+        for (const char *p = piece; w->terminal && *p; p++) add(w, *p);
+        memmove(w->cut, w->cut + taken, w->cut_length - taken);
+    }
 }
 
-/* `mode` as of setvbuf: a bar on stderr shows at once. */
-static void wrap(struct wrapping *w, FILE **stream, int mode) {
-    if (!isatty(w->file)) return;
-    FILE *wrapped = fopencookie(w, "w", (cookie_io_functions_t){.write = write_wrapped});
-    if (!wrapped) return;
-    setvbuf(wrapped, NULL, mode, mode == _IOLBF ? BUFSIZ : 0);
+static ssize_t write_shown(void *user, const char *text, size_t size) {
+    struct wrapping *w = user;
+    if (w->plain) return write_out(w) && write_all(w->file, text, size) ? (ssize_t)size : 0;
+    w->columns = w->terminal ? columns_of(w->file) : 0;
+    for (size_t i = 0; i < size; i++) take(w, text[i]);
+    if (!w->goes_on) {
+        put_word(w);
+        put_spaces(w, w->gap); /* of a line that goes on in the next call */
+        w->column += w->gap;
+        w->gap = 0;
+    }
+    return write_out(w) ? (ssize_t)size : 0;
+}
+
+/* `mode` as of setvbuf: what is said on stderr shows at once. */
+static bool wrap(struct wrapping *w, FILE **stream, int mode) {
+    w->terminal = isatty(w->file);
+    w->stream = fopencookie(w, "w", (cookie_io_functions_t){.write = write_shown});
+    if (!w->stream) return false;
+    setvbuf(w->stream, NULL, mode, mode == _IONBF ? 0 : BUFSIZ);
     fflush(*stream);
-    *stream = w->stream = wrapped;
+    *stream = w->stream;
+    return true;
 }
 
 /* argp wraps --help at 79 columns, unless it is told otherwise. */
@@ -130,15 +153,48 @@ static void narrow_help(void) {
     setenv("ARGP_HELP_FMT", format, 0);
 }
 
-void console_begin(void) {
+bool console_begin(void) {
     narrow_help();
-    wrap(&wrappings[0], &stdout, _IOLBF);
-    wrap(&wrappings[1], &stderr, _IONBF);
+    return wrap(&wrappings[0], &stdout, isatty(STDOUT_FILENO) ? _IOLBF : _IOFBF) &&
+           wrap(&wrappings[1], &stderr, _IONBF);
 }
 
-void console_plain(void) {
+void console_end(void) {
+    for (size_t i = 0; i < 2; i++) {
+        put_word(&wrappings[i]);
+        write_out(&wrappings[i]);
+    }
+}
+
+void console_plain(bool plain) {
     fflush(stdout);
-    wrappings[0].plain = true;
+    put_word(&wrappings[0]);
+    write_out(&wrappings[0]);
+    wrappings[0].plain = plain;
+}
+
+void console_code(FILE *out, const char *code) {
+    struct wrapping *w = &wrappings[out == stderr];
+    w->goes_on = true;
+    fflush(out);
+    w->goes_on = false;
+    for (const char *c = code; *c; c++)
+        if (w->terminal) add(w, *c);
+        else put(w, c, 1);
+    if (w->width) return; /* the code belongs to a word */
+    put_word(w);
+    write_out(w);
+}
+
+const char *name_text(const char *name) {
+    enum { NAMES = 8 };
+    static _Thread_local char *names[NAMES];
+    static _Thread_local unsigned turn;
+    if (!name || shown_is_plain(name)) return name;
+    char **kept = &names[turn++ % NAMES];
+    free(*kept);
+    *kept = shown_copy(name);
+    return *kept ? *kept : "?";
 }
 
 /* ---- Colours ---- */
@@ -156,21 +212,21 @@ static bool has_color(FILE *out) {
     return file_of(out) >= 0 && isatty(file_of(out)) && !(no && *no) && !(kind && !strcmp(kind, "dumb"));
 }
 
-const char *mark_begin(FILE *out, enum mark mark) {
+void mark_begin(FILE *out, enum mark mark) {
     static const char *const codes[] = {
         [MARK_TITLE] = "\033[1m", [MARK_GOOD] = "\033[32m", [MARK_WARN] = "\033[33m", [MARK_FAIL] = "\033[31m"};
-    return mark && has_color(out) ? codes[mark] : "";
+    if (mark && has_color(out)) console_code(out, codes[mark]);
 }
 
-const char *mark_end(FILE *out, enum mark mark) {
-    return mark && has_color(out) ? "\033[0m" : "";
+void mark_end(FILE *out, enum mark mark) {
+    if (mark && has_color(out)) console_code(out, "\033[0m");
 }
 
 void mark_print(enum mark mark, const char *format, ...) {
     va_list args;
     va_start(args, format);
-    fputs(mark_begin(stdout, mark), stdout);
+    mark_begin(stdout, mark);
     vprintf(format, args);
-    fputs(mark_end(stdout, mark), stdout);
+    mark_end(stdout, mark);
     va_end(args);
 }

@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "io/console.h"
 #include "io/memory.h"
 
 enum { START_BYTES = 16 };
@@ -85,6 +86,7 @@ bool output_open(struct output *output, const char *path, struct glint_error *er
     if (!strcmp(path, "-")) {
         output->path = "stdout";
         output->file = stdout;
+        console_plain(true);
         return true;
     }
     output->direct = stat(path, &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "io/console.h"
+
 static bool copy(FILE *from, FILE *to, const char *what, struct glint_error *err) {
     char buffer[1 << 16];
     for (size_t n; (n = fread(buffer, 1, sizeof buffer, from)) > 0;)
@@ -41,6 +43,7 @@ bool pipe_output_flush(const struct pipe *pipe, struct glint_error *err) {
     if (!pipe->path[0]) return true;
     FILE *file = fopen(pipe->path, "rb");
     if (!file) return glint_fail(err, GLINT_ERROR_IO, "%s: %s", pipe->path, strerror(errno));
+    console_plain(true);
     bool ok = copy(file, stdout, "stdout", err);
     fclose(file);
     return ok;

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "io/console.h"
+#include "shown.h"
 
 static volatile sig_atomic_t interrupted, asked;
 
@@ -47,8 +48,10 @@ static void begin_step(struct progress *progress, double done) {
 void progress_phase(struct progress *progress, const char *format, ...) {
     va_list args;
     va_start(args, format);
-    vsnprintf(progress->phase, sizeof progress->phase, format, args);
+    char text[sizeof progress->phase];
+    vsnprintf(text, sizeof text, format, args);
     va_end(args);
+    shown_text(progress->phase, sizeof progress->phase, text);
     progress->told = false;
     progress->fresh = true;
     begin_step(progress, 0);
@@ -80,7 +83,9 @@ static const char *time_left(double seconds, char text[32]) {
 /* "search: point 12 of 150" */
 static void describe(const struct progress *progress, const char *what, char text[PROGRESS_TEXT + 1]) {
     const char *phase = progress->phase;
-    snprintf(text, PROGRESS_TEXT + 1, "%s%s%s", phase, *phase && *what ? ": " : "", what);
+    char plain[PROGRESS_TEXT + 1];
+    snprintf(plain, sizeof plain, "%s%s%s", phase, *phase && *what ? ": " : "", what);
+    shown_text(text, PROGRESS_TEXT + 1, plain);
 }
 
 static void draw_progress(struct progress *progress, const char *text, double seconds) {
@@ -91,7 +96,8 @@ static void draw_progress(struct progress *progress, const char *text, double se
     const int room = columns && columns < PROGRESS_TEXT + REST ? (int)columns - REST : PROGRESS_TEXT;
     const int full = (int)(progress->done * width + 0.5);
     char left[32];
-    fprintf(stderr, "\r\033[K%-*.*s ", width ? 36 : 0, room > 36 && width ? 36 : room, text);
+    console_code(stderr, "\r\033[K");
+    fprintf(stderr, "%-*.*s ", width ? 36 : 0, room > 36 && width ? 36 : room, text);
     for (int i = 0; i < width; i++) fputs(i < full ? "█" : "░", stderr);
     fprintf(stderr, " %3.0f %%%s", progress->done * 100, time_left(seconds, left));
     fflush(stderr);
@@ -100,8 +106,8 @@ static void draw_progress(struct progress *progress, const char *text, double se
 
 static void print_line(const struct progress *progress, const char *text, double seconds) {
     char left[32];
-    fprintf(stderr, "%s%s: %.1f %%%s\n", progress->drawn ? "\r\033[K" : "", text, progress->done * 100,
-            time_left(seconds, left));
+    if (progress->drawn) console_code(stderr, "\r\033[K");
+    fprintf(stderr, "%s: %.1f %%%s\n", text, progress->done * 100, time_left(seconds, left));
 }
 
 /* Says how long a step takes that takes long, as soon as its first part is timed. */
@@ -111,7 +117,8 @@ static void tell_duration(struct progress *progress, double elapsed, double seco
     if (progress->told || seconds < 0 || !sure) return;
     progress->told = true;
     if (all < PROGRESS_LONG_SECONDS) return;
-    fprintf(stderr, "%s%s%sabout ", progress->drawn ? "\r\033[K" : "", progress->phase, progress->phase[0] ? ": " : "");
+    if (progress->drawn) console_code(stderr, "\r\033[K");
+    fprintf(stderr, "%s%sabout ", progress->phase, progress->phase[0] ? ": " : "");
     if (all < 90) fprintf(stderr, "%.0f s", all);
     else if (all < 5400) fprintf(stderr, "%.0f min", all / 60);
     else fprintf(stderr, "%.1f h", all / 3600);
@@ -149,6 +156,6 @@ bool progress_report(void *user, const char *what, double done) {
 }
 
 void progress_end(struct progress *progress) {
-    if (progress->drawn) fputs("\r\033[K", stderr);
+    if (progress->drawn) console_code(stderr, "\r\033[K");
     progress->drawn = false;
 }

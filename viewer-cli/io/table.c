@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "shown.h"
+
 struct cell {
     char *text;
     enum mark mark;
@@ -51,38 +53,16 @@ void table_cell(struct table *t, const char *format, ...) {
     char *text = NULL;
     if (vasprintf(&text, format, args) < 0) t->failed = true;
     else {
-        text_clean(text);
-        t->cells[t->count++] = (struct cell){.text = text};
+        char *shown = shown_copy(text);
+        free(text);
+        t->failed = !shown;
+        if (shown) t->cells[t->count++] = (struct cell){.text = shown};
     }
     va_end(args);
 }
 
 void table_mark(struct table *t, enum mark mark) {
     if (t && !t->failed && t->count) t->cells[t->count - 1].mark = mark;
-}
-
-/* The bytes of the UTF-8 sequence that begins here; 0 if it is none. */
-static size_t sequence_length(const unsigned char *p) {
-    const size_t length = *p < 0x80                 ? 1
-                          : *p >= 0xC2 && *p < 0xE0 ? 2
-                          : *p >= 0xE0 && *p < 0xF0 ? 3
-                          : *p >= 0xF0 && *p < 0xF5 ? 4
-                                                    : 0;
-    for (size_t i = 1; i < length; i++)
-        if ((p[i] & 0xC0) != 0x80) return 0;
-    const bool overlong = (*p == 0xE0 && p[1] < 0xA0) || (*p == 0xF0 && p[1] < 0x90),
-               none = (*p == 0xED && p[1] >= 0xA0) || (*p == 0xF4 && p[1] >= 0x90);
-    return overlong || none ? 0 : length;
-}
-
-void text_clean(char *text) {
-    size_t length;
-    for (unsigned char *p = (unsigned char *)text; *p; p += length ? length : 1) {
-        length = sequence_length(p);
-        const bool high = p[0] == 0xC2 && length == 2 && p[1] < 0xA0; /* C1 controls in UTF-8 */
-        if (!length || *p < 0x20 || *p == 0x7F || high) *p = '?';
-        if (high) p[1] = '?';
-    }
 }
 
 size_t text_width(const char *text) {
@@ -180,8 +160,10 @@ static bool print_line(FILE *out, const struct table *t, const bool *shown, cons
         const size_t fill = widths[c] > columns ? widths[c] - columns : 0;
         if (is_right(t, c)) gap += fill;
         if (bytes) {
-            fprintf(out, "%*s%s%.*s%s", (int)gap, "", mark_begin(out, marks[c]), (int)bytes, text,
-                    mark_end(out, marks[c]));
+            fprintf(out, "%*s", (int)gap, "");
+            mark_begin(out, marks[c]);
+            fprintf(out, "%.*s", (int)bytes, text);
+            mark_end(out, marks[c]);
             gap = 0;
         }
         gap += (is_right(t, c) ? 0 : fill) + 2;
@@ -328,10 +310,11 @@ const char *number_text(double value) {
 }
 
 void csv_text(FILE *out, const char *text) {
-    fputc('"', out);
-    for (; *text; text++) {
-        if (*text == '"') fputc('"', out);
-        fputc(*text, out);
+    const char *shown = name_text(text);
+    fputs(strchr("=+-@", *shown) && *shown ? "\"'" : "\"", out);
+    for (; *shown; shown++) {
+        if (*shown == '"') fputc('"', out);
+        fputc(*shown, out);
     }
     fputc('"', out);
 }

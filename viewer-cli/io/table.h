@@ -16,7 +16,7 @@ struct table;
    do nothing, and table_print returns false. */
 struct table *table_create(const char *const *titles);
 void table_destroy(struct table **table);
-/* Appends the next cell, row by row. */
+/* Appends the next cell, row by row, its hidden characters escaped (shown.h). */
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))
 #endif
@@ -30,8 +30,6 @@ bool table_is_empty(const struct table *table);
 
 /* The number of columns of a UTF-8 text. */
 size_t text_width(const char *text);
-/* Replaces control characters, which a terminal would interpret. Names in files may come from untrusted sources. */
-void text_clean(char *text);
 
 /* "12.3 ms", "456 µs", "1.20 s". In static storage, valid for a few calls. */
 const char *time_text(double seconds);
@@ -40,7 +38,7 @@ const char *bytes_text(uint64_t bytes);
 /* A number with at most four significant digits. */
 const char *number_text(double value);
 
-/* Writes a text as a quoted cell of CSV. */
+/* Writes a text as a quoted cell of CSV. Hidden characters are escaped, and what a spreadsheet would take as a formula begins with an apostrophe. */
 void csv_text(FILE *out, const char *text);
 
 #endif

@@ -9,6 +9,8 @@
 #include "nearest.h"
 #include "options/args.h"
 #include "options/preset_json.h"
+#include "io/shell.h"
+#include "shown.h"
 
 /* ---- Reading ---- */
 
@@ -164,7 +166,7 @@ static bool make_key(struct state *state, struct live *live, struct glint_error 
     pthread_mutex_lock(&live->lock);
     const uint64_t generation = live->generation;
     pthread_mutex_unlock(&live->lock);
-    char *text = json_dumps(copy, JSON_COMPACT | JSON_SORT_KEYS);
+    char *text = shown_json(json_dumps(copy, JSON_COMPACT | JSON_SORT_KEYS));
     if (text) state->key = XXH3_64bits_withSeed(text, strlen(text), generation) | 1;
     free(text);
     json_decref(copy);
@@ -334,27 +336,9 @@ json_t *state_slots(const struct state *state, struct glint_error *err) {
 
 /* ---- Command lines ---- */
 
-/* As a word of a POSIX shell. */
 static void put_word(FILE *out, const char *text) {
-    const size_t plain = strspn(text, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./=,:+@%-");
     fputc(' ', out);
-    if (*text && !text[plain]) {
-        fputs(text, out);
-        return;
-    }
-    fputc('\'', out);
-    for (; *text; text++)
-        if (*text == '\'') fputs("'\\''", out);
-        else fputc(*text, out);
-    fputc('\'', out);
-}
-
-/* A path that is no option, whatever it begins with. */
-static void put_path(FILE *out, const char *path) {
-    char *plain = NULL;
-    const bool dash = path[0] == '-' && asprintf(&plain, "./%s", path) >= 0;
-    put_word(out, dash ? plain : path);
-    free(plain);
+    shell_word(out, text);
 }
 
 /* The shortest digits that mean the same number. */
@@ -392,7 +376,10 @@ char *state_command(const struct live *live, const struct state *state, const ch
     FILE *out = open_memstream(&text, &size);
     if (!out) return NULL;
     fputs("glint replay", out);
-    for (size_t i = state_first_frame(live, state); i <= state->capture; i++) put_path(out, live->frames[i].path);
+    for (size_t i = state_first_frame(live, state); i <= state->capture; i++) {
+        fputc(' ', out);
+        shell_path(out, live->frames[i].path);
+    }
     fputs(" -o", out);
     put_word(out, folder);
     fputs(" --preset", out);

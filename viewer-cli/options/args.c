@@ -10,6 +10,7 @@
 
 #include "io/console.h"
 #include "nearest.h"
+#include "shown.h"
 
 void list_add(struct list *list, const char *item, struct argp_state *state) {
     const char **items = realloc(list->items, (list->count + 2) * sizeof *items);
@@ -201,11 +202,13 @@ bool fail_memory(struct glint_error *err) {
 }
 
 enum status print_json(json_t *json) {
-    console_plain();
-    int failed = !json || json_dumpf(json, stdout, JSON_INDENT(2) | JSON_REAL_PRECISION(9));
+    char *text = json ? shown_json(json_dumps(json, JSON_INDENT(2) | JSON_REAL_PRECISION(9))) : NULL;
     json_decref(json);
-    if (!failed) putchar('\n');
+    const bool failed = !text;
+    console_plain(true);
+    if (text) puts(text);
     else fprintf(stderr, "glint: cannot make the JSON text: out of memory, or a text that is not UTF-8\n");
+    free(text);
     return failed ? STATUS_CHECK : STATUS_DONE;
 }
 

@@ -7,6 +7,7 @@
 
 #include "glint/capture.h"
 #include "command.h"
+#include "io/console.h"
 #include "options/pass_names.h"
 
 void pipeline_args_finish(struct pipeline_args *args) {
@@ -73,7 +74,12 @@ char *pipeline_args_cache(const char *asked) {
     if (named && named[0]) length = asprintf(&folder, "%s", named);
     else if (base && base[0] == '/') length = asprintf(&folder, "%s/glint", base);
     else if (home && home[0] == '/') length = asprintf(&folder, "%s/.cache/glint", home);
-    return length > 0 ? folder : NULL;
+    if (length <= 0) return NULL;
+    const char *refusal = glint_cache_refusal(folder);
+    if (!refusal) return folder;
+    fprintf(stderr, "glint: no cache is used: %s: %s\n", name_text(folder), refusal);
+    free(folder);
+    return NULL;
 }
 
 /* ---- Fog ---- */

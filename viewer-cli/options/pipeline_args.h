@@ -55,7 +55,7 @@ enum {
     {"passes",  KEY_PASSES,  "SLOT,...",       0, "Run only these passes; images that they read from other passes come from --inputs", 0}, \
     {"inputs",  KEY_INPUTS,  "RUN",            0, "Run folder from which images of passes that are not run are read", 0}, \
     {"history", KEY_HISTORY, "RUN",            0, "Run folder of the previous frame, for passes with temporal history", 0}, \
-    {"outputs", KEY_OUTPUTS, "IMAGE,...",      0, "Write only these images, and run only the passes that they need; --diagnostics adds its own images (default: all)", 0}, \
+    {"outputs", KEY_OUTPUTS, "IMAGE,...",      0, "Write only these images, of a shot also those that the next frame reads as its history, and run only the passes that they need; --diagnostics adds its own images (default: all)", 0}, \
     SKIP_OPTION, \
     {"force",   KEY_FORCE,   "SLOT,...",       0, "Run these passes even if the plan finds that they are not needed", 0}
 /* Where they go: `args` is the struct pipeline_args in the command's arguments of this type. */

@@ -206,9 +206,9 @@ static void print_reference(FILE *out, const struct probe *probe) {
 }
 
 void probe_print(FILE *out, const struct probe *probe) {
-    fprintf(out, "%s, pixel %u,%u of %u x %u, texel %u,%u of %u x %u, preset %s on %s\n", probe->capture,
+    fprintf(out, "%s, pixel %u,%u of %u x %u, texel %u,%u of %u x %u, preset %s on %s\n", name_text(probe->capture),
             probe->pixel[0], probe->pixel[1], probe->full[0], probe->full[1], probe->texel[0], probe->texel[1],
-            probe->half[0], probe->half[1], probe->preset, probe->device);
+            probe->half[0], probe->half[1], name_text(probe->preset), name_text(probe->device));
     const struct glint_probe_record *ray = probe_last(&probe->own, "screen_trace", "screen_ray");
     if (ray) {
         const double x = floor((double)glint_probe_value(ray, "start_x")),

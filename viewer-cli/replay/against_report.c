@@ -117,7 +117,7 @@ void against_print(const struct comparison *c) {
         if (c->jittered) puts("normals are jittered; use --set downsample.jitter=false to compare mirror rays");
     }
     if (!c->has_image) {
-        printf("\nimage not compared: %s\n", c->no_image);
+        printf("\nimage not compared: %s\n", name_text(c->no_image));
         return;
     }
     if (c->truth) print_image(c->effect, &c->to_truth, "truth");

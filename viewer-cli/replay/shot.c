@@ -7,8 +7,10 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "glint/declarations.h"
 #include "io/output.h"
 #include "journal/journal.h"
+#include "shown.h"
 
 static json_t *names_json(const struct list *list) {
     json_t *names = json_array();
@@ -55,8 +57,30 @@ json_t *shot_settings(const struct glint_pipeline *pipeline, const struct pipeli
                      "diagnostics", o->diagnostics, "float", o->float_precision);
 }
 
+/* An image that a pass of the pipeline writes. */
+static void add_output(struct list *outputs, const struct glint_pipeline *pipeline, const char *image) {
+    bool made = false;
+    for (size_t i = 0; i < glint_pipeline_pass_count(pipeline); i++)
+        made |= glint_pass_output(glint_pipeline_pass(pipeline, i), image) != NULL;
+    for (size_t i = 0; i < outputs->count; i++)
+        if (!strcmp(outputs->items[i], image)) made = false;
+    if (made) list_add(outputs, image, NULL);
+}
+
+void shot_keep_history(struct list *outputs, const struct glint_pipeline *pipeline) {
+    for (size_t i = 0; outputs->count && i < glint_pipeline_pass_count(pipeline); i++) {
+        const struct glint_pass *pass = glint_pipeline_pass(pipeline, i);
+        for (size_t r = 0; r < pass->row_count; r++) {
+            if (pass->rows[r].kind != GLINT_ROW_HISTORY) continue;
+            add_output(outputs, pipeline, pass->rows[r].image);
+            const struct glint_row *bypass = glint_pass_row(pass, GLINT_ROW_BYPASS, pass->rows[r].image);
+            if (bypass) add_output(outputs, pipeline, bypass->name); /* has its place where the pass is dropped */
+        }
+    }
+}
+
 static bool write_settings(const char *path, const json_t *settings, struct glint_error *err) {
-    char *text = json_dumps(settings, JSON_INDENT(1) | JSON_SORT_KEYS);
+    char *text = shown_json(json_dumps(settings, JSON_INDENT(1) | JSON_SORT_KEYS));
     bool ok = text ? output_text(path, text, err) : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     free(text);
     return ok;

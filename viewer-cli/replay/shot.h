@@ -8,6 +8,10 @@
 json_t *shot_settings(const struct glint_pipeline *pipeline, const struct pipeline_args *args, const char *device,
                       struct glint_error *err);
 
+/* Adds to the images that are written (none: all are) those that the next frame reads as its history. Without them in the run folder, a shot that
+   was interrupted could not go on where it ended. */
+void shot_keep_history(struct list *outputs, const struct glint_pipeline *pipeline);
+
 /* Makes `folder`, which remembers the settings in shot.json. With other settings than those it was begun with, the
    frames' run.json are removed first, so that no mixture of two settings ever looks complete. */
 bool shot_begin(const char *folder, const json_t *settings, char *const *runs, size_t count, struct glint_error *err);

@@ -175,8 +175,9 @@ static void print_invalid(const struct glint_stability_invalid *invalid) {
 
 void stability_print(const struct stability_report *report) {
     const struct glint_stability *s = report->stability;
-    printf("%s, %s on %s: %u perturbed replays, images in %s\n\n", report->capture, report->preset, report->device,
-           s->seeds, report->half ? "their declared formats" : "float");
+    printf("%s, %s on %s: %u perturbed replays, images in %s\n\n", name_text(report->capture),
+           name_text(report->preset), name_text(report->device), s->seeds,
+           report->half ? "their declared formats" : "float");
     print_inputs(s);
     printf(
         "\nAmplification (relative change divided by that of the inputs) of the judged pixels. above: pixels over "

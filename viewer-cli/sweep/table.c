@@ -82,7 +82,7 @@ void sweep_print(const struct sweep *sweep) {
     if (sweep->rounds)
         printf("; times: median of %u alternating rounds on %s%s", sweep->rounds, device->name,
                device->is_cpu ? " (a CPU device: times do not represent a GPU)" : "");
-    printf("\npage with charts, tables and pictures: %s/index.html\n", sweep->out);
+    printf("\npage with charts, tables and pictures: %s/index.html\n", name_text(sweep->out));
 }
 
 static json_t *time_json(const struct sweep *sweep, const struct sweep_row *row, const char *key) {

@@ -78,7 +78,8 @@ static void print_contenders(const struct tune *tune, size_t s) {
         table_cell(table, "%s", k == TUNE_TUNED ? "" : less ? "faster" : more ? "slower" : "equal");
         table_mark(table, k == TUNE_TUNED ? MARK_NONE : less ? MARK_GOOD : more ? MARK_FAIL : MARK_NONE);
     }
-    printf("\n%s%s:\n\n", base_name(tune->subjects[s].path), tune->subjects[s].held_out ? " (held out)" : "");
+    printf("\n%s%s:\n\n", name_text(base_name(tune->subjects[s].path)),
+           tune->subjects[s].held_out ? " (held out)" : "");
     table_print(table, stdout);
     table_destroy(&table);
 }
@@ -168,8 +169,8 @@ static void print_summary(const struct tune *tune) {
     percent_text(error, tune->start.error, worse);
     const bool better = tune->by_error ? cost < tune->start.cost : error < tune->start.error;
     const enum mark mark = better ? MARK_GOOD : MARK_WARN;
-    printf("%s%s: cost %s, error %s%s after %zu evaluations\n", mark_begin(stdout, mark), tune->out, cheaper, worse,
-           mark_end(stdout, mark), tune->found.count);
+    mark_print(mark, "%s: cost %s, error %s", name_text(tune->out), cheaper, worse);
+    printf(" after %zu evaluations\n", tune->found.count);
     printf("  from %.4g to %.4g %s, %s from %.5f to %.5f\n\n", tune->start.cost, cost, tune_cost_unit(tune),
            glint_metric(tune->metric)->title, tune->start.error, error);
 }
@@ -186,5 +187,5 @@ void tune_print(const struct tune *tune) {
     if (tune->repeat)
         printf("times: median of %u alternating rounds on %s, with 95 %% intervals%s\n", tune->repeat, device->name,
                device->is_cpu ? " (a CPU device: times do not represent a GPU)" : "");
-    printf("evaluations, references and page are in %s\n", tune->folder);
+    printf("evaluations, references and page are in %s\n", name_text(tune->folder));
 }

@@ -4,6 +4,7 @@
 #include <time.h>
 
 #include "diff/diff.h"
+#include "io/console.h"
 #include "command.h"
 #include "io/progress.h"
 #include "draw/view/sheet.h"
@@ -105,7 +106,7 @@ static bool interrupted(void *user) {
 
 static bool watch_all(struct session *s, struct glint_error *err) {
     bool ok = next_version(s, err);
-    if (ok) printf("watching for changes; open %s; stop with Ctrl-C\n", s->page);
+    if (ok) printf("watching for changes; open %s; stop with Ctrl-C\n", name_text(s->page));
     fflush(stdout);
     while (ok && watch_files_wait(&s->files, interrupted, NULL)) ok = next_version(s, err);
     if (!ok && err->code == GLINT_ERROR_INTERRUPTED) ok = true;

@@ -12,10 +12,17 @@ var glintChart = (function () {
                    'path://M3 0L7 0L7 3L10 3L10 7L7 7L7 10L3 10L3 7L0 7L0 3L3 3Z'];
     var FONT = 'system-ui, Segoe UI, DejaVu Sans, sans-serif'; /* without quotes: the renderer escapes no attributes */
 
-    /* Texts hold what XML has no way to say: control characters, halves of surrogate pairs. */
+    function escaped(c) {
+        var code = c.charCodeAt(0), digits = code.toString(16);
+        return code < 0x80 ? '\\x' + ('0' + digits).slice(-2) : '\\u' + ('000' + digits).slice(-4);
+    }
+
+    /* A text as it is shown: hidden characters as escapes, as in capture-format/names/shown.c, except for line breaks and tabs, and nothing that XML has no way to
+       say, such as halves of surrogate pairs. */
     function text(value) {
         return (value === undefined || value === null ? '' : String(value))
-            .replace(/[\u0000-\u0008\u000b\u000c\u000e-\u001f\u007f\ufffe\uffff]/g, '\u00b7')
+            .replace(/[\u0000-\u0008\u000b-\u001f\u007f-\u009f\u00ad\u061c\u180e\u200b\u200e\u200f\u2028-\u202e\u2060-\u206f\ufeff\ufff9-\ufffb\ufffe\uffff]/g, escaped)
+            .replace(/\udb40[\udc00-\udc7f]/g, function (tag) { return '\\U000e00' + ('0' + (tag.charCodeAt(1) - 0xdc00).toString(16)).slice(-2); })
             .replace(/[\ud800-\udbff](?![\udc00-\udfff])/g, '\u00b7')
             .replace(/(^|[^\ud800-\udbff])[\udc00-\udfff]/g, '$1\u00b7');
     }

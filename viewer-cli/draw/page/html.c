@@ -84,14 +84,16 @@ static void write_bytes(FILE *out, const unsigned char *begin, const unsigned ch
     fwrite(begin, 1, (size_t)(end - begin), out);
 }
 
-/* JSON contains '<' only in strings. Without it, no string can close the script element. */
+/* JSON contains '<' and DEL only in strings. Without the one, no string can close the script element; the other is the one control character
+   that jansson leaves. */
 static int put_json(const char *text, size_t size, void *user) {
     FILE *out = user;
     for (const char *end = text + size; text < end;) {
-        const char *angle = memchr(text, '<', (size_t)(end - text)), *stop = angle ? angle : end;
+        const char *stop = text;
+        while (stop < end && *stop != '<' && *stop != 0x7F) stop++;
         fwrite(text, 1, (size_t)(stop - text), out);
-        if (angle) fputs("\\u003c", out);
-        text = angle ? angle + 1 : end;
+        if (stop < end) fputs(*stop == '<' ? "\\u003c" : "\\u007f", out);
+        text = stop < end ? stop + 1 : end;
     }
     return ferror(out) ? -1 : 0;
 }

@@ -14,7 +14,7 @@ const glintParts = (function () {
         const e = document.createElement(name);
         for (const [key, value] of Object.entries(attributes || {}))
             if (typeof value === 'function') e.addEventListener(key, value);
-            else if (value !== undefined && value !== null) e.setAttribute(key, value);
+            else if (value !== undefined && value !== null) e.setAttribute(key, glintChart.text(value));
         for (const c of children)
             if (c !== null && c !== undefined) e.append(c instanceof Node ? c : glintChart.text(c));
         return e;

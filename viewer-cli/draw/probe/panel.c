@@ -27,12 +27,13 @@ bool panel_shows(const struct panel *panel, double x) {
 }
 
 void svg_text(FILE *out, const char *text) {
-    for (; *text; text++) {
+    for (text = name_text(text); *text; text++) {
         if (*text == '&') fputs("&amp;", out);
         else if (*text == '<') fputs("&lt;", out);
         else if (*text == '>') fputs("&gt;", out);
         else if (*text == '"') fputs("&quot;", out);
-        else fputc((unsigned char)*text < 0x20 ? '?' : *text, out);
+        else if (*text == '\'') fputs("&#39;", out);
+        else fputc(*text, out);
     }
 }
 

@@ -136,7 +136,8 @@ static bool print_histogram(const struct channel *c, const struct histogram *h) 
         table_cell(table, "%.2f", 100 * (double)h->counts[i] / (double)(c->count ? c->count : 1));
         table_cell(table, "%s", bar);
     }
-    printf("\n%s: %zu finite values, %zu below and %zu above the range\n", c->name, c->count, h->under, h->over);
+    printf("\n%s: %zu finite values, %zu below and %zu above the range\n", name_text(c->name), c->count, h->under,
+           h->over);
     const bool ok = table_print(table, stdout);
     table_destroy(&table);
     return ok;
@@ -195,7 +196,7 @@ static bool print_all(const struct source *s, const struct channel *channels, co
                                   "height", (int)s->height, "channels", rows)) == STATUS_DONE;
     } else {
         json_decref(rows);
-        printf("%s: %u × %u%s%s\n", s->title, s->width, s->height, *s->unit ? ", " : "", s->unit);
+        printf("%s: %u × %u%s%s\n", name_text(s->title), s->width, s->height, *s->unit ? ", " : "", name_text(s->unit));
         if (options->table) ok = table_print(table, stdout);
         for (uint32_t k = 0; ok && options->histogram && k < s->components; k++)
             ok = print_histogram(&channels[k], &histograms[k]);

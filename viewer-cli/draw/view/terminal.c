@@ -79,10 +79,11 @@ bool terminal_draw(const struct picture *picture, enum terminal_mode mode, struc
     chafa_term_info_supplement(info, rest);
     chafa_canvas_draw_all_pixels(canvas, CHAFA_PIXEL_RGBA8_UNASSOCIATED, picture->rgba, (gint)picture->width,
                                  (gint)picture->height, (gint)picture->width * 4);
-    console_plain();
+    console_plain(true);
     GString *text = chafa_canvas_print(canvas, info);
     const bool ok =
         fwrite(text->str, 1, text->len, stdout) == text->len && fputc('\n', stdout) != EOF && fflush(stdout) == 0;
+    console_plain(false);
     g_string_free(text, TRUE);
     chafa_term_info_unref(rest);
     chafa_term_info_unref(info);
