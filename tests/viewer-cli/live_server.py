@@ -424,7 +424,7 @@ class Tests:
         for code, (status, name) in wanted.items():
             answer = self.server.ask(f"/api/v1/fail?code={code}&text=%3Cb%3E")
             refused(answer, status, name)
-            assert answer.json()["error"] == 'message ? of "<b>"', answer
+            assert answer.json()["error"] == 'message \\xff of "<b>"', answer
         self.check()
 
     # ---- Start and stop ----

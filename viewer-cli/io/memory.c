@@ -85,6 +85,10 @@ char *__wrap_strndup(const char *text, size_t length);
 int __wrap_vasprintf(char **text, const char *format, va_list args);
 int __wrap_asprintf(char **text, const char *format, ...);
 FILE *__wrap_open_memstream(char **text, size_t *length);
+/* What FORTIFY makes of the two. */
+int __real___vasprintf_chk(char **text, int flag, const char *format, va_list args);
+int __wrap___vasprintf_chk(char **text, int flag, const char *format, va_list args);
+int __wrap___asprintf_chk(char **text, int flag, const char *format, ...);
 
 void *__wrap_malloc(size_t bytes) {
     return noted(__real_malloc(bytes ? bytes : 1));
@@ -122,6 +126,20 @@ int __wrap_asprintf(char **text, const char *format, ...) {
     va_list args;
     va_start(args, format);
     const int length = __wrap_vasprintf(text, format, args);
+    va_end(args);
+    return length;
+}
+
+int __wrap___vasprintf_chk(char **text, int flag, const char *format, va_list args) {
+    const int length = __real___vasprintf_chk(text, flag, format, args);
+    if (length < 0) noted(*text = NULL);
+    return length;
+}
+
+int __wrap___asprintf_chk(char **text, int flag, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    const int length = __wrap___vasprintf_chk(text, flag, format, args);
     va_end(args);
     return length;
 }
