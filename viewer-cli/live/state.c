@@ -9,6 +9,7 @@
 #include "nearest.h"
 #include "options/args.h"
 #include "options/preset_json.h"
+#include "record.h"
 
 /* ---- Reading ---- */
 
@@ -164,7 +165,7 @@ static bool make_key(struct state *state, struct live *live, struct glint_error 
     pthread_mutex_lock(&live->lock);
     const uint64_t generation = live->generation;
     pthread_mutex_unlock(&live->lock);
-    char *text = json_dumps(copy, JSON_COMPACT | JSON_SORT_KEYS);
+    char *text = record_text(copy, JSON_COMPACT | JSON_SORT_KEYS);
     if (text) state->key = XXH3_64bits_withSeed(text, strlen(text), generation) | 1;
     free(text);
     json_decref(copy);

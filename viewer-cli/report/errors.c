@@ -5,6 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "record.h"
 #include "replay/against.h"
 #include "report/report.h"
 #include "io/output.h"
@@ -21,7 +22,7 @@ bool report_keep_errors(const char *folder, const struct comparison *compared, s
         return unlink(path) == 0 || errno == ENOENT || glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
     json_t *json = json_object();
     for (size_t c = 0; c < count; c++) against_json(&compared[c], json);
-    char *text = json_dumps(json, JSON_INDENT(1));
+    char *text = record_text(json, JSON_INDENT(1));
     bool ok = text ? output_text(path, text, err) : glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
     free(text);
     json_decref(json);
