@@ -34,7 +34,7 @@ static void *noted(void *memory) {
 /* ---- Jansson: 2.14 writes past the end of a string that it reads when its buffer cannot grow, and passes over what it cannot store. It
    has to get its memory: without any from a reserve, whose parts stay taken, and then the command fails at its end. ---- */
 
-enum { RESERVE_BYTES = 1 << 20 };
+enum { RESERVE_BYTES = 16 << 20 }; /* the registry of glint live takes some; what is not taken costs no memory */
 static char *reserve;
 static atomic_size_t reserve_taken;
 
