@@ -98,7 +98,7 @@ static int remove_entry(const char *path, const struct stat *info, int kind, str
 }
 
 void live_remove_folder(const char *folder) {
-    nftw(folder, remove_entry, 16, FTW_DEPTH | FTW_PHYS);
+    if (rmdir(folder) != 0) nftw(folder, remove_entry, 16, FTW_DEPTH | FTW_PHYS); /* nftw needs memory */
 }
 
 static bool is_ending(void *user) {
