@@ -102,7 +102,7 @@ class Command:
         own = any(library in path for path, _ in outcome.stack()[:2])
         return own and line.startswith("left") and self.functions([line.split()[1:]], 1)[0].startswith(function)
 
-    def judge(self, outcome, kind, words):
+    def judge(self, outcome, kind, words, once="once"):
         """What is bad about it, or None."""
         whole = self.whole
         if outcome.status is None:
@@ -115,7 +115,7 @@ class Command:
             return "exit 0, other files"
         if not self.may_leave(outcome.files):
             return "leaves files"
-        wrong = self.name == "live" and serving.judge(outcome, whole, words, self.same_text)
+        wrong = self.name == "live" and serving.judge(outcome, whole, words, self.same_text, once == "once")
         if wrong:
             return wrong
         said = outcome.err + outcome.out.decode(errors="replace") * self.name.startswith("validate")
@@ -221,7 +221,7 @@ def try_kind(options, table, command, label, seed):
         outcome = command.process.run(kind, number, error, once)
         if not outcome.stack():  # threads: fewer calls this time
             continue
-        bad = command.judge(outcome, kind, words)
+        bad = command.judge(outcome, kind, words, once)
         table.add(command.name, label, number, bad, lambda: command.explained(outcome, kind))
         if bad and options.where:
             print(f"# {command.name}: {label} {number} of {len(stacks)}: {bad}, exit {outcome.status}: {outcome.err[-200:].strip()!r}; "
