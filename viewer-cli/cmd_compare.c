@@ -10,7 +10,7 @@
 #include "io/output.h"
 #include "options/effect_args.h"
 #include "options/pipeline_args.h"
-#include "shown.h"
+#include "record.h"
 
 struct arguments {
     struct list captures, presets, settings;
@@ -77,7 +77,7 @@ static bool write_table(const char *folder, const struct contest_table *table, s
         snprintf(csv_path, sizeof csv_path, "%s/table.csv", folder) >= (int)sizeof csv_path)
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
     json_t *json = contest_json(table);
-    char *text = json ? shown_json(json_dumps(json, JSON_INDENT(1))) : NULL, *csv = contest_csv(table);
+    char *text = json ? record_text(json, JSON_INDENT(1)) : NULL, *csv = contest_csv(table);
     bool ok = text && csv ? output_text(json_path, text, err) && output_text(csv_path, csv, err)
                           : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     free(csv);

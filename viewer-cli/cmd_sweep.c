@@ -6,9 +6,9 @@
 
 #include "command.h"
 #include "options/pipeline_args.h"
+#include "record.h"
 #include "sweep/sweep.h"
 #include "io/output.h"
-#include "shown.h"
 
 struct arguments {
     struct sweep sweep;
@@ -142,7 +142,7 @@ static bool begin_sweep(struct arguments *a, struct glint_error *err) {
 static bool write_tables(const struct sweep *sweep, struct glint_error *err) {
     char path[4096];
     json_t *json = sweep_json(sweep);
-    char *text = json ? shown_json(json_dumps(json, JSON_INDENT(1))) : NULL, *csv = sweep_csv(sweep);
+    char *text = json ? record_text(json, JSON_INDENT(1)) : NULL, *csv = sweep_csv(sweep);
     bool ok = (text && csv) || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     ok = ok && sweep_path(sweep, "points.json", path, err) && output_text(path, text, err) &&
          sweep_path(sweep, "points.csv", path, err) && output_text(path, csv, err);

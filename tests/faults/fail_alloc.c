@@ -1,5 +1,5 @@
-/* Allocations and threads that fail, and which allocations are glint's. What libc makes inside (strdup, asprintf, open_memstream, fopen) comes here as well, as it calls
-   malloc by its public name. */
+/* Allocations and threads that fail, and which allocations are glint's. What libc makes inside (strdup, asprintf, open_memstream, fopen) comes
+   here as well, as it calls malloc by its public name. */
 #include "fail.h"
 
 #include <dlfcn.h>

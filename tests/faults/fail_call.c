@@ -3,6 +3,7 @@
    */
 #include "fail.h"
 
+#include <dlfcn.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <linux/audit.h>
@@ -77,6 +78,18 @@ static void write_log(const struct call *call, const long a[6]) {
     if (file < 0) return;
     make(SYS_write, file, (long)line, length, 0);
     make(SYS_close, file, 0, 0, 0);
+}
+
+/* A signal that is blocked cannot be caught, and the process would end: threads of a server block all of them. */
+int pthread_sigmask(int how, const sigset_t *set, sigset_t *before) {
+    static int (*next)(int, const sigset_t *, sigset_t *);
+    if (!next) *(void **)&next = dlsym(RTLD_NEXT, "pthread_sigmask");
+    sigset_t most;
+    if (set) {
+        most = *set;
+        if (how != SIG_UNBLOCK) sigdelset(&most, SIGSYS);
+    }
+    return next(how, set ? &most : NULL, before);
 }
 
 static void handle(int signal, siginfo_t *info, void *user) {

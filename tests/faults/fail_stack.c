@@ -1,6 +1,6 @@
-/* Who calls, with GLINT_FAIL_EXCEPT (the beginning of functions' names) passed over whatever these call. From a call up the stack, objects that work for whoever calls them (libc, libstdc++, Jansson, OpenEXRCore, libpng, …) are
-   passed over, and the first other one decides. It has to be the program itself or a library libglint-…. The objects are those of
-   dl_iterate_phdr, and the stack is that of the unwinder. */
+/* Who calls, with GLINT_FAIL_EXCEPT (the beginning of functions' names) passed over whatever these call. From a call up the stack, objects that
+   work for whoever calls them (libc, libstdc++, Jansson, OpenEXRCore, libpng, …) are passed over, and the first other one decides. It has to be
+   the program itself or a library libglint-…. The objects are those of dl_iterate_phdr, and the stack is that of the unwinder. */
 #include "fail.h"
 
 #include <dlfcn.h>

@@ -11,8 +11,9 @@ One fault has failed well if the command
 - ends with another status than 0, and not by a signal; says on stderr that it is out of memory, or the system's error with the name of a
   file; and leaves all files as they were (none under a final name that was not there before, none changed, no temporary file) or all of
   them whole, as without the fault, if it failed afterwards; or
-- ends as without the fault (glint live: answers each request as without the fault, or refuses it and says why, and answers all that follow), with the same bytes on stdout and the same files, byte for byte. Where two runs without a fault differ, as in times,
-  numbers with their units and the spaces between columns are not compared;
+- ends as without the fault, with the same bytes on stdout and the same files, byte for byte (glint live: answers each request as without the fault, or
+  refuses it and says why, and answers all that follow). Where two runs without a fault differ, as in times, numbers with their units and the spaces
+  between columns are not compared;
 
 and, if main returned, no more of glint's own memory is left allocated, and no more files are open, than without the fault.
 
@@ -86,8 +87,8 @@ class Command:
         if files == before or self.same_files(files):
             return True
         new = [path for path in files if before.get(path, b"") != files[path] or path not in before]
-        whole = self.whole.files
-        return self.name in KEEPS and before.keys() <= files.keys() and all(path in whole and (self.name in GROWS or self.same(path, files[path], whole[path])) for path in new)
+        whole, grows = self.whole.files, self.name in GROWS
+        return self.name in KEEPS and before.keys() <= files.keys() and all(path in whole and (grows or self.same(path, files[path], whole[path])) for path in new)
 
     def leaked(self, outcome, kind):
         """What is left at the end and was not left without the fault."""
@@ -101,7 +102,7 @@ class Command:
         own = any(library in path for path, _ in outcome.stack()[:2])
         return own and line.startswith("left") and self.functions([line.split()[1:]], 1)[0].startswith(function)
 
-    def judge(self, outcome, kind, words):
+    def judge(self, outcome, kind, words, once="once"):
         """What is bad about it, or None."""
         whole = self.whole
         if outcome.status is None:
@@ -114,7 +115,7 @@ class Command:
             return "exit 0, other files"
         if not self.may_leave(outcome.files):
             return "leaves files"
-        wrong = self.name == "live" and serving.judge(outcome, whole, words, self.same_text)
+        wrong = self.name == "live" and serving.judge(outcome, whole, words, self.same_text, once == "once")
         if wrong:
             return wrong
         said = outcome.err + outcome.out.decode(errors="replace") * self.name.startswith("validate")
@@ -203,7 +204,9 @@ def arguments():
 
 
 def how(options):
-    which = "each call" if options.everything else f"{('first', 'first and last', 'first, middle and last')[options.stacks - 1]} call of each stack" if options.stacks else "sample"
+    which = "each call" if options.everything else "sample"
+    if options.stacks:
+        which = ("first", "first and last", "first, middle and last")[options.stacks - 1] + " call of each stack"
     return which + (f", one in {options.every}" if options.every > 1 else "")
 
 
@@ -218,7 +221,7 @@ def try_kind(options, table, command, label, seed):
         outcome = command.process.run(kind, number, error, once)
         if not outcome.stack():  # threads: fewer calls this time
             continue
-        bad = command.judge(outcome, kind, words)
+        bad = command.judge(outcome, kind, words, once)
         table.add(command.name, label, number, bad, lambda: command.explained(outcome, kind))
         if bad and options.where:
             print(f"# {command.name}: {label} {number} of {len(stacks)}: {bad}, exit {outcome.status}: {outcome.err[-200:].strip()!r}; "

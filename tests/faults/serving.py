@@ -1,4 +1,4 @@
-"""glint live with a fault: its requests are made twice, and the second time each has to be answered as without the fault, as the server goes on."""
+"""glint live with a fault: its requests are made twice, as the server goes on after a fault."""
 import contextlib
 import http.client
 import json
@@ -69,13 +69,17 @@ def refusal(answer, words):
     return status == 0 or (status is not None and status >= 400 and re.search(words, data.decode(errors="replace")) is not None)
 
 
-def judge(outcome, whole, words, same):
-    """What is bad about the answers, or None. Answers of either round without a fault are right: the first run of a state is made, the second is there."""
-    if any(answer[0] is None for answers in outcome.rounds for answer in answers):
-        return "hangs"
+def judge(outcome, whole, words, same, once):
+    """What is bad about the answers, or None. Answers of any round without a fault are right: the first run of a state is made, later it is there. One
+    fault may have requests of one round refused, that in which it happens."""
+    refused = set()
     for i, answers in enumerate(outcome.rounds):
         for k, answer in enumerate(answers):
-            right = any(answer[0] == other[k][0] and same(answer[1], other[k][1]) for other in whole.rounds)
-            if not right and (i == 1 or not refusal(answer, words)):
+            if answer[0] is None:
+                return "hangs"
+            if any(answer[0] == other[k][0] and same(answer[1], other[k][1]) for other in whole.rounds):
+                continue
+            refused.add(i)
+            if not refusal(answer, words) or (once and len(refused) > 1):
                 return f"request {k} of round {i + 1}: status {answer[0]}, {answer[1][:80]!r}"
     return None

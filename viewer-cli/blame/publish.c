@@ -4,7 +4,7 @@
 
 #include "blame/blame.h"
 #include "io/output.h"
-#include "shown.h"
+#include "record.h"
 
 /* The interval, at least; longer where writing takes more than a twentieth of it. */
 static const double EVERY_SECONDS = 5, EVERY_WRITES = 20;
@@ -12,7 +12,7 @@ static const double EVERY_SECONDS = 5, EVERY_WRITES = 20;
 static bool write_json(const struct blame *blame, struct glint_error *err) {
     char path[4096];
     json_t *json = blame_json(blame);
-    char *text = json ? shown_json(json_dumps(json, JSON_INDENT(1))) : NULL;
+    char *text = json ? record_text(json, JSON_INDENT(1)) : NULL;
     const bool ok = (text || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory")) &&
                     journal_path(blame->out, "shares.json", path, err) && output_text(path, text, err);
     free(text);

@@ -8,7 +8,7 @@
 #include "draw/page/page.h"
 #include "draw/view/statistics.h"
 #include "glint/study.h"
-#include "shown.h"
+#include "record.h"
 
 static const char *const verdicts[] = {"equal within the limits", "warning", "different", "different sizes"};
 
@@ -70,7 +70,7 @@ static void add_facts(json_t *document, const struct diff *diff, char labels[2][
 static json_t *cell_of(const json_t *value) {
     if (!value || json_is_null(value)) return json_null();
     if (!json_is_object(value) && !json_is_array(value)) return json_deep_copy(value);
-    char *text = shown_json(json_dumps(value, JSON_COMPACT));
+    char *text = record_text(value, JSON_COMPACT);
     json_t *cell = json_string(text ? text : "");
     free(text);
     return cell;

@@ -7,7 +7,7 @@
 #include "diff/diff.h"
 #include "options/metric_args.h"
 #include "io/table.h"
-#include "shown.h"
+#include "record.h"
 
 enum { PLACES = 16 };
 
@@ -117,8 +117,7 @@ static void print_settings(const json_t *settings) {
         static const char *const sides[] = {"a", "b"};
         table_cell(t, "%s", json_string_value(json_object_get(row, "what")));
         for (int k = 0; k < 2; k++) {
-            char *text =
-                shown_json(json_dumps(json_object_get(row, sides[k]), JSON_ENCODE_ANY | JSON_REAL_PRECISION(6)));
+            char *text = record_text(json_object_get(row, sides[k]), JSON_ENCODE_ANY | JSON_REAL_PRECISION(6));
             table_cell(t, "%s", !text || !strcmp(text, "null") ? "–" : text);
             free(text);
         }

@@ -34,13 +34,9 @@ static void *noted(void *memory) {
 /* ---- Jansson: 2.14 writes past the end of a string that it reads when its buffer cannot grow, and passes over what it cannot store. It
    has to get its memory: without any from a reserve, whose parts stay taken, and then the command fails at its end. ---- */
 
-enum { RESERVE_BYTES = 1 << 20 };
+enum { RESERVE_BYTES = 16 << 20 }; /* the registry of glint live takes some; what is not taken costs no memory */
 static char *reserve;
 static atomic_size_t reserve_taken;
-
-static bool in_reserve(const void *memory) {
-    return reserve && (const char *)memory >= reserve && (const char *)memory < reserve + RESERVE_BYTES;
-}
 
 static void *take_for_json(size_t bytes) {
     void *memory = malloc(bytes);
@@ -55,9 +51,15 @@ static void *take_for_json(size_t bytes) {
     _exit(written < 0 ? STATUS_USAGE : STATUS_CHECK); /* rather than wrong texts, or worse */
 }
 
+/* Texts of JSON come from record_text, so that what is freed elsewhere is never Jansson's. */
+static void give_back(void *memory) {
+    const char *at = memory;
+    if (!reserve || at < reserve || at >= reserve + RESERVE_BYTES) free(memory);
+}
+
 void memory_begin(void) {
     reserve = malloc(RESERVE_BYTES);
-    json_set_alloc_funcs(take_for_json, free);
+    json_set_alloc_funcs(take_for_json, give_back);
 }
 
 void memory_end(void) {
@@ -71,7 +73,6 @@ void memory_end(void) {
 void *__real_malloc(size_t bytes);
 void *__real_calloc(size_t count, size_t bytes);
 void *__real_realloc(void *memory, size_t bytes);
-void __real_free(void *memory);
 char *__real_strdup(const char *text);
 char *__real_strndup(const char *text, size_t length);
 int __real_vasprintf(char **text, const char *format, va_list args);
@@ -79,7 +80,6 @@ int __real_vasprintf(char **text, const char *format, va_list args);
 void *__wrap_malloc(size_t bytes);
 void *__wrap_calloc(size_t count, size_t bytes);
 void *__wrap_realloc(void *memory, size_t bytes);
-void __wrap_free(void *memory);
 char *__wrap_strdup(const char *text);
 char *__wrap_strndup(const char *text, size_t length);
 int __wrap_vasprintf(char **text, const char *format, va_list args);
@@ -100,11 +100,6 @@ void *__wrap_calloc(size_t count, size_t bytes) {
 
 void *__wrap_realloc(void *memory, size_t bytes) {
     return noted(__real_realloc(memory, bytes ? bytes : 1));
-}
-
-/* Also what json_dumps returned, which may be of the reserve. */
-void __wrap_free(void *memory) {
-    if (!in_reserve(memory)) __real_free(memory);
 }
 
 char *__wrap_strdup(const char *text) {

@@ -18,7 +18,7 @@ static int remove_entry(const char *path, const struct stat *info, int kind, str
 }
 
 void temporary_remove_folder(const char *folder) {
-    nftw(folder, remove_entry, 16, FTW_DEPTH | FTW_PHYS);
+    if (rmdir(folder) != 0) nftw(folder, remove_entry, 16, FTW_DEPTH | FTW_PHYS); /* nftw needs memory */
 }
 
 /* Our own folder of this name with the lock, or -1: gone, somebody else's, or in use. */

@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 #include "io/output.h"
-#include "shown.h"
+#include "record.h"
 
 bool journal_path(const char *folder, const char *name, char path[4096], struct glint_error *err) {
     return snprintf(path, 4096, "%s/%s", folder, name) < 4096 ||
@@ -25,8 +25,8 @@ static bool same_definition(const struct journal *journal, const json_t *theirs,
     json_object_foreach((json_t *)ours, key, value) {
         const json_t *other = json_object_get(theirs, key);
         if (json_equal(other, value)) continue;
-        char *found = other ? shown_json(json_dumps(other, JSON_ENCODE_ANY | JSON_COMPACT)) : NULL;
-        char *expected = shown_json(json_dumps(value, JSON_ENCODE_ANY | JSON_COMPACT));
+        char *found = other ? record_text(other, JSON_ENCODE_ANY | JSON_COMPACT) : NULL;
+        char *expected = record_text(value, JSON_ENCODE_ANY | JSON_COMPACT);
         glint_fail(err, GLINT_ERROR_USAGE,
                    "%s: contains a %s with other %s: %.300s instead of %.300s; use the same arguments, or choose "
                    "another folder",
@@ -63,7 +63,7 @@ static bool read_log(struct journal *journal, const char *path, struct glint_err
 }
 
 static bool write_definition(const json_t *definition, const char *path, struct glint_error *err) {
-    char *text = shown_json(json_dumps(definition, JSON_INDENT(1)));
+    char *text = record_text(definition, JSON_INDENT(1));
     const bool ok = text ? output_text(path, text, err) : fail_memory(err);
     free(text);
     return ok;
@@ -106,7 +106,7 @@ bool journal_open(struct journal *journal, const json_t *definition, struct glin
 }
 
 bool journal_append(struct journal *journal, json_t *line, struct glint_error *err) {
-    char *text = line ? shown_json(json_dumps(line, JSON_COMPACT)) : NULL;
+    char *text = line ? record_text(line, JSON_COMPACT) : NULL;
     const size_t length = text ? strlen(text) : 0;
     bool ok = text || fail_memory(err);
     if (ok) text[length] = '\n'; /* one write of a whole line */

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "live/http_internal.h"
-#include "shown.h"
+#include "record.h"
 
 /* Sent when there is no memory for more. */
 static const char no_memory[] = "{\"error\": \"out of memory\", \"code\": \"memory\"}";
@@ -124,7 +124,7 @@ static struct MHD_Response *make(struct http_answer *answer) {
     if (answer->next) return make_stream(answer);
     if (!answer->type) {
         free(answer->data);
-        answer->data = answer->json ? shown_json(json_dumps(answer->json, JSON_COMPACT)) : NULL;
+        answer->data = answer->json ? record_text(answer->json, JSON_COMPACT) : NULL;
         if (!answer->data) return NULL;
         answer->size = strlen(answer->data);
     }

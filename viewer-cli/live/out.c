@@ -9,8 +9,8 @@
 #include "live/answers.h"
 #include "options/args.h"
 #include "options/preset_json.h"
+#include "record.h"
 #include "report/report.h"
-#include "shown.h"
 
 /* A plain name for a file or folder: letters, digits and .-_ between them. */
 static bool check_name(const char *name, struct glint_error *err) {
@@ -32,7 +32,7 @@ void live_answer_preset(void *user, const struct http_request *request, struct h
     char title[200];
     snprintf(title, sizeof title, "%.100s, changed in glint live", glint_pipeline_name(state.pipeline));
     json_t *json = check_name(name, &err) ? preset_json(state.pipeline, name, title) : NULL;
-    char *text = json ? shown_json(json_dumps(json, JSON_INDENT(4) | JSON_REAL_PRECISION(DIGITS))) : NULL;
+    char *text = json ? record_text(json, JSON_INDENT(4) | JSON_REAL_PRECISION(DIGITS)) : NULL;
     if (json && !text) fail_memory(&err);
     answer_with(answer, text != NULL, text ? json_pack("{s:s, s:s}", "name", name, "preset", text) : NULL, &err);
     free(text);

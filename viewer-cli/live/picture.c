@@ -10,7 +10,7 @@
 #include "live/answers.h"
 #include "live/rows.h"
 #include "options/args.h"
-#include "shown.h"
+#include "record.h"
 
 /* ---- What a query asks for ---- */
 
@@ -148,7 +148,7 @@ static json_t *head_json(const struct picture *picture, const struct legend *leg
 static void answer_raw(struct http_answer *answer, const struct picture *picture, const struct legend *legend,
                        size_t invalid) {
     json_t *head = head_json(picture, legend, invalid);
-    char *text = head ? shown_json(json_dumps(head, JSON_COMPACT)) : NULL;
+    char *text = head ? record_text(head, JSON_COMPACT) : NULL;
     const size_t length = text ? strlen(text) : 0, padded = (length + 3) / 4 * 4;
     const size_t pixels = (size_t)picture->width * picture->height * 4;
     uint8_t *data = text ? malloc(4 + padded + pixels) : NULL;

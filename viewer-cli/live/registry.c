@@ -7,15 +7,16 @@
 #include "options/args.h"
 #include "options/pass_json.h"
 
-static json_t *captures_json(const struct live *live) {
+static json_t *captures_json(const struct live *live, struct glint_error *err) {
     json_t *list = json_array();
     for (size_t i = 0; i < live->count; i++) {
         const struct live_frame *frame = &live->frames[i];
         json_t *truths = json_array();
         size_t count;
         const struct glint_effect *effects = glint_effects(&count);
-        struct glint_capture *capture = glint_capture_open(frame->path, NULL, NULL);
-        for (size_t e = 0; capture && e < count; e++) {
+        struct glint_capture *capture = glint_capture_open(frame->path, NULL, err);
+        if (!capture) return json_decref(truths), json_decref(list), NULL;
+        for (size_t e = 0; e < count; e++) {
             bool has = false;
             for (size_t p = 0; !effects[e].no_truth && p < glint_capture_part_count(capture); p++)
                 has |= !strncmp(glint_capture_part(capture, p)->name, effects[e].truth, strlen(effects[e].truth));
@@ -89,14 +90,14 @@ json_t *live_registry(const struct live *live, struct glint_error *err) {
         json_pack("{s:i, s:s, s:{s:s, s:s, s:s, s:b}, s:o, s:o, s:o, s:o, s:o, s:o, s:s, s:o, s:s?, s:s?, s:o, s:s?, "
                   "s:o*, s:b, s:i}",
                   "version", 1, "tool", GLINT_VERSION, "device", "name", device->name, "type", device->type, "driver",
-                  device->driver_version, "cpu", device->is_cpu, "captures", captures_json(live), "presets",
+                  device->driver_version, "cpu", device->is_cpu, "captures", captures_json(live, err), "presets",
                   presets_json(live), "effects", effect_list, "passes", pass_list, "pipeline", pipeline_parameters(),
                   "metrics", metrics_json_list(), "metric", glint_metric(GLINT_METRIC_RMSE)->name, "kinds", kinds,
                   "display", views.display, "view", views.view, "displays", views.displays, "reference",
                   live->reference, "start", start, "out", live->out != NULL, "rounds", 5);
     if (registry && start) return registry;
     json_decref(registry);
-    if (start || !err->message[0]) fail_memory(err);
+    if (!err->message[0]) fail_memory(err);
     return NULL;
 }
 

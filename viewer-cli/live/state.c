@@ -10,7 +10,7 @@
 #include "options/args.h"
 #include "options/preset_json.h"
 #include "io/shell.h"
-#include "shown.h"
+#include "record.h"
 
 /* ---- Reading ---- */
 
@@ -166,7 +166,7 @@ static bool make_key(struct state *state, struct live *live, struct glint_error 
     pthread_mutex_lock(&live->lock);
     const uint64_t generation = live->generation;
     pthread_mutex_unlock(&live->lock);
-    char *text = shown_json(json_dumps(copy, JSON_COMPACT | JSON_SORT_KEYS));
+    char *text = record_text(copy, JSON_COMPACT | JSON_SORT_KEYS);
     if (text) state->key = XXH3_64bits_withSeed(text, strlen(text), generation) | 1;
     free(text);
     json_decref(copy);

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "glint/exr.h"
+#include "record.h"
 #include "replay/against.h"
-#include "shown.h"
 
 enum { KINDS = 4, IMAGES = KINDS * EFFECTS_MAX, ATTRIBUTES = 3 };
 #define ERRORS_FILE "errors.exr"
@@ -99,7 +99,7 @@ bool against_write_images(const struct comparison *comparisons, size_t count, co
     glint_run_close(&run);
     if (!root) return false;
     json_object_set_new(root, "compared", compared_json(&comparisons[0], images, any->width, any->height));
-    char *text = shown_json(json_dumps(root, JSON_REAL_PRECISION(9)));
+    char *text = record_text(root, JSON_REAL_PRECISION(9));
     const bool ok = text ? glint_run_write_json(folder, text, err)
                          : glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", folder);
     free(text);

@@ -10,7 +10,7 @@
 #include "glint/declarations.h"
 #include "io/output.h"
 #include "journal/journal.h"
-#include "shown.h"
+#include "record.h"
 
 static json_t *names_json(const struct list *list) {
     json_t *names = json_array();
@@ -80,7 +80,7 @@ void shot_keep_history(struct list *outputs, const struct glint_pipeline *pipeli
 }
 
 static bool write_settings(const char *path, const json_t *settings, struct glint_error *err) {
-    char *text = shown_json(json_dumps(settings, JSON_INDENT(1) | JSON_SORT_KEYS));
+    char *text = record_text(settings, JSON_INDENT(1) | JSON_SORT_KEYS);
     bool ok = text ? output_text(path, text, err) : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     free(text);
     return ok;
@@ -92,7 +92,7 @@ bool shot_begin(const char *folder, const json_t *settings, char *const *runs, s
     if (snprintf(path, sizeof path, "%s/shot.json", folder) >= (int)sizeof path)
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
     /* What is compared went through a file once, as the other did. */
-    char *text = json_dumps(settings, 0);
+    char *text = record_text(settings, 0);
     json_t *before = read_settings(path, err), *now = text ? json_loads(text, 0, NULL) : NULL;
     bool same = now && json_equal(before, now), ok = !err->code && (now || fail_memory(err));
     json_decref(before);

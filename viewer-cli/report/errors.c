@@ -6,10 +6,10 @@
 #include <unistd.h>
 
 #include "journal/journal.h"
+#include "record.h"
 #include "replay/against.h"
 #include "report/report.h"
 #include "io/output.h"
-#include "shown.h"
 
 static bool errors_path(char path[4096], const char *folder, struct glint_error *err) {
     return snprintf(path, 4096, "%s/errors.json", folder) < 4096 ||
@@ -23,7 +23,7 @@ bool report_keep_errors(const char *folder, const struct comparison *compared, s
         return unlink(path) == 0 || errno == ENOENT || glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
     json_t *json = json_object();
     for (size_t c = 0; c < count; c++) against_json(&compared[c], json);
-    char *text = shown_json(json_dumps(json, JSON_INDENT(1)));
+    char *text = record_text(json, JSON_INDENT(1));
     bool ok = text ? output_text(path, text, err) : glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
     free(text);
     json_decref(json);

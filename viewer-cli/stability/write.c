@@ -9,7 +9,7 @@
 #include "draw/view/png_file.h"
 #include "draw/view/render.h"
 #include "io/output.h"
-#include "shown.h"
+#include "record.h"
 
 enum { LAYERS = 3 };
 
@@ -114,7 +114,7 @@ static bool write_all(const char *folder, const struct glint_stability *s, json_
 
 static bool write_text(const char *folder, const char *name, json_t *json, struct glint_error *err) {
     char path[4096];
-    char *text = json ? shown_json(json_dumps(json, JSON_INDENT(1))) : NULL;
+    char *text = json ? record_text(json, JSON_INDENT(1)) : NULL;
     const bool ok = (text || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory")) &&
                     journal_path(folder, name, path, err) && output_text(path, text, err);
     free(text);

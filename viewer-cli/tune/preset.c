@@ -5,8 +5,8 @@
 
 #include "options/preset_json.h"
 #include "io/output.h"
+#include "record.h"
 #include "tune/tune.h"
-#include "shown.h"
 
 static json_t *limit_json(const struct tune *tune) {
     return json_pack("{s:s, s:f, s:f, s:s, s:o, s:o}", "of", tune->by_error ? "error" : "cost", "value", tune->asked,
@@ -136,7 +136,7 @@ bool tune_write_preset(struct tune *tune, struct glint_error *err) {
     if (!pipeline) return false;
     json_t *json = preset_json(pipeline, name, title);
     json_object_set(json, "provenance", tune->provenance);
-    char *text = shown_json(json_dumps(json, JSON_INDENT(4)));
+    char *text = record_text(json, JSON_INDENT(4));
     const bool ok = text ? output_text(tune->out, text, err) : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     free(text);
     json_decref(json);

@@ -9,7 +9,7 @@
 #include "draw/page/page.h"
 #include "io/output.h"
 #include "journal/journal.h"
-#include "shown.h"
+#include "record.h"
 
 /* File names may not be UTF-8, but JSON must be. */
 static json_t *text_json(const char *text) {
@@ -81,7 +81,7 @@ static bool page_json(char path[4096], const char *folder, struct glint_error *e
 }
 
 bool page_store(const char *folder, const json_t *document, struct glint_error *err) {
-    char path[4096], *text = shown_json(json_dumps(document, JSON_INDENT(1)));
+    char path[4096], *text = record_text(document, JSON_INDENT(1));
     bool ok = text ? page_json(path, folder, err) && output_text(path, text, err)
                    : glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", folder);
     free(text);

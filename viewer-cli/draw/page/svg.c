@@ -7,6 +7,7 @@
 
 #include "draw/blobs.h"
 #include "io/output.h"
+#include "record.h"
 
 struct drawing {
     char *chart; /* JSON */
@@ -84,7 +85,7 @@ static bool draw(struct page_charts *charts, struct drawing *drawing, const char
 
 bool page_chart_write(struct page_charts *charts, const char *path, const json_t *chart, struct glint_error *err) {
     /* ASCII, because Duktape expects characters beyond 16 bits as surrogate pairs */
-    struct drawing drawing = {.chart = json_dumps(chart, JSON_ENSURE_ASCII | JSON_COMPACT | JSON_ENCODE_ANY)};
+    struct drawing drawing = {.chart = record_text(chart, JSON_ENSURE_ASCII | JSON_COMPACT | JSON_ENCODE_ANY)};
     bool ok = drawing.chart ? draw(charts, &drawing, path, err) && output_text(path, drawing.svg, err)
                             : glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
     free(drawing.chart);
