@@ -51,7 +51,7 @@ class Again:
 
     def results(self, run, study, out):
         """What a study found: what it printed, and the reference's pixels."""
-        found = [lasting(json.loads(run.stdout))]
+        found = [lasting(json.loads(run.stdout.replace(os.path.join(self.folder, out), "OUT")))]
         if study == "reference":
             folder = os.path.join(self.folder, out)
             for name in sorted(n for n in os.listdir(folder) if n.endswith(".exr")):
@@ -93,7 +93,7 @@ def one(study):
     return lambda self: self.lose(study)
 
 
-for name in STUDIES if len(sys.argv) > 3 else ["sweep", "reference"]:
+for name in STUDIES if len(sys.argv) > 3 else ["sweep"]:
     setattr(Again, "test_" + name, one(name))
 tests = Again()
 try:

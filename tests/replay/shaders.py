@@ -69,8 +69,6 @@ REFUSED = {
     "doubles": (START + body("sum = float(double(sum) * 2.0LF);"), "the capability 10 of SPIR-V"),
     "kind": (START + "layout(set = 1, binding = 0) buffer B { uint words[]; } b;\n" + body("b.words[1 << 28] = 3u;"), "binding 0 of set 1"),
     "cycle": (START + '#include "other.glsl"\n' + body(""), "other.glsl includes itself"),
-    "large": (START + body("vec4 v[4]; for (int i = 0; i < 4; i++) v[i] = vec4(i);" + "".join(f"v[{i % 3}] = sin(v[{(i + 1) % 4}]) * v[{i % 4}] + {i}.0;" for i in range(12000)) + "sum = v[0].x;"),
-              "more than 1 MiB, the limit"),
 }
 
 
@@ -162,6 +160,11 @@ class AllShaders(Shaders):
         """No memory, but time: billions of them."""
         self.refused(self.replay("resolve", START + expanding("", 10, 11) + body("A11"), "nothing"), "nothing", self.path("nothing.comp"), "takes more than 20 s, the limit")
 
+
+    def test_what_compiles_to_too_much_is_refused(self):
+        turns = "".join(f"v[{i % 3}] = sin(v[{(i + 1) % 4}]) * v[{i % 4}] + {i}.0;" for i in range(12000))
+        text = START + body("vec4 v[4]; for (int i = 0; i < 4; i++) v[i] = vec4(i);" + turns + "sum = v[0].x;")
+        self.refused(self.replay("resolve", text, "large"), "large", self.path("large.comp"), "more than 1 MiB, the limit")
 
     def test_a_server_goes_on_after_a_loop_without_end(self):
         """lavapipe's threads work on it for a while, beside the new device."""
