@@ -31,7 +31,7 @@ import tap  # noqa: E402
 LIMIT_S = 300
 CALLS = ["open", "write", "rename", "sync", "make", "remove"]
 TIMES = re.compile("(_ns|_ms|ms|seconds|_bytes)$|^(ms|time|cold|min|median|max|low|high)$")
-CACHED = re.compile("^(ran|cached|reason|dispatches|work|history)$")
+CACHED = re.compile("^(ran|cached|reason|dispatches|work|history|executed)$")
 NUMBER = re.compile("[0-9]+([.][0-9]+)?(e-?[0-9]+)?( (ns|µs|ms|s)\\b)?|[ ─█▏▎▍▌▋▊▉–]+".encode())
 TEMPORARY = re.compile("[.]tmp-[0-9a-f]{8}$|(^|/)[.]glint-new(/|$)|[.]new~(/|$)")
 P = tap.PLAIN
