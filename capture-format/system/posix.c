@@ -117,12 +117,15 @@ bool glint_path_remove(const char *path) {
     return unlink(path) == 0;
 }
 
+/* Also what is written as a temporary file of a temporary file. */
 static bool is_temporary(const char *name, const char *of) {
-    const size_t length = strlen(name), tail = strlen(GLINT_TEMPORARY) + GLINT_TEMPORARY_DIGITS;
-    const char *end = name + length - tail;
-    return length > tail && (!*of || (strlen(of) == length - tail && !strncmp(name, of, length - tail))) &&
-           !strncmp(end, GLINT_TEMPORARY, strlen(GLINT_TEMPORARY)) &&
-           strspn(end + strlen(GLINT_TEMPORARY), "0123456789abcdef") == GLINT_TEMPORARY_DIGITS;
+    static const size_t mark = sizeof GLINT_TEMPORARY - 1, tail = sizeof GLINT_TEMPORARY - 1 + GLINT_TEMPORARY_DIGITS;
+    const size_t whole = strlen(name);
+    size_t length = whole;
+    while (length > tail && !strncmp(name + length - tail, GLINT_TEMPORARY, mark) &&
+           strspn(name + length - tail + mark, "0123456789abcdef") == GLINT_TEMPORARY_DIGITS)
+        length -= tail;
+    return length < whole && (!*of || (strlen(of) == length && !strncmp(name, of, length)));
 }
 
 /* The folder of the path, opened, or -1. */

@@ -41,8 +41,7 @@ static bool fail_held(const char *folder, int file, struct glint_error *err) {
     char who[64] = "another process";
     if (holder > 0) snprintf(who, sizeof who, "process %ld", holder);
     return glint_fail(err, GLINT_ERROR_IO,
-                      "%s: %s is using this folder; wait until it has ended, or choose another folder", folder,
-                      who);
+                      "%s: %s is using this folder; wait until it has ended, or choose another folder", folder, who);
 }
 
 static bool same_file(const char *path, int file) {

@@ -223,21 +223,25 @@ static void inputs_of_another_capture_are_warned_of(void **state) {
     glint_capture_close(&other);
 }
 
-static void an_interrupted_write_never_looks_complete(void **state) {
+/* Catches: a run that looks complete and is not, and an older one that is lost with it. */
+static void an_interrupted_write_leaves_what_was_there(void **state) {
     struct fixture *fixture = fixture_need_device(state);
-    struct glint_error err = {0};
-    char folder[128];
-    fixture_run(fixture, NULL);
-    fixture_write_run(fixture, "interrupted", folder);
-    assert_true(exists(folder, "run.json"));
-    assert_true(exists(folder, "08-compose.exr"));
-    assert_false(glint_replay_write(fixture->replay, folder, fixture_stop_at_resolve, NULL, &err));
-    assert_int_equal(err.code, GLINT_ERROR_INTERRUPTED);
-    assert_false(exists(folder, "run.json"));
-    assert_false(exists(folder, "08-compose.exr")); /* nothing is left of the previous run */
-    assert_null(glint_run_open(folder, &err));
-    fixture_write_run(fixture, "interrupted", folder);
-    assert_true(exists(folder, "run.json"));
+    for (int older = 0; older < 2; older++) {
+        struct glint_error err = {0};
+        char folder[128];
+        fixture_run(fixture, NULL);
+        if (older) fixture_write_run(fixture, "interrupted", folder);
+        else snprintf(folder, sizeof folder, "%s/interrupted", fixture->folder);
+        assert_false(glint_replay_write(fixture->replay, folder, fixture_stop_at_resolve, NULL, &err));
+        assert_int_equal(err.code, GLINT_ERROR_INTERRUPTED);
+        assert_int_equal(exists(folder, "run.json"), older);
+        assert_int_equal(exists(folder, "08-compose.exr"), older);
+        assert_int_equal(exists(folder, "02-downsample.exr"), older);
+        assert_false(exists(folder, ".glint-new"));
+        struct glint_run *run = glint_run_open(folder, &err);
+        assert_int_equal(run != NULL, older);
+        glint_run_close(&run);
+    }
 }
 
 static void write_text(const char *path, const char *text) {
@@ -306,7 +310,7 @@ int main(void) {
         cmocka_unit_test(foreign_tools_read_the_same_values),
         cmocka_unit_test(a_run_does_not_replace_its_own_inputs),
         cmocka_unit_test(inputs_of_another_capture_are_warned_of),
-        cmocka_unit_test(an_interrupted_write_never_looks_complete),
+        cmocka_unit_test(an_interrupted_write_leaves_what_was_there),
         cmocka_unit_test(a_users_shader_replaces_the_pass),
         cmocka_unit_test(a_users_shader_with_foreign_bindings_is_refused),
     };

@@ -233,6 +233,7 @@ bool lint_fix(const char *from, const char *to, struct lint_findings *findings, 
               struct glint_error *err) {
     char *trial = complete_temporary(to);
     if (!trial) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
+    glint_path_remove_temporaries(to);
     bool ok = choose_fixes(from, trial, findings, err) && check_is_valid(from, trial, to, err);
     ok = ok && complete_rename(trial, to, err);
     if (!ok) unlink(trial);
