@@ -214,6 +214,9 @@ class Tests:
             said = self.config(f"\n  - !<ColorSpace>\n    name: mine\n    from_scene_reference: !<FileTransform> {{src: {name}}}\n")
             assert f"{name}: expected a file" in said, said
 
+    def test_a_folder_is_no_configuration_of_colours(self):
+        assert "expected a file, found a folder" in glint("view", "good", "-o", "x.png", "--ocio", "good", status=1, folder=self.folder)
+
     def test_a_configuration_of_colours_does_not_explode(self):
         spaces = "\n  - !<ColorSpace>\n    name: a0\n    from_scene_reference: &a0 !<CDLTransform> {slope: [1, 1, 1]}\n"
         for i in range(1, 30):

@@ -122,9 +122,11 @@ def exr_attributes(data):
             if not multi or at >= len(data) or data[at] == 0:
                 break
             continue
-        name = data.index(0, at)
-        kind = data.index(0, name + 1)
-        size = struct.unpack_from("<i", data, kind + 1)[0]
+        name = data.find(0, at)
+        kind = data.find(0, name + 1)
+        size = struct.unpack_from("<i", data, kind + 1)[0] if at < name < kind < len(data) - 5 else -1
+        if size < 0 or size > len(data):  # an earlier change broke it
+            break
         found.append((kind + 1, bytes(data[name + 1:kind]), size))
         at = kind + 5 + size
     return found
@@ -135,7 +137,10 @@ def mutate_exr(data, rng):
         return mutate_bytes(data, rng)
     data = bytearray(data)
     for _ in range(rng.choice([1, 1, 2])):
-        at, kind, size = rng.choice(exr_attributes(data))
+        attributes = exr_attributes(data)
+        if not attributes:
+            return mutate_bytes(data, rng)
+        at, kind, size = rng.choice(attributes)
         how = rng.random()
         if how < 0.15:
             struct.pack_into("<i", data, at, rng.choice([-1, 0, 1, size + 1, size - 1, 0x7FFFFFFF]))
@@ -186,7 +191,7 @@ def write(path, data):
 
 def read(path):
     with open(path, "rb") as file:
-        return file.read()
+        return file.read(1 << 25)  # an earlier change may have made it sparse and huge
 
 
 ENTRIES = ["link out", "link in", "loop", "fifo", "device", "missing", "folder", "empty", "sparse", "unreadable name", "other file", "long name"]

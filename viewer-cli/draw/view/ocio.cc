@@ -74,6 +74,9 @@ void check_version(const std::string &path) {
 void check_size(const std::string &path) {
     const std::streamoff most = 1 << 24;
     const int most_aliases = 16; // they multiply to a few hundred at most
+    struct stat info;
+    if (stat(path.c_str(), &info) == 0 && S_ISDIR(info.st_mode))
+        throw std::runtime_error(path + ": expected a file, found a folder"); // of which yaml-cpp would leak
     std::ifstream file(path, std::ios::binary);
     int aliases = 0;
     std::streamoff size = 0;
