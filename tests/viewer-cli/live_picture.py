@@ -1,4 +1,5 @@
 """Picture and pixel on the page of glint live in headless Chromium, over the real server: live_picture.py GLINT. Speaks TAP."""
+import json
 import os
 import signal
 import subprocess
@@ -226,7 +227,16 @@ class Tests:
         nothing = max(set(colours), key=colours.count)
         assert all(same for same, c in zip(equal, colours) if c == nothing) or sum(equal) < len(equal), "where nothing differs"
         assert any(c != nothing for c in colours)
+        # its range is not that of the picture
+        fields = "all('.live-view .pair .pair input')"
+        self.until(f"{fields}[1].placeholder.startsWith('auto: ')")
+        self.ask(f"{fields}[1].value = '1e6', {fields}[1].dispatchEvent(new Event('change')), 1")
+        self.until(f"{STORE}.look.heatHigh === 1e6 && {STORE}.look.high === null && asked.at(-1).path.includes('high=1000000')")
+        self.until("layers().length === 1 && bytesOf(layers()[0]).join() !== " + json.dumps(",".join(str(b) for b in heat)))
+        self.ask(f"{fields}[1].closest('.pair').querySelector('button').click(), 1")
+        self.until(f"{STORE}.look.heatHigh === null && bytesOf(layers()[0]).join() === " + json.dumps(",".join(str(b) for b in heat)))
         self.press("Slider")
+        self.until(f"getComputedStyle({fields}[1]).display !== 'none' && {fields}[1].value === ''")
         # the mode is kept while B goes and comes
         self.ask(f"{STORE}.unpin()")
         self.until("layers().length === 1")

@@ -89,13 +89,16 @@ glintLive.api = (function () {
 
     function pause(ms) { return new Promise(done => setTimeout(done, ms)); }
 
-    /* Asks again as long as runs of other requests take the replay away. `wanted`: whether the answer is still of use. */
+    /* Whether the same request can be answered later: another run took the replay away, or there are too many requests at once. */
+    const later = error => error.code === 'superseded' || error.code === 'busy';
+
+    /* Asks again as long as the server has to put it off. `wanted`: whether the answer is still of use. */
     async function insist(path, body, wanted = () => true, signal = undefined) {
         for (let wait = 50; ; wait = Math.min(800, 2 * wait)) {
             try {
                 return await post(path, body, signal);
             } catch (error) {
-                if (error.code !== 'superseded' || signal?.aborted || !wanted()) throw error;
+                if (!later(error) || signal?.aborted || !wanted()) throw error;
             }
             await pause(wait);
             if (!wanted()) throw failure('given up', 'superseded', 409);
@@ -127,5 +130,5 @@ glintLive.api = (function () {
         }
     }
 
-    return {client, begin, takeToken, askTabs, setToken, get, post, bytes, file, insist, stream, failure, onRefused: f => refused.push(f)};
+    return {client, begin, takeToken, askTabs, setToken, get, post, bytes, file, insist, later, stream, failure, onRefused: f => refused.push(f)};
 })();

@@ -160,7 +160,7 @@ glintLive.picture = (function () {
             run: pinned.result.run, image: other, title: pinned.title});
         if (self.look.mode !== HEAT) return;
         const named = other.name === A.image.name ? {} : {other_image: other.name};
-        request(self, 'D', {path: path('difference', {run: A.run, other: pinned.result.run, image: A.image.name, ...named}),
+        request(self, 'D', {path: path('difference', {run: A.run, other: pinned.result.run, image: A.image.name, ...named}, view.heatOf(look)),
             what: `${pinned.result.run} ${A.image.name}`});
     }
 
@@ -197,7 +197,6 @@ glintLive.picture = (function () {
     }
 
     function take(self, which, wish, picture) {
-        const {head} = picture;
         self.shown[which] = {...wish, ...picture};
         self.wrong[which] = null;
         if (which === 'A') {
@@ -205,7 +204,6 @@ glintLive.picture = (function () {
             if (self.shown.A?.image.name !== self.last) self.notOfFrame = '';
             self.last = wish.image.name;
             if (self.shown.D && self.shown.D.what.split(' ')[1] !== wish.what) self.shown.D = null;
-            self.view.draw(head);
         }
         draw(self);
         refresh(self);
@@ -233,7 +231,9 @@ glintLive.picture = (function () {
     }
 
     function draw(self) {
+        const {A, D} = self.shown;
         self.stage.update(pictures(self));
+        self.view.draw(A && A.head, self.look.mode === HEAT && D ? D.head : null);
         drawWarning(self);
         drawOver(self);
         mark(self);

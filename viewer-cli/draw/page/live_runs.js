@@ -19,7 +19,6 @@ glintLive.runs = (function () {
         store.accepted = null; /* the last state that the server took */
         store.refusal = null;  /* {names, message} of the last one that it did not take */
 
-
         const newest = () => wanted === null;
 
         function takeStructure(answer) {
@@ -84,13 +83,13 @@ glintLive.runs = (function () {
             }
         }
 
-        /* What another client's run gave up is asked again, and then waits its turn. */
+        /* What another client's run gave up, or a server with too many requests refused, is asked again, and then waits its turn. */
         async function run(what, signal) {
             const body = {...what, client: api.client};
             try {
                 return await api.post('/api/v1/run', body, signal);
             } catch (error) {
-                if (error.code !== 'superseded' || signal?.aborted || !newest()) throw error;
+                if (!api.later(error) || signal?.aborted || !newest()) throw error;
             }
             return api.insist('/api/v1/run', {...body, urgent: false}, newest, signal);
         }

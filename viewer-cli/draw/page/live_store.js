@@ -42,9 +42,10 @@ glintLive.store = (function () {
         return part ? decode(part.slice(2)) : null;
     }
 
-    const LOOK = {image: null, exposure: 0, display: null, view: null, kind: null, low: null, high: null, scale: null, mode: null, zoom: 0, x: null, y: null};
+    const LOOK = {image: null, exposure: 0, display: null, view: null, kind: null, low: null, high: null, scale: null,
+        heatLow: null, heatHigh: null, heatScale: null, mode: null, zoom: 0, x: null, y: null};
 
-    const TEXTS = ['image', 'display', 'view', 'kind', 'scale', 'mode'], INTEGERS = ['zoom', 'x', 'y'];
+    const TEXTS = ['image', 'display', 'view', 'kind', 'scale', 'heatScale', 'mode'], INTEGERS = ['zoom', 'x', 'y'];
 
     /* Only members that are known, of the kinds that they have. */
     function lookOf(given) {

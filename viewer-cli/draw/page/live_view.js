@@ -40,35 +40,50 @@ glintLive.view = (function () {
         return text.trim() === '' ? null : Number.isFinite(value) ? value : undefined;
     }
 
+    /* The members of a look that hold the range of what is seen: of the picture's false colours, or of the heat map. */
+    const PICTURE = {low: 'low', high: 'high', scale: 'scale'}, HEAT = {low: 'heatLow', high: 'heatHigh', scale: 'heatScale'};
+    const nothing = keys => Object.fromEntries(Object.values(keys).map(key => [key, null]));
+
     function range(store) {
-        const kinds = choice('kind of picture', store.registry.kinds || [], kind => store.setLook({kind, low: null, high: null, scale: null}));
+        let keys = PICTURE, seen = null; /* seen: what answer of the server the range is of */
+        const kinds = choice('kind of picture', store.registry.kinds || [], kind => store.setLook({kind, ...nothing(PICTURE)}));
         const fields = ['low', 'high'].map(end => element('input', {
             type: 'text', inputmode: 'decimal', size: 11, 'aria-label': `${end} end of the range`, placeholder: 'auto',
             change: event => {
-                const value = numberOf(event.target.value), look = {...store.look, [end]: value};
-                const wrong = value === undefined || (look.low !== null && look.high !== null && look.low >= look.high);
+                const value = numberOf(event.target.value), [low, high] = rangeWith(end, value);
+                const wrong = value === undefined || (low !== null && low >= high);
                 event.target.setAttribute('aria-invalid', String(wrong));
                 why.textContent = value === undefined ? 'A number is expected, or nothing.' : wrong ? 'The low end has to be below the high one.' : '';
-                if (!wrong) store.setLook({[end]: value});
+                if (!wrong) store.setLook({[keys.low]: low, [keys.high]: high});
             }}));
-        const scale = element('select', {'aria-label': 'scale of the range', change: () => store.setLook({scale: scale.value || null})},
+        /* Both ends or none: one that was not set is the one that is shown, and without one the other follows the image, too. */
+        const rangeWith = (end, value) => value === null ? [null, null]
+            : ['low', 'high'].map((e, i) => e === end ? value : store.look[keys[e]] ?? seen?.range?.[i] ?? null);
+        const scale = element('select', {'aria-label': 'scale of the range', change: () => store.setLook({[keys.scale]: scale.value || null})},
             element('option', {value: ''}, 'auto'), element('option', {value: 'linear'}, 'linear'), element('option', {value: 'log'}, 'logarithmic'));
-        const auto = element('button', {type: 'button', click: () => store.setLook({low: null, high: null, scale: null})}, 'Auto range');
-        const why = element('span', {class: 'why', role: 'alert'});
-        const ends = element('div', {class: 'pair'}, labelled('Low', fields[0]), labelled('High', fields[1]), labelled('Scale', scale), auto, why);
-        return {e: element('div', {class: 'pair'}, labelled('Kind', kinds), ends), draw(look, picture) {
+        const auto = element('button', {type: 'button', click: () => store.setLook(nothing(keys))}, 'Auto range');
+        const why = element('span', {class: 'why', role: 'alert'}), of = element('span', {class: 'faint'}, 'Heat map');
+        const ends = element('div', {class: 'pair'}, of, labelled('Low', fields[0]), labelled('High', fields[1]), labelled('Scale', scale), auto, why);
+        const kind = labelled('Kind', kinds);
+        return {e: element('div', {class: 'pair'}, kind, ends), draw(look, picture, heat) {
+            const before = keys;
+            seen = heat || picture;
+            keys = heat ? HEAT : PICTURE;
+            if (keys !== before) why.textContent = '';
             kinds.value = look.kind || kinds.options[0]?.value;
+            kind.hidden = !!heat;
+            of.hidden = !heat;
             fields.forEach((field, i) => {
-                const value = look[['low', 'high'][i]];
-                if (field === document.activeElement && field.getAttribute('aria-invalid') === 'true') return;
+                const value = look[[keys.low, keys.high][i]];
+                if (keys === before && field === document.activeElement && field.getAttribute('aria-invalid') === 'true') return;
                 field.value = value === null ? '' : String(value).replace('-', '\u2212');
-                field.placeholder = picture?.range ? `auto: ${glintChart.number(picture.range[i])}` : 'auto';
+                field.placeholder = seen?.range ? `auto: ${glintChart.number(seen.range[i])}` : 'auto';
                 field.setAttribute('aria-invalid', 'false');
             });
-            scale.value = look.scale || '';
-            auto.disabled = look.low === null && look.high === null && !look.scale;
+            scale.value = look[keys.scale] || '';
+            auto.disabled = Object.values(keys).every(key => look[key] === null);
             /* an image that is shown in its own colours has no range */
-            ends.hidden = !!picture && !picture.range && auto.disabled;
+            ends.hidden = !!seen && !seen.range && auto.disabled;
         }};
     }
 
@@ -80,19 +95,22 @@ glintLive.view = (function () {
         return words;
     }
 
-    /* An element whose draw(picture) shows store.look, given the head of the picture that is shown. */
+    /* The part of a look that a heat map is drawn by. */
+    const heatOf = look => ({low: look[HEAT.low], high: look[HEAT.high], scale: look[HEAT.scale]});
+
+    /* An element whose draw(picture, heat) shows store.look, given the heads of the picture and of the heat map if that is seen instead. */
     function make(store) {
         const controls = [exposure(store), display(store), range(store)];
         const e = element('fieldset', {class: 'live-view'}, element('legend', null, 'View'), ...controls.map(c => c.e));
-        let shown = null;
-        e.draw = picture => {
-            shown = picture === undefined ? shown : picture;
-            controls.forEach(c => c.draw(store.look, shown));
+        let shown = [null, null];
+        e.draw = (picture, heat) => {
+            shown = [picture, heat];
+            controls.forEach(c => c.draw(store.look, ...shown));
         };
-        store.on('look', () => e.draw());
-        e.draw(null);
+        store.on('look', () => e.draw(...shown));
+        e.draw(null, null);
         return e;
     }
 
-    return Object.assign(make, {query});
+    return Object.assign(make, {query, heatOf});
 })();
