@@ -259,7 +259,7 @@ def main():
         shutil.rmtree(folder)
         table.print()
         if options.page:
-            table.write_page(options.page)
+            table.write_page(options.page, COMMANDS)
     return table.bad() > 0
 
 

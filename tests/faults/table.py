@@ -14,7 +14,8 @@ on captures of 16×9 pixels, and judges what came of it. This page is made by
 ./dev faults --all  # each call
 ```
 
-which replace the rows of commands that they try, and take hours. `--only COMMAND` tries one, and the test `faults` a sample of all.
+which replace the rows of commands that they try, and take hours. `--only COMMAND` of `faults.py` tries one, `--stacks 1 --every N` one in N of
+the first calls of each stack, which a row then says, and the test `faults` a sample of all. {left}
 
 A fault was handled **well** if the command ended with a message that says why and left no file that is not whole, or did what it does without
 the fault; and in both cases nothing that glint allocated was left, and no file was open, that is not there without the fault. Everything else
@@ -77,7 +78,7 @@ class Table:
             with open(self.record, "w", encoding="utf-8") as file:
                 file.write("[\n" + ",\n".join(json.dumps(row) for row in self.rows.values()) + "\n]\n")
 
-    def write_page(self, path):
+    def write_page(self, path, commands):
         lines, rows = [], [row for row in self.rows.values() if row["tried"]]
         for command in dict.fromkeys(row["command"] for row in rows):
             own = [row for row in rows if row["command"] == command]
@@ -88,4 +89,5 @@ class Table:
             lines.append(f"| {command} | {first['how']} | {first['calls']:,} | {first['stacks']:,} | {' | '.join(cells)} | {tried:,} | {tried - badly:,} | {badly:,} |")
         tried, badly = (sum(row[name] for row in rows) for name in ("tried", "badly"))
         with open(path, "w", encoding="utf-8") as file:
-            file.write(PAGE.format(tried=f"{tried:,}", well=f"{tried - badly:,}", badly=f"{badly:,}", kinds=" | ".join(COLUMNS), lines="--:|" * len(COLUMNS), rows="\n".join(lines)))
+            left = [name for name in commands if name not in {row["command"] for row in rows}]
+            file.write(PAGE.format(left="This record lacks " + ", ".join(left) + "." if left else "", tried=f"{tried:,}", well=f"{tried - badly:,}", badly=f"{badly:,}", kinds=" | ".join(COLUMNS), lines="--:|" * len(COLUMNS), rows="\n".join(lines)))
