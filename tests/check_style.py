@@ -98,12 +98,12 @@ with open("capture-format/exports.map", encoding="utf-8") as text:
     shown = set(re.findall(r"\b(glint_\w+);", text.read()))
 for name in declared ^ shown:
     faults.append(f"capture-format/exports.map: {name} is " + ("missing" if name in declared else "in no public header"))
-# Texts of strangers go out by one function for each destination: JSON by shown_json, control sequences by console_code.
+# Texts of strangers go out by one function for each destination: JSON by record_text, control sequences by console_code.
 for path in (p for p in files if p.endswith((".c", ".cc")) and p.startswith(("viewer-cli/", "replay/", "study/", "pack/"))):
     with open(path, encoding="utf-8") as text:
         code = text.read()
-    if re.search(r"(?<!shown_json\()json_dumps\((?![^;]*JSON_ENSURE_ASCII)|json_dumpf|json_dump_file", code):
-        faults.append(f"{path}: JSON without shown_json (shown.h)")
+    if re.search(r"json_dumps\((?![^;]*JSON_ENSURE_ASCII)|json_dumpf|json_dump_file", code):
+        faults.append(f"{path}: JSON without record_text (record.h)")
     if "\\033" in re.sub(r"console_code\([^;]*;", "", code) and path != "viewer-cli/io/console.c":
         faults.append(f"{path}: a control sequence without console_code (io/console.h)")
 # The size of a room is limited, so that it can be understood as a whole.

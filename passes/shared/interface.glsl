@@ -32,9 +32,8 @@ layout(set = 1, binding = 2) uniform sampler nearest_clamp;
 // stays so, for lengths may be infinite, and a NaN is to be found where it arose.
 const bool HALF_RGBA16F = true, HALF_RG16F = true, HALF_R16F = true, HALF_RGBA32F = false, HALF_RG32F = false, HALF_R32F = false,
            HALF_R8UI = false, HALF_R32UI = false;
-vec4 in_range(vec4 value, bool is_half) {
-    return halves && is_half ? mix(value, clamp(value, -65504.0, 65504.0), lessThan(abs(value), vec4(1.0 / 0.0))) : value;
-}
+vec4 half_range(vec4 value) { return mix(value, clamp(value, -65504.0, 65504.0), lessThan(abs(value), vec4(1.0 / 0.0))); }
+vec4 in_range(vec4 value, bool is_half) { return halves && is_half ? half_range(value) : value; }
 uvec4 in_range(uvec4 value, bool is_half) { return value; }
 #define STORE(image, at, value) imageStore(image, at, in_range(value, is_half_##image))
 #define imageStore(image, at, value) STORE(image, at, value)

@@ -99,7 +99,7 @@ void glint_folder_unlock(struct glint_folder_lock **pointer) {
     struct glint_folder_lock *lock = *pointer;
     *pointer = NULL;
     if (!lock) return;
-    if (lock->made && lock->file >= 0 && same_file(lock->made, lock->file))
+    if (lock->made && (lock->file < 0 || same_file(lock->made, lock->file)))
         rmdir(lock->made); /* which fails unless it is empty */
     if (lock->file >= 0) close(lock->file);
     free(lock->made);

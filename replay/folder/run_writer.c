@@ -29,7 +29,7 @@ enum { PATH_SIZE = 4096, NAME_SIZE = 300 };
 struct glint_run_writer {
     struct glint_folder_lock *lock;
     char folder[PATH_SIZE], staging[PATH_SIZE];
-    bool staged;
+    DIR *staged; /* .glint-new or NULL: open, so that it can be removed without memory or another descriptor */
 };
 
 static bool fail_at(const char *path, struct glint_error *err) {
@@ -182,10 +182,28 @@ const char *run_writer_folder(const struct glint_run_writer *writer) {
     return writer->folder;
 }
 
+static void end_staging(struct glint_run_writer *writer) {
+    if (writer->staged) closedir(writer->staged);
+    writer->staged = NULL;
+}
+
 const char *glint_run_writer_begin(struct glint_run_writer *writer, struct glint_error *err) {
-    writer->staged = clear_staging(writer->folder, writer->staging, err) &&
-                     (mkdir(writer->staging, 0777) == 0 || fail_at(writer->staging, err));
-    return writer->staged ? writer->staging : NULL;
+    end_staging(writer);
+    if (!clear_staging(writer->folder, writer->staging, err)) return NULL;
+    if (mkdir(writer->staging, 0777) != 0) return fail_at(writer->staging, err), NULL;
+    if ((writer->staged = opendir(writer->staging))) return writer->staging;
+    fail_at(writer->staging, err);
+    rmdir(writer->staging);
+    return NULL;
+}
+
+static void remove_staging(struct glint_run_writer *writer) {
+    if (!writer->staged) return;
+    rewinddir(writer->staged);
+    for (const struct dirent *entry; (entry = readdir(writer->staged));)
+        unlinkat(dirfd(writer->staged), entry->d_name, 0);
+    rmdir(writer->staging);
+    end_staging(writer);
 }
 
 static bool complete(const struct glint_run_writer *writer, bool replaces, struct glint_error *err) {
@@ -201,7 +219,7 @@ bool glint_run_writer_commit(struct glint_run_writer *writer, struct glint_error
                       rename_in(folder, "run.json", staging, "old.json", err)))
         return false;
     /* From here on nothing can be taken back. If it fails twice, whoever opens the folder next completes it. */
-    writer->staged = false;
+    end_staging(writer);
     return complete(writer, replaces, NULL) || complete(writer, replaces, err);
 }
 
@@ -209,7 +227,7 @@ void glint_run_writer_close(struct glint_run_writer **pointer) {
     struct glint_run_writer *writer = *pointer;
     *pointer = NULL;
     if (!writer) return;
-    if (writer->staged && each_file(writer->staging, remove_file, NULL, NULL)) rmdir(writer->staging);
+    remove_staging(writer);
     glint_folder_unlock(&writer->lock);
     free(writer);
 }

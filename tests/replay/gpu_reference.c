@@ -207,13 +207,15 @@ static void a_round_goes_on_from_its_midst(void **state) {
     struct glint_reference *whole = open_at_once(fixture, NULL, NULL, false, 3, &err);
     assert_non_null(whole);
     trace_rays(whole, 32, 0);
+    struct glint_reference *none = open_at_once(fixture, folder, NULL, false, 3, &err);
+    glint_reference_destroy(&none);
+    assert_int_not_equal(access(folder, F_OK), 0); /* nothing to keep */
     for (uint32_t rays = 0, begun = 0; rays < 32; calls++) {
         struct glint_reference *part = open_at_once(fixture, folder, NULL, false, 3, &err);
         if (!part) fail_msg("%s", err.message);
         const struct glint_reference_state *now = glint_reference_state(part);
         assert_int_equal(now->rays, rays);
         assert_int_equal(now->begun, begun);
-        if (rays + begun == 0) assert_int_not_equal(access(folder, F_OK), 0);
         /* a run of three rays reports some 20 to 30 times: one of them is complete, or two */
         int left = 40;
         err = (struct glint_error){0};
@@ -443,11 +445,13 @@ static void blind_wall(const struct plain *plain, float *values) {
     for (size_t i = 0; i < pixels / 2; i++) values[PLAIN_LIT_G * pixels + i] = INFINITY;
 }
 
-static void light_that_is_none_fails(void **state) {
+/* Rays that meet light that is none have none from there. A result that is not finite fails. */
+static void what_is_not_finite(void **state) {
     struct fixture *fixture = fixture_need_device(state);
     struct glint_error err = {0};
-    char path[256];
+    char path[256], assignment[300];
     snprintf(path, sizeof path, "%s/blind.exr", fixture->folder);
+    snprintf(assignment, sizeof assignment, "resolve=%s/nan.comp", fixture->folder);
     const struct plain plain = {.width = 8, .height = 32, .fov_y_degrees = 90, .floor = true, .spoil = blind_wall};
     assert_true(plain_write(path, &plain, &err));
     struct glint_capture *capture = glint_capture_open(path, NULL, &err);
@@ -456,6 +460,17 @@ static void light_that_is_none_fails(void **state) {
     struct glint_pipeline *pipeline = glint_pipeline_create("reference", &err);
     struct glint_reference *reference = glint_reference_create(fixture->replay, capture, pipeline, NULL, &err);
     assert_non_null(reference);
+    trace_rays(reference, 16, 0);
+    glint_reference_destroy(&reference);
+    FILE *file = fopen(strchr(assignment, '=') + 1, "w");
+    assert_non_null(file);
+    fputs("#version 460\n#extension GL_GOOGLE_include_directive : require\n#include \"shared/bindings.glsl\"\n"
+          "#include \"hit.pass.h\"\n#include \"shared/push_begin.glsl\"\n#include \"hit.pass.h\"\n};\nvoid main() {\n"
+          "imageStore(reflection_half, ivec2(gl_GlobalInvocationID.xy), vec4(uintBitsToFloat(0x7FC00000u))); }\n",
+          file);
+    fclose(file);
+    assert_true(glint_pipeline_shader(pipeline, assignment, &err));
+    assert_non_null(reference = glint_reference_create(fixture->replay, capture, pipeline, NULL, &err));
     assert_false(glint_reference_trace(reference, 16, 0, NULL, NULL, &err));
     fixture_says(&err, "NaN or infinite in ");
     assert_int_equal(glint_reference_state(reference)->rays, 0);
@@ -476,7 +491,7 @@ int main(void) {
         cmocka_unit_test(a_folder_of_something_else_is_refused),
         cmocka_unit_test(captures_that_lack_something),
         cmocka_unit_test(the_share_decided_by_thickness_is_reported),
-        cmocka_unit_test(light_that_is_none_fails),
+        cmocka_unit_test(what_is_not_finite),
     };
     return cmocka_run_group_tests(tests, fixture_setup_device, fixture_teardown);
 }

@@ -10,7 +10,7 @@
 
 #include "io/console.h"
 #include "nearest.h"
-#include "shown.h"
+#include "record.h"
 
 void list_add(struct list *list, const char *item, struct argp_state *state) {
     const char **items = realloc(list->items, (list->count + 2) * sizeof *items);
@@ -202,7 +202,7 @@ bool fail_memory(struct glint_error *err) {
 }
 
 enum status print_json(json_t *json) {
-    char *text = json ? shown_json(json_dumps(json, JSON_INDENT(2) | JSON_REAL_PRECISION(9))) : NULL;
+    char *text = json ? record_text(json, JSON_INDENT(2) | JSON_REAL_PRECISION(9)) : NULL;
     json_decref(json);
     const bool failed = !text;
     console_plain(true);

@@ -169,6 +169,11 @@ static void expect_growing_slice(const double *x, double *y) {
     y[0] = x[2] * pow(x[3], x[0] / x[1]);
 }
 
+static void expect_half_range(const double *x, double *y) {
+    y[0] = isfinite(x[0]) ? fmin(fmax(x[0], -65504), 65504) : x[0];
+    y[1] = x[0];
+}
+
 /* clang-format off */
 static const struct function list[] = {
     {"expm1 near zero", "e^x - 1 keeps its digits where e^x is near 1", "expm1(a.x)", "x", {{LOG, 1e-30, 1, ZERO | NEGATIVE}}, NULL,
@@ -199,6 +204,8 @@ static const struct function list[] = {
     {"storable colours", "held at the largest that an image holds, infinite ones too; NaN stays", "storable(a.xyz, a.w), 0.0", "r g b largest",
      {{LOG, 1e-3, 1e6, ZERO | ENDLESS | NEGATIVE}, {LOG, 65000, 66000, ENDLESS}, {LINEAR, -1, 1e5, 0}, {LOG, 65504, 1e5, ENDLESS}}, one_nan,
      expect_storable, 3, ABSOLUTE, 0, "a decision"},
+    {"range of halves", "what is stored into an image of halves: finite numbers held at the largest, infinite ones as they are; others unchanged", "half_range(vec4(a.x)).x, in_range(vec4(a.x), false).x, 0.0, 0.0", "x",
+     {{LOG, 1e-3, 3.39e38, ZERO | ENDLESS | NEGATIVE}}, NULL, expect_half_range, 2, ABSOLUTE, 0, "a decision"},
     {"nearest half", "what an image of halves holds, ties to even, small and huge ones too", "nearest_half(a)", "x y tie z",
      {{LOG, 1e-9, 1e6, ZERO | ENDLESS | NEGATIVE}, {LOG, 3e-8, 3e-4, NEGATIVE}, {LINEAR, 0, 1023, 0}, {LOG, 65000, 66000, ENDLESS | NEGATIVE}}, ties_of_halves,
      expect_nearest_half, 4, ABSOLUTE, 0, "exact"},
