@@ -19,7 +19,7 @@
 
 static void write_text(const char *folder, const char *name, const char *text) {
     char path[256];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
+    assert_true(snprintf(path, sizeof path, "%s/%s", folder, name) < (int)sizeof path);
     FILE *file = fopen(path, "w");
     assert_non_null(file);
     assert_true(fputs(text, file) >= 0 && fclose(file) == 0);
@@ -27,7 +27,7 @@ static void write_text(const char *folder, const char *name, const char *text) {
 
 static bool exists(const char *folder, const char *name) {
     char path[256];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
+    assert_true(snprintf(path, sizeof path, "%s/%s", folder, name) < (int)sizeof path);
     return access(path, F_OK) == 0;
 }
 
