@@ -5,8 +5,10 @@
 #include <locale.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "complete/complete.h"
+#include "glint/replay.h"
 #include "io/console.h"
 #include "io/memory.h"
 #include "io/table.h"
@@ -105,5 +107,7 @@ int main(int argc, char **argv) {
     if (!whole) fputs("glint: out of memory: what was printed may be incomplete\n", stderr);
     memory_end();
     console_end();
-    return status == STATUS_DONE && !(whole && written) ? STATUS_CHECK : (int)status;
+    const int result = status == STATUS_DONE && !(whole && written) ? STATUS_CHECK : (int)status;
+    if (glint_device_given_up(NULL)) _exit(result); /* exit() would wait for what it still executes */
+    return result;
 }

@@ -3,6 +3,7 @@
 #include "gpu.h"
 
 #include <ctype.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -145,6 +146,17 @@ bool gpu_init(struct gpu *gpu, const char *select, bool validate, uint32_t pass_
     return true;
 }
 
+static atomic_bool gave_up;
+
+void gpu_give_up(struct gpu *gpu) {
+    gpu->lost = gpu->given_up = true;
+    atomic_store(&gave_up, true);
+}
+
+bool gpu_gave_up(void) {
+    return atomic_load(&gave_up);
+}
+
 void gpu_wait(struct gpu *gpu) {
     if (gpu->device && !gpu->given_up && vkDeviceWaitIdle(gpu->device) == VK_ERROR_DEVICE_LOST) gpu->lost = true;
 }
@@ -214,7 +226,7 @@ bool device_submit(struct gpu *gpu, const char *what, uint32_t passes, struct gl
     const double limit_s = gpu->pass_limit_s * (passes ? passes : 1);
     const VkResult result = wait_within(gpu, limit_s);
     if (result == VK_TIMEOUT) {
-        gpu->lost = gpu->given_up = true;
+        gpu_give_up(gpu);
         return glint_fail(err, GLINT_ERROR_DEVICE,
                           "Vulkan: %s: not done within %.0f s, so the device was given up; --dispatch-limit or "
                           "$GLINT_DISPATCH_LIMIT allows a pass more than %.0f s",

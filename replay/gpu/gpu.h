@@ -75,6 +75,9 @@ bool gpu_init(struct gpu *gpu, const char *select, bool validate, uint32_t pass_
 void gpu_finish(struct gpu *gpu);
 /* Destroys or frees an object by this function of Vulkan. What a device that was given up may still use is left to the end of the process. */
 #define GPU_DESTROY(gpu, destroy, object) ((gpu)->given_up ? (void)0 : destroy((gpu)->device, object, NULL))
+/* The device has not ended something within the limit; whether one of this process did not. */
+void gpu_give_up(struct gpu *gpu);
+bool gpu_gave_up(void);
 /* Waits until the device is idle, or lost. */
 void gpu_wait(struct gpu *gpu);
 

@@ -102,7 +102,7 @@ bool glint_device_lost(const struct glint_device *device) {
 }
 
 bool glint_device_given_up(const struct glint_device *device) {
-    return device->gpu.given_up;
+    return device ? device->gpu.given_up : gpu_gave_up();
 }
 
 uint32_t glint_device_messages(const struct glint_device *device, const char **last) {

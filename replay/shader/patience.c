@@ -86,7 +86,7 @@ bool pipeline_create_patiently(struct gpu *gpu, const VkComputePipelineCreateInf
     }
     if (!wait_for(c, gpu->pass_limit_s)) {
         pthread_detach(thread);
-        gpu->lost = gpu->given_up = true;
+        gpu_give_up(gpu);
         return glint_fail(err, GLINT_ERROR_DEVICE,
                           "Vulkan: %s: not compiled by the driver within %.0f s, so the device was given up; "
                           "--dispatch-limit or $GLINT_DISPATCH_LIMIT allows more",

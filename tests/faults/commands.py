@@ -76,8 +76,8 @@ COMMANDS = {
 }
 
 # A fault of these takes many replays: in a sample they have fewer, or are left to longer runs.
-LONG = {"replay SHOT", "replay PART", "replay --against", "library replay", "live"}
-LONGEST = {"compare", "probe", "reference", "sweep", "tune", "blame", "stability", "explain", "selftest", "library reference"}
+LONG = {"replay SHOT", "replay --against", "library replay"}
+LONGEST = {"compare", "live", "probe", "replay PART", "reference", "sweep", "tune", "blame", "stability", "explain", "selftest", "library reference"}
 
 
 def make_inputs(folder):

@@ -75,7 +75,8 @@ const struct glint_device_info *glint_device_get_info(const struct glint_device 
    again: a replay then computes everything anew. */
 bool glint_device_lost(const struct glint_device *device);
 /* Whether it counts as lost because it did not end a pass within the limit. It may still execute that pass, so what it has in memory is left until the process
-   ends, and on a device of type "cpu" threads that keep the processors busy. */
+   ends, and on a device of type "cpu" threads that keep the processors busy. With NULL: whether any device of the process was given up. Drivers of GPUs wait in
+   exit() until it has executed everything, which may be never: the process then has to end by _exit(). */
 bool glint_device_given_up(const struct glint_device *device);
 /* Opens a device that was lost again, with its options. All replays on it must have been destroyed. Fails if it does not come back, or if another one has taken its place,
    so that results of both are never mixed; the device can then only be destroyed. */
