@@ -165,6 +165,19 @@ static pid_t hold(const char *folder) {
     return child;
 }
 
+/* Whether the system lists a lock on the folder by the number that stat shows, which file systems on top of others need not do. */
+static bool is_listed(const char *folder) {
+    struct stat found;
+    char line[256], number[40];
+    bool listed = false;
+    FILE *list = fopen("/proc/locks", "r");
+    assert_int_equal(stat(folder, &found), 0);
+    snprintf(number, sizeof number, ":%llu ", (unsigned long long)found.st_ino);
+    while (list && fgets(line, sizeof line, list)) listed = listed || strstr(line, number);
+    if (list) fclose(list);
+    return listed;
+}
+
 /* Catches: two processes that write, an error that does not say who is in the way, and a lock that outlives its process. */
 static void one_process_at_a_time_writes(void **state) {
     struct glint_error err = {0};
@@ -174,7 +187,8 @@ static void one_process_at_a_time_writes(void **state) {
     assert_null(glint_run_writer_open(folder, &err));
     assert_int_equal(err.code, GLINT_ERROR_IO);
     fixture_says(&err, folder);
-    snprintf(process, sizeof process, "process %ld is using this folder", (long)child);
+    if (is_listed(folder)) snprintf(process, sizeof process, "process %ld is using this folder", (long)child);
+    else snprintf(process, sizeof process, "another process is using this folder");
     fixture_says(&err, process);
     assert_null(glint_folder_lock_shared(folder, &err));
     expect_run(folder, false); /* which may be read */
