@@ -3,6 +3,7 @@
 #define _GNU_SOURCE /* pipe2 */
 #include "clamp.h"
 #include "compile.h"
+#include "words.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -79,12 +80,12 @@ static bool compile_text(struct compiled_text *out, const char *path, const char
 
 /* Mesa unrolls a loop that asks for it, however often it turns, and then lacks the memory. */
 static void forget_unrolling(const struct compiled_text *compiled) {
-    enum { HEADER = 5, LOOP_MERGE = 246, UNROLL = 1 };
+    enum { UNROLL = 1 };
     const size_t count = compiled->bytes / sizeof *compiled->words;
     for (size_t at = HEADER, length; at < count; at += length) {
         uint32_t *op = compiled->words + at;
-        if ((length = op[0] >> 16) == 0) break;
-        if ((op[0] & 0xffff) == LOOP_MERGE && length > 3) op[3] &= ~(uint32_t)UNROLL;
+        if ((length = op_words(op)) == 0) break;
+        if (opcode(op) == OP_LOOP_MERGE && length > 3) op[3] &= ~(uint32_t)UNROLL;
     }
 }
 

@@ -7,38 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { HEADER = 5, BOUND = 3 };
-/* Opcodes of SPIR-V. */
-enum {
-    OP_NAME = 5,
-    OP_LINE = 8,
-    OP_ENTRY_POINT = 15,
-    OP_TYPE_VOID = 19,
-    OP_TYPE_INT = 21,
-    OP_TYPE_FLOAT = 22,
-    OP_TYPE_STRUCT = 30,
-    OP_TYPE_POINTER = 32,
-    OP_TYPE_FORWARD_POINTER = 39,
-    OP_CONSTANT = 43,
-    OP_SPEC_CONSTANT_TRUE = 48,
-    OP_SPEC_CONSTANT_FALSE = 49,
-    OP_SPEC_CONSTANT = 50,
-    OP_SPEC_CONSTANT_COMPOSITE = 51,
-    OP_SPEC_CONSTANT_OP = 52,
-    OP_FUNCTION = 54,
-    OP_FUNCTION_END = 56,
-    OP_VARIABLE = 59,
-    OP_LOAD = 61,
-    OP_ACCESS_CHAIN = 65,
-    OP_DECORATE = 71,
-    OP_MEMBER_DECORATE = 72,
-    OP_GROUP_MEMBER_DECORATE = 75,
-    OP_COMPOSITE_CONSTRUCT = 80,
-    OP_BITCAST = 124,
-    OP_I_NOT_EQUAL = 171,
-    OP_LABEL = 248
-};
-enum { SPEC_ID = 1, BLOCK = 2, BINDING = 33, DESCRIPTOR_SET = 34, OFFSET = 35, STORAGE_UNIFORM = 2 };
+#include "words.h"
 
 /* ---- What the words of an instruction are ---- */
 
@@ -99,13 +68,6 @@ static const struct form {
 };
 /* Image operands that have to be constants: ConstOffset, ConstOffsets. */
 enum { CONSTANT_OFFSETS = 0x8 | 0x20 };
-
-static uint32_t opcode(const uint32_t *op) {
-    return op[0] & 0xffff;
-}
-static uint32_t op_words(const uint32_t *op) {
-    return op[0] >> 16;
-}
 
 static const struct form *form_of(uint32_t code) {
     for (size_t i = 0; i < sizeof forms / sizeof *forms; i++)

@@ -3,28 +3,10 @@
 
 #include <string.h>
 
-enum {
-    HEADER = 5,
-    OP_TYPE_POINTER = 32,
-    OP_CONSTANT = 43,
-    OP_FUNCTION = 54,
-    OP_VARIABLE = 59,
-    OP_ACCESS_CHAIN = 65,
-    OP_IN_BOUNDS_ACCESS_CHAIN = 66,
-    OP_DECORATE = 71,
-    OP_MEMBER_DECORATE = 72,
-    BINDING = 33,
-    DESCRIPTOR_SET = 34,
-    OFFSET = 35
-};
+#include "words.h"
+
 #define NONE UINT32_MAX
 
-static uint32_t opcode(const uint32_t *op) {
-    return op[0] & 0xffff;
-}
-static uint32_t op_words(const uint32_t *op) {
-    return op[0] >> 16;
-}
 /* `op` if that instruction lies entirely in the module, otherwise NULL. */
 static const uint32_t *checked_op(const struct spirv *spirv, const uint32_t *op) {
     const size_t left = spirv->bytes / sizeof *op - (size_t)(op - spirv->words);

@@ -6,43 +6,9 @@
 #include <string.h>
 
 #include "graph.h"
+#include "words.h"
 
-enum { HEADER = 5, BOUND = 3, NESTING_MAX = 16, BYTES_MAX = 64 << 10 };
-/* Opcodes, decorations and storage classes of SPIR-V. */
-enum {
-    OP_CAPABILITY = 17,
-    OP_TYPE_BOOL = 20,
-    OP_TYPE_INT = 21,
-    OP_TYPE_FLOAT = 22,
-    OP_TYPE_VECTOR = 23,
-    OP_TYPE_MATRIX = 24,
-    OP_TYPE_IMAGE = 25,
-    OP_TYPE_SAMPLER = 26,
-    OP_TYPE_ARRAY = 28,
-    OP_TYPE_STRUCT = 30,
-    OP_TYPE_POINTER = 32,
-    OP_CONSTANT = 43,
-    OP_SPEC_CONSTANT = 50,
-    OP_SPEC_CONSTANT_COMPOSITE = 51,
-    OP_SPEC_CONSTANT_OP = 52,
-    OP_VARIABLE = 59,
-    OP_DECORATE = 71,
-    OP_COMPOSITE_EXTRACT = 81,
-    OP_I_ADD = 128,
-    OP_I_SUB = 130,
-    OP_I_MUL = 132,
-    OP_U_DIV = 134,
-    OP_S_DIV = 135
-};
-enum { BINDING = 33, DESCRIPTOR_SET = 34 };
-enum {
-    STORAGE_UNIFORM_CONSTANT = 0,
-    STORAGE_UNIFORM = 2,
-    STORAGE_WORKGROUP = 4,
-    STORAGE_PRIVATE = 6,
-    STORAGE_FUNCTION = 7,
-    STORAGE_BUFFER = 12
-};
+enum { NESTING_MAX = 16, BYTES_MAX = 64 << 10 };
 enum { DIM_BUFFER = 5, SAMPLED = 1, STORED = 2 };
 
 /* The capabilities of what gpu.c asks devices for, and of what every one has. */
@@ -67,13 +33,6 @@ struct module {
     const uint32_t **made;   /* NULL: by an instruction that is of no interest here */
     uint32_t *set, *binding; /* of a variable; UINT32_MAX: none */
 };
-
-static uint32_t opcode(const uint32_t *op) {
-    return op[0] & 0xffff;
-}
-static uint32_t op_words(const uint32_t *op) {
-    return op[0] >> 16;
-}
 
 static const uint32_t *made(const struct module *m, uint32_t id) {
     static const uint32_t nothing[1];
