@@ -31,7 +31,7 @@ static void remove_images(const char *folder, const json_t *pass, const json_t *
 
 /* A run.json, which may be anybody's; NULL if it cannot be read. */
 static json_t *load_run(const char *path) {
-    char *text = inside_text(path, 1 << 24, NULL);
+    char *text = inside_text(path, RUN_JSON_BYTES, NULL);
     json_t *root = text && inside_json_fits(path, text, strlen(text), NULL) ? json_loads(text, 0, NULL) : NULL;
     free(text);
     return root;

@@ -6,6 +6,8 @@
 
 #include "glint/common.h"
 
+enum { RUN_JSON_BYTES = 1 << 24 }; /* more than any run has */
+
 /* Replaces the file atomically. */
 bool run_write_json(const char *folder, const json_t *root, struct glint_error *err);
 

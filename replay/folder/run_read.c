@@ -13,10 +13,11 @@
 #include "glint/exr.h"
 #include "inside.h"
 #include "row.h"
+#include "run_json.h"
 #include "run_writer.h"
 
 /* More than any run has. */
-enum { RUN_JSON_BYTES = 1 << 24, RUN_IMAGES = 4096, IMAGE_TEXELS = 1 << 27 };
+enum { RUN_IMAGES = 4096, IMAGE_TEXELS = 1 << 27 };
 
 struct stored_image {
     struct glint_run_image info;
