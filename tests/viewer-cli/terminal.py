@@ -1,16 +1,12 @@
 """What a person at a terminal sees: widths, colours, hints at what was meant, and wrong files: terminal.py GLINT. Speaks TAP."""
-import fcntl
 import os
-import pty
 import re
-import select
-import struct
 import subprocess
 import sys
 import tempfile
-import termios
 
 import tap
+from terminal_codes import sent
 
 GLINT = os.path.abspath(sys.argv[1])
 ESCAPE = re.compile(r"\x1b\[[0-9;]*[A-Za-z]")
@@ -39,20 +35,7 @@ OTHERS = {
 
 def in_terminal(columns, words, **environment):
     """What a terminal of that width is sent, without escape sequences, and with them."""
-    terminal, side = pty.openpty()
-    fcntl.ioctl(side, termios.TIOCSWINSZ, struct.pack("HHHH", 50, columns, 0, 0))
-    child = subprocess.Popen([GLINT, *words.split()], stdin=side, stdout=side, stderr=side, env={**os.environ, "TERM": "xterm", **environment})
-    said, ended = b"", False
-    # The program's side stays open here until all is read: what is unread when it closes may be lost.
-    while True:
-        if select.select([terminal], [], [], 0 if ended else 0.02)[0]:
-            said += os.read(terminal, 65536)
-        elif ended:
-            break
-        ended = child.poll() is not None
-    os.close(terminal)
-    os.close(side)
-    text = said.decode().replace("\r\n", "\n")
+    text = sent([GLINT, *words.split()], columns, **{"TERM": "xterm", **environment}).replace("\r\n", "\n")
     return "\n".join(ESCAPE.sub("", line.split("\r\x1b[K")[-1]) for line in text.split("\n")), text  # without the bar that is drawn over
 
 
