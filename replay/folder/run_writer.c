@@ -29,7 +29,7 @@ enum { PATH_SIZE = 4096, NAME_SIZE = 300 };
 struct glint_run_writer {
     struct glint_folder_lock *lock;
     char folder[PATH_SIZE], staging[PATH_SIZE];
-    DIR *staged; /* .glint-new or NULL: open, so that it can be removed without memory or another descriptor */
+    DIR *staged; /* .glint-new or NULL: open, so that it can be moved or removed without memory or another descriptor */
 };
 
 static bool fail_at(const char *path, struct glint_error *err) {
@@ -50,13 +50,19 @@ static bool is_folder(const char *path) {
 
 typedef bool (*visit)(const char *folder, const char *name, void *user, struct glint_error *err);
 
-static bool each_file(const char *folder, visit visit, void *user, struct glint_error *err) {
-    DIR *entries = opendir(folder);
-    if (!entries) return fail_at(folder, err);
+static bool each_entry(DIR *entries, const char *folder, visit visit, void *user, struct glint_error *err) {
     bool ok = true;
+    rewinddir(entries);
     for (const struct dirent *entry; ok && (entry = readdir(entries));)
         if (strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0)
             ok = visit(folder, entry->d_name, user, err);
+    return ok;
+}
+
+static bool each_file(const char *folder, visit visit, void *user, struct glint_error *err) {
+    DIR *entries = opendir(folder);
+    if (!entries) return fail_at(folder, err);
+    const bool ok = each_entry(entries, folder, visit, user, err);
     closedir(entries);
     return ok;
 }
@@ -111,16 +117,23 @@ static bool remove_old_images(const char *folder, const char *staging, const cha
     return run_remove_images(old, is_file(kept, "run.json") ? record : NULL, folder, err);
 }
 
-/* Steps 2 and 3. They can be repeated from wherever they ended. */
-static bool move_in(const char *folder, const char *staging, struct glint_error *err) {
+/* Steps 2 and 3. They can be repeated from wherever they ended. `staged`: .glint-new, open. */
+static bool move_entries(const char *folder, const char *staging, DIR *staged, struct glint_error *err) {
     const bool replaced = is_file(staging, "old.json");
-    bool ok = each_file(staging, move_file, (void *)folder, err);
+    bool ok = each_entry(staged, staging, move_file, (void *)folder, err);
     if (replaced) {
         ok = ok && remove_old_images(folder, staging, staging, err) && sync_folder(folder, err) &&
              remove_file(staging, "old.json", NULL, err);
     }
     ok = ok && rename_in(staging, "run.json", folder, "run.json", err) && (!replaced || sync_folder(folder, err));
     if (ok) rmdir(staging);
+    return ok;
+}
+
+static bool move_in(const char *folder, const char *staging, struct glint_error *err) {
+    DIR *staged = opendir(staging);
+    const bool ok = staged ? move_entries(folder, staging, staged, err) : fail_at(staging, err);
+    if (staged) closedir(staged);
     return ok;
 }
 
@@ -208,7 +221,7 @@ static void remove_staging(struct glint_run_writer *writer) {
 
 static bool complete(const struct glint_run_writer *writer, bool replaces, struct glint_error *err) {
     return (!replaces || (sync_folder(writer->folder, err) && sync_folder(writer->staging, err))) &&
-           move_in(writer->folder, writer->staging, err);
+           move_entries(writer->folder, writer->staging, writer->staged, err);
 }
 
 bool glint_run_writer_commit(struct glint_run_writer *writer, struct glint_error *err) {
@@ -219,8 +232,9 @@ bool glint_run_writer_commit(struct glint_run_writer *writer, struct glint_error
                       rename_in(folder, "run.json", staging, "old.json", err)))
         return false;
     /* From here on nothing can be taken back. If it fails twice, whoever opens the folder next completes it. */
+    const bool ok = complete(writer, replaces, NULL) || complete(writer, replaces, err);
     end_staging(writer);
-    return complete(writer, replaces, NULL) || complete(writer, replaces, err);
+    return ok;
 }
 
 void glint_run_writer_close(struct glint_run_writer **pointer) {

@@ -32,8 +32,11 @@ def contents(folder):
     found = {}
     for name in sorted(os.listdir(folder)):
         path = os.path.join(folder, name)
+        if os.path.isdir(path):
+            found[name] = b"folder"
+            continue
         with open(path, "rb") as file:
-            found[name] = file.read() if os.path.isfile(path) else b"folder"
+            found[name] = file.read()
     if "run.json" in found:
         found["run.json"] = re.findall(b'"preset": "[^"]*"|"file": "[^"]*"', found["run.json"])
     return found

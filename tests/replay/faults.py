@@ -57,9 +57,12 @@ class Faults:
         last = self.counts[call]
         return range(1, last + 1) if self.everything else sorted({1, (last + 1) // 2 if last > 20 else 1, last})
 
+    def results(self, call, number):
+        return list(RESULTS) if self.everything else [list(RESULTS)[(number + len(call)) % 4], "VK_ERROR_DEVICE_LOST"][:1 if number > 1 else 2]
+
     def expect(self, call, number, result, times=0):
         """One replay: it fails with a message that says what and where, and leaves no folder."""
-        out = os.path.join(self.folder, "out")
+        out = os.path.join(self.folder, f"{call}-{number}-{result}")
         run = self.run("replay", self.capture, "--preset", PRESET, "-o", out, CALL=call, FROM=number, RESULT=result, TIMES=times)
         said = f"{call} {number} {result}: exit {run.returncode}\n{run.stderr}"
         assert run.returncode in (1, 2, 3, 4, 5), said
@@ -76,26 +79,21 @@ class Faults:
 
     def test_every_call_that_fails_is_told(self):
         calls = sorted(set(self.counts) - HARMLESS)
-        tried, table, badly = 0, collections.defaultdict(lambda: [0, 0]), []
-        for call in calls:
-            for number in self.numbers(call):
-                results = list(RESULTS) if self.everything else [list(RESULTS)[(number + len(call)) % 4], "VK_ERROR_DEVICE_LOST"][:1 if number > 1 else 2]
-                for result in results:
-                    row = table[call, result]
-                    row[0] += 1
-                    tried += 1
-                    try:
-                        self.expect(call, number, result)
-                    except (AssertionError, subprocess.TimeoutExpired) as error:
-                        row[1] += 1
-                        badly.append(str(error))
-        print(f"# {tried} replays with faults in {len(calls)} functions")
+        faults = [(call, number, result) for call in calls for number in self.numbers(call) for result in self.results(call, number)]
+        table, badly = collections.defaultdict(lambda: [0, 0]), []
+        for (call, number, result), error in zip(faults, tap.failures(self.expect, faults, os.cpu_count() if self.everything else 1)):
+            row = table[call, result]
+            row[0] += 1
+            if error:
+                row[1] += 1
+                badly.append(str(error))
+        print(f"# {len(faults)} replays with faults in {len(calls)} functions")
         if self.everything:
             print("# | function | error | tried | failed well | badly |\n# | --- | --- | --- | --- | --- |")
             for (call, result), (times, bad) in sorted(table.items()):
                 print(f"# | {call} | {result} | {times} | {times - bad} | {bad} |")
         assert not badly, badly[:5]
-        assert len(calls) >= 25 and tried > 60
+        assert len(calls) >= 25 and len(faults) > 60
 
     def test_a_pass_that_runs_is_named(self):
         """The last submissions read images back, those before them run passes, and the first ones upload images."""

@@ -1,4 +1,5 @@
 """Runs the methods test_… of an object, and reports in TAP."""
+import concurrent.futures
 import fnmatch
 import os
 import resource
@@ -14,7 +15,7 @@ PLAIN = os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
 def glint(*words, status=0, folder=None):
     """Runs the program, the script's first argument, which has to end with this status: `stdout` and `stderr` of what returns have what it printed."""
-    run = subprocess.run([sys.argv[1], *words], capture_output=True, text=True, cwd=folder)
+    run = subprocess.run([os.path.abspath(sys.argv[1]), *words], capture_output=True, text=True, cwd=folder)
     assert run.returncode == status, (words, run.returncode, run.stdout[-2000:], run.stderr[-2000:])
     return run
 
@@ -28,6 +29,12 @@ def explained(error):
 def cpu_seconds():
     used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
     return sum(u.ru_utime + u.ru_stime for u in used)
+
+
+def failures(function, items, at_once):
+    """What function(*ITEM) raised for each item, None where it raised nothing; so many run at the same time, each in a thread."""
+    with concurrent.futures.ThreadPoolExecutor(at_once) as pool:
+        return [future.exception() for future in [pool.submit(function, *item) for item in items]]
 
 
 def run(tests):
