@@ -15,7 +15,7 @@
 struct arguments {
     struct list captures, presets, settings;
     const char *out, *device, *effect;
-    uint32_t rounds;
+    uint32_t rounds, limit_s;
     bool json, every; /* every: no presets are named */
 };
 
@@ -28,7 +28,7 @@ static const struct argp_option options[] = {
     EFFECTS_OPTION,
     {"set",     KEY_SET,     "PRESET:SLOT.PARAM=VALUE", 0, "Set a parameter of one preset; glint passes SLOT lists them", 0},
     {"repeat",  KEY_REPEAT,  "N",          0, "Timed rounds; every round runs each preset once (default 3)", 0},
-    {"device",  'd',         "INDEX|NAME", 0, "Vulkan device to use; glint devices lists them (default: $GLINT_DEVICE, else the first usable one in that list)", 0},
+    DEVICE_OPTION, LIMIT_OPTION,
     {"json",    'j',         NULL,         0, "Print JSON", 0},
     {0},
 };
@@ -46,6 +46,7 @@ static const struct example examples[] = {
 static const struct arg_target targets[] = {
     STORED('o', struct arguments, out),
     STORED('d', struct arguments, device),
+    STORED_NUMBER(KEY_DISPATCH_LIMIT, struct arguments, limit_s, 1, UINT32_MAX),
     STORED('j', struct arguments, json),
     STORED_NAMES(KEY_PRESETS, struct arguments, presets),
     STORED(KEY_EFFECT, struct arguments, effect),
@@ -225,7 +226,7 @@ static enum status cmd_compare_run(int argc, char **argv) {
     command_parse(&cmd_compare, argc, argv, &a);
     struct glint_error err = {0};
     struct contest contest = {.rounds = a.rounds, .join = a.every, .skip = !a.effect};
-    const struct glint_device_options device = {.select = a.device};
+    const struct glint_device_options device = {.select = a.device, .dispatch_limit_s = a.limit_s};
     bool ok = contest_begin(&contest, a.presets.items, &a.settings, &err);
     if (ok) pipeline_note_fog(&cmd_compare, contest.all[0].pipeline, captures_fogged(&a.captures));
     ok = ok && (contest.device = glint_device_create(&device, &err)) != NULL;

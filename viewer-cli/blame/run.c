@@ -36,9 +36,12 @@ static bool place_line(const struct work *work, uint32_t coalition, json_t *line
     return journal_append(&work->blame->journal, line, err);
 }
 
-/* Adds to an error message which slots are replaced. */
-static bool fail_coalition(const struct work *work, uint32_t coalition, const struct glint_error *own,
-                           struct glint_error *err) {
+/* "CAPTURE: with screen_trace, resolve replaced by its reference" */
+struct step {
+    char text[1024];
+};
+static struct step name_step(const struct work *work, uint32_t coalition) {
+    struct step step;
     char names[600] = "";
     for (size_t p = 0; p < work->blame->count; p++) {
         const size_t length = strlen(names);
@@ -46,8 +49,9 @@ static bool fail_coalition(const struct work *work, uint32_t coalition, const st
             snprintf(names + length, sizeof names - length, "%s%s", length ? ", " : "",
                      glint_player_name(work->blame->players, p));
     }
-    return glint_fail(err, own->code, "%s: with %s replaced by its reference: %s",
-                      work->blame->captures.items[work->capture], names[0] ? names : "nothing", own->message);
+    snprintf(step.text, sizeof step.text, "%.360s: with %s replaced by its reference",
+             work->blame->captures.items[work->capture], names[0] ? names : "nothing");
+    return step;
 }
 
 static json_t *look_json(const struct blame *blame, const struct glint_verdict *verdict) {
@@ -83,15 +87,15 @@ static bool replay_coalition(struct work *work, uint32_t coalition, struct glint
     do
         ok = run_before(work, pipeline, &own) &&
              glint_judge_evaluate(work->judge, pipeline, 0, &verdict, report, work, &own);
-    while (!ok && again_try(&work->again, &own, "pipeline %u", coalition));
+    while (!ok && again_try(&work->again, &own, "%s", name_step(work, coalition).text));
     if (ok && work->blame->against.truth && verdict.no_truth.code != GLINT_OK)
         ok = glint_fail(&own, verdict.no_truth.code, "%s", verdict.no_truth.message);
     for (int k = 0; ok && k < GLINT_TARGET_COUNT; k++)
         ok = !verdict.errors[k].count ||
              glint_metrics_valid(&verdict.errors[k], glint_target_name((enum glint_target)k), &own);
     if (ok) ok = place_line(work, coalition, look_json(work->blame, &verdict), err);
-    else if (own.code == GLINT_ERROR_INTERRUPTED) *err = own;
-    else fail_coalition(work, coalition, &own, err);
+    else if (own.code == GLINT_ERROR_INTERRUPTED || glint_device_lost(work->again.device)) *err = own; /* names it */
+    else glint_fail(err, own.code, "%s: %s", name_step(work, coalition).text, own.message);
     glint_verdict_finish(&verdict);
     glint_pipeline_destroy(&pipeline);
     return ok;
@@ -122,7 +126,7 @@ static bool time_one(struct work *work, uint32_t coalition, uint32_t round, stru
     do
         ok = pipeline && run_before(work, pipeline, err) &&
              glint_judge_time(work->judge, pipeline, 0, work->blame->shot, &cost, report, work, err);
-    while (!ok && again_try(&work->again, err, "pipeline %u, round %u", coalition, round + 1));
+    while (!ok && again_try(&work->again, err, "%s, round %u", name_step(work, coalition).text, round + 1));
     if (ok) {
         ok = place_line(work, coalition, cost_json(&cost, round), err);
         glint_cost_finish(&cost);

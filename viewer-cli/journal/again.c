@@ -25,7 +25,7 @@ static bool fail_step(const char *step, const char *how, struct glint_error *err
 }
 
 bool again_try(struct again *again, struct glint_error *err, const char *format, ...) {
-    char step[256];
+    char step[1100];
     va_list args;
     if (!glint_device_lost(again->device)) return false;
     va_start(args, format);
