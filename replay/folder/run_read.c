@@ -122,7 +122,7 @@ static bool check_is_run(const char *folder, const char *path, struct glint_erro
     if (stat(folder, &info)) return glint_fail(err, GLINT_ERROR_IO, "%s: %s", folder, strerror(errno));
     if (!S_ISDIR(info.st_mode))
         return glint_fail(err, GLINT_ERROR_IO, "%s: expected a run, which is a folder, found a file", folder);
-    return access(path, F_OK) == 0 || run_writer_recover(folder) ||
+    return run_writer_recover(folder) || access(path, F_OK) == 0 ||
            glint_fail(err, GLINT_ERROR_IO, "%s: expected a run, found a folder without run.json", folder);
 }
 

@@ -166,6 +166,10 @@ bool run_writer_recover(const char *folder) {
         if (failed) return false;
         if (!ours) nanosleep(&(struct timespec){.tv_nsec = WAIT_MS * 1000000}, NULL);
     }
+    /* Empty, it is what was left after the last move. */
+    struct glint_folder_lock *lock = is_folder(staging) ? glint_folder_lock(folder, NULL) : NULL;
+    if (lock) rmdir(staging);
+    glint_folder_unlock(&lock);
     return is_file(folder, "run.json");
 }
 

@@ -7,7 +7,7 @@
 /* The folder that the writer was opened with. */
 const char *run_writer_folder(const struct glint_run_writer *writer);
 
-/* Completes a run that a process had written whole when it ended before the run had its place. False if there is none. */
+/* Completes a run that a process had written whole when it ended before the run had its place. Whether the folder has a run. */
 bool run_writer_recover(const char *folder);
 
 #endif

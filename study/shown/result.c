@@ -176,5 +176,8 @@ bool glint_study_truth(struct glint_capture *capture, const struct glint_effect 
     truth_channels(effect, pipeline, &channels);
     *pixels = (struct glint_pixels){part->width, part->height, channels.count,
                                     study_channels(capture, name, channels.names, channels.count, err)};
-    return pixels->values && truth_errors(capture, part, error, err);
+    if (pixels->values && truth_errors(capture, part, error, err)) return true;
+    free(pixels->values);
+    *pixels = (struct glint_pixels){0};
+    return false;
 }

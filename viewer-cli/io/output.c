@@ -80,6 +80,15 @@ bool output_check(const char *path, unsigned bits, bool overwrite, struct glint_
                       found ? found->name : "another kind of file", kind->name);
 }
 
+FILE *output_stream(int descriptor, const char *mode) {
+    const int copy = dup(descriptor);
+    FILE *file = copy >= 0 ? fdopen(copy, mode) : NULL;
+    const int why = errno;
+    if (!file && copy >= 0) close(copy);
+    errno = why;
+    return file;
+}
+
 bool output_open(struct output *output, const char *path, struct glint_error *err) {
     struct stat status;
     *output = (struct output){.path = path};
@@ -91,7 +100,7 @@ bool output_open(struct output *output, const char *path, struct glint_error *er
     }
     output->direct = stat(path, &status) == 0 && !S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode);
     if (!output->direct && !complete_open(&output->complete, path, err)) return false;
-    output->file = output->direct ? fopen(path, "wb") : fdopen(dup((int)output->complete.file), "wb");
+    output->file = output->direct ? fopen(path, "wb") : output_stream((int)output->complete.file, "wb");
     if (output->file) return true;
     glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
     if (!output->direct) complete_close(&output->complete, false, false, err);

@@ -29,6 +29,8 @@ struct output {
     struct complete_file complete; /* unless direct or stdout */
     FILE *file;
 };
+/* A stream of a copy of the descriptor; NULL with errno. */
+FILE *output_stream(int descriptor, const char *mode);
 bool output_open(struct output *output, const char *path, struct glint_error *err);
 /* Gives the file its name. If `ok` is false, or if something could not be written, it is removed, and what had the name before stays; `err` is
    then set, unless `ok` was false. */

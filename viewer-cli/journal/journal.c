@@ -40,7 +40,7 @@ static bool same_definition(const struct journal *journal, const json_t *theirs,
 
 /* Reads all complete lines. An incomplete last line, left by a crash, is cut off. */
 static bool read_log(struct journal *journal, const char *path, struct glint_error *err) {
-    FILE *file = fdopen(dup(journal->log), "rb");
+    FILE *file = output_stream(journal->log, "rb");
     char *line = NULL;
     size_t size = 0;
     off_t whole = 0;
