@@ -35,10 +35,13 @@ static bool read_raw(struct image *image, const struct node *texture, bool cube,
     return image_lay_out(image, texture, &layout, err);
 }
 
+/* These files are compressed well enough that a small one unpacks to anything. */
+#define OIIO_MAX_BYTES (UINT64_C(1) << 30)
+
 static bool read_oiio(struct image *image, const struct node *texture, const char *path, const char *kind,
                       struct glint_error *err) {
     struct oiio_image decoded = {0};
-    if (!oiio_decode(path, kind, image->bytes.data, image->bytes.size, IMAGE_MAX_BYTES, &decoded, err))
+    if (!oiio_decode(path, kind, image->bytes.data, image->bytes.size, OIIO_MAX_BYTES, &decoded, err))
         return node_wrap(texture, err);
     const struct format *format;
     free(image->bytes.data);
