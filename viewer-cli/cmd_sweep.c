@@ -60,7 +60,7 @@ static const struct example examples[] = {
 
 static const struct arg_target targets[] = {
     STORED(KEY_METRIC, struct arguments, metric),
-    STORED(ARGP_KEY_ARG, struct arguments, sweep.captures),
+    STORED_CAPTURES(struct arguments, sweep.captures),
     STORED('o', struct arguments, sweep.out),
     STORED('j', struct arguments, json),
     STORED(KEY_VARY, struct arguments, axes),
