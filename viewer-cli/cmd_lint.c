@@ -6,12 +6,14 @@
 #include "options/args.h"
 #include "capture/depth_facts.h"
 #include "lint/lint.h"
+#include "lint/survey.h"
 #include "io/pipe.h"
 #include "io/progress.h"
 #include "io/table.h"
 
 struct arguments {
-    const char *path, *out;
+    struct list captures;
+    const char *out;
     bool json, fix, list, markdown, overwrite;
 };
 
@@ -34,29 +36,35 @@ static const struct arg_target targets[] = {
     STORED_OUTPUT('o', struct arguments, out, OUTPUT_EXR),
     STORED(KEY_OVERWRITE, struct arguments, overwrite),
     STORED('j', struct arguments, json),
+    STORED_CAPTURES(struct arguments, captures),
     {0},
 };
 static const struct example examples[] = {
     {"glint lint frame.exr", "lists the likely mistakes of a dump"},
     {"glint lint frame.exr --fix -o fixed.exr", "also writes a copy in which the certain ones are fixed"},
+    {"glint lint frames/", "lists which captures of a folder have which mistakes, the worst first"},
     {"glint lint --list", "lists all mistakes that it can find"},
     {"glint lint --markdown > lint.md", "writes the same with how each is measured"},
     {0},
 };
 
+/* Whether there is one capture, and not a set that may have any number of them. */
+static bool is_one(const struct arguments *a) {
+    return a->captures.count == 1 && !a->captures.set;
+}
+
 static error_t cmd_lint_parse(int key, char *arg, struct argp_state *state) {
     struct arguments *a = state->input;
+    (void)arg;
     switch (key) {
     case KEY_MARKDOWN:
         a->list = a->markdown = true;
         return 0;
-    case ARGP_KEY_ARG:
-        if (a->path) argp_error(state, "expected one capture");
-        a->path = arg;
-        return 0;
     case ARGP_KEY_END:
-        if (!a->path && !a->list) argp_error(state, "no capture given; --list shows what can be found in one");
+        if (!a->captures.count && !a->list)
+            argp_error(state, "no capture given; --list shows what can be found in one");
         if (a->fix != (a->out != NULL)) argp_error(state, "--fix and -o must be used together");
+        if (a->fix && !is_one(a)) argp_error(state, "--fix: expected one capture");
         return 0;
     }
     return ARGP_ERR_UNKNOWN;
@@ -213,38 +221,86 @@ static void print_handbook_of_findings(void) {
     }
 }
 
-static enum status cmd_lint_run(int argc, char **argv) {
-    struct arguments a = {0};
-    command_parse(&cmd_lint, argc, argv, &a);
-    if (a.markdown) {
-        print_handbook_of_findings();
-        return STATUS_DONE;
-    }
-    if (a.list) return list_findings(a.json);
+static enum status lint_one(const struct arguments *a) {
     struct glint_error err = {0};
     struct progress progress;
     struct pipe pipe;
     struct lint_findings *findings = calloc(1, sizeof *findings);
     struct lint_agreement agreement;
     progress_begin(&progress);
-    const char *path = pipe_input(&pipe, a.path, &err);
+    const char *path = pipe_input(&pipe, a->captures.items[0], &err);
     struct glint_capture *capture = path ? glint_capture_open(path, NULL, &err) : NULL;
     bool ok = capture && (findings || glint_fail(&err, GLINT_ERROR_MEMORY, "out of memory")) &&
               find_findings(capture, findings, &agreement, &progress, &err);
     progress_end(&progress);
     enum status status = ok && findings->count ? STATUS_CHECK : STATUS_DONE;
-    if (ok && a.json) print_json(findings_json(findings, &agreement, capture));
-    else if (ok) print_findings(a.path, findings, &agreement, capture);
-    ok = ok && (!a.fix || write_fixed_copy(&a, path, findings, &err));
+    if (ok && a->json) print_json(findings_json(findings, &agreement, capture));
+    else if (ok) print_findings(a->captures.items[0], findings, &agreement, capture);
+    ok = ok && (!a->fix || write_fixed_copy(a, path, findings, &err));
     glint_capture_close(&capture);
     pipe_finish(&pipe);
     free(findings);
     return ok ? status : command_fail(&cmd_lint, &err);
 }
 
+/* One of many captures. What cannot be read is a row of its own; false for what concerns all. */
+static bool survey_capture(struct lint_survey *survey, const char *path, struct progress *progress,
+                           struct glint_error *err) {
+    struct glint_error own = {0};
+    struct pipe pipe;
+    struct lint_agreement agreement;
+    struct lint_findings *findings = calloc(1, sizeof *findings);
+    if (!findings) return fail_memory(err);
+    const char *file = pipe_input(&pipe, path, &own);
+    struct glint_capture *capture = file ? glint_capture_open(file, NULL, &own) : NULL;
+    const bool read = capture && find_findings(capture, findings, &agreement, progress, &own);
+    bool ok = read || own.code != GLINT_ERROR_MEMORY || glint_fail(err, own.code, "%s", own.message);
+    if (ok)
+        ok = read ? lint_survey_add(survey, path, findings, err)
+                  : lint_survey_add_failed(survey, path, own.message, err);
+    glint_capture_close(&capture);
+    pipe_finish(&pipe);
+    free(findings);
+    return ok;
+}
+
+static enum status lint_many(const struct arguments *a) {
+    const struct list *captures = &a->captures;
+    struct glint_error err = {0};
+    struct progress progress;
+    struct lint_survey survey = {0};
+    bool ok = true;
+    progress_begin(&progress);
+    for (size_t i = 0; ok && i < captures->count; i++) {
+        progress_phase(&progress, "%zu of %zu", i + 1, captures->count);
+        ok = survey_capture(&survey, captures->items[i], &progress, &err);
+        if (ok && progress_interrupted())
+            ok = glint_fail(&err, GLINT_ERROR_INTERRUPTED, "interrupted after %zu of %zu captures", i + 1,
+                            captures->count);
+    }
+    progress_end(&progress);
+    enum status status = ok && lint_survey_is_clean(&survey) ? STATUS_DONE : STATUS_CHECK;
+    lint_survey_sort(&survey);
+    if (ok && a->json) print_json(lint_survey_json(&survey));
+    else if (ok) lint_survey_print(&survey);
+    lint_survey_finish(&survey);
+    return ok ? status : command_fail(&cmd_lint, &err);
+}
+
+static enum status cmd_lint_run(int argc, char **argv) {
+    struct arguments a = {0};
+    enum status status = STATUS_DONE;
+    command_parse(&cmd_lint, argc, argv, &a);
+    if (a.markdown) print_handbook_of_findings();
+    else if (a.list) status = list_findings(a.json);
+    else status = is_one(&a) ? lint_one(&a) : lint_many(&a);
+    list_free(&a.captures);
+    return status;
+}
+
 const struct command cmd_lint = {
     .name = "lint",
-    .arguments = "F",
+    .arguments = "F...",
     .summary = "find likely convention mistakes of an engine's dump",
     .description =
         "Compares independent images of the same surfaces (depth and normals, depth and cube maps, depth and motion, "
@@ -254,7 +310,9 @@ const struct command cmd_lint = {
         "explain the data equally well, both are named. A convention is reported only if at least a fifth of the "
         "samples match under it, and samples whose comparison could be decided by rounding of depth or normals are "
         "skipped. The sky texels and inner volumes of cube maps and the resolution of the depth storage are checked "
-        "too. What cannot be decided from the data is listed. The exit status is 1 when there are findings.",
+        "too. What cannot be decided from the data is listed. Of several captures a table lists how many findings "
+        "each has, the worst first, and how many captures have each finding; a capture that cannot be read is a row of "
+        "it. The exit status is 1 when there are findings.",
     .options = options,
     .targets = targets,
     .parse = cmd_lint_parse,
