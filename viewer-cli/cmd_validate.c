@@ -49,7 +49,19 @@ static void add_notes(const char *file, json_t *record) {
     glint_capture_close(&capture);
 }
 
-static enum status validate(const char *path, json_t *files) {
+struct counts {
+    size_t valid, invalid, unreadable;
+};
+
+/* A file that cannot be read is told at once, and does not end the others. */
+static enum status fail_file(const char *path, json_t *files, const struct glint_error *err) {
+    if (files)
+        json_array_append_new(
+            files, json_pack("{s:s, s:b, s:[], s:s}", "file", path, "valid", 0, "violations", "error", err->message));
+    return command_fail(&cmd_validate, err);
+}
+
+static enum status validate(const char *path, json_t *files, struct counts *counts) {
     struct listing listing = {files ? json_array() : NULL};
     struct glint_error err = {0};
     struct pipe pipe;
@@ -63,8 +75,10 @@ static enum status validate(const char *path, json_t *files) {
     pipe_finish(&pipe);
     if (!ok) {
         json_decref(listing.json);
-        return command_fail(&cmd_validate, &err);
+        counts->unreadable++;
+        return fail_file(path, files, &err);
     }
+    *(violations ? &counts->invalid : &counts->valid) += 1;
     if (files) json_array_append_new(files, record);
     else {
         if (violations)
@@ -75,19 +89,31 @@ static enum status validate(const char *path, json_t *files) {
     return violations ? STATUS_CHECK : STATUS_DONE;
 }
 
+static json_t *counts_json(const struct counts *counts) {
+    return json_pack("{s:I, s:I, s:I}", "valid", (json_int_t)counts->valid, "invalid", (json_int_t)counts->invalid,
+                     "unreadable", (json_int_t)counts->unreadable);
+}
+
+static void print_counts(const struct counts *counts, size_t files) {
+    mark_print(counts->valid == files ? MARK_GOOD : MARK_FAIL, "%zu captures: %zu valid, %zu invalid, %zu unreadable",
+               files, counts->valid, counts->invalid, counts->unreadable);
+    putchar('\n');
+}
+
 static enum status cmd_validate_run(int argc, char **argv) {
     struct arguments a = {0};
     command_parse(&cmd_validate, argc, argv, &a);
     json_t *files = a.json ? json_array() : NULL;
     enum status status = STATUS_DONE;
+    struct counts counts = {0};
     for (size_t i = 0; i < a.files.count; i++) {
-        enum status one = validate(a.files.items[i], files);
+        enum status one = validate(a.files.items[i], files, &counts);
         if (one > status) status = one;
     }
     if (files) {
-        enum status printed = print_json(json_pack("{s:o}", "files", files));
+        enum status printed = print_json(json_pack("{s:o, s:o}", "files", files, "summary", counts_json(&counts)));
         if (printed > status) status = printed;
-    }
+    } else if (a.files.count > 1) print_counts(&counts, a.files.count);
     list_free(&a.files);
     return status;
 }
@@ -98,7 +124,8 @@ const struct command cmd_validate = {
     .summary = "check captures against every rule of the format",
     .description =
         "Checks captures against every rule of FORMAT.md, including pixel values, and lists all violations with the "
-        "rule that each breaks. The exit status is 1 if there are violations.",
+        "rule that each breaks. Of several captures the last line counts the valid ones. The exit status is 1 if there "
+        "are violations, or if a capture cannot be read.",
     .options = options,
     .targets = targets,
     .operand = "capture",
