@@ -3,14 +3,10 @@
 #include <string.h>
 
 #include "command.h"
-#include "compare/compare.h"
-#include "draw/page/page.h"
-#include "io/pipe.h"
-#include "draw/view/png_file.h"
-#include "io/output.h"
+#include "compare/overall.h"
+#include "io/console.h"
 #include "options/effect_args.h"
 #include "options/pipeline_args.h"
-#include "record.h"
 
 struct arguments {
     struct list captures, presets, settings;
@@ -23,7 +19,7 @@ enum { KEY_PRESETS = 256, KEY_REPEAT };
 
 /* clang-format off */
 static const struct argp_option options[] = {
-    {"output",  'o',         "FOLDER",     0, "Folder for the table (table.json, table.csv), a sheet of pictures (sheet.png) and a page (index.html)", 0},
+    {"output",  'o',         "FOLDER",     0, "Folder for the table (table.json, table.csv), a sheet of pictures (sheet.png) and a page (index.html). An interrupted comparison goes on from its journal there (compare.json, log.jsonl)", 0},
     {"presets", KEY_PRESETS, "PRESET|FILE,...", 0, "Presets to compare (default: all but reference), of ", 0},
     EFFECTS_OPTION,
     {"set",     KEY_SET,     "PRESET:SLOT.PARAM=VALUE", 0, "Set a parameter of one preset; glint passes SLOT lists them", 0},
@@ -37,6 +33,8 @@ static const struct example examples[] = {
     {"glint compare street.exr", "compares all presets: error, coverage, steps, time"},
     {"glint compare street.exr room.exr --presets mafia3,kf2 -o compared",
      "compares two presets on two scenes, with pictures"},
+    {"glint compare frames/ --presets mafia3,mine.json -o compared",
+     "compares two presets over a folder of captures: which is better, by how much, and in which it is worst"},
     {"glint compare street.exr --presets mafia3,mine.json --repeat 20", "compares a preset file with another preset"},
     {"glint compare street.exr --presets kf2,mafia3 --set kf2:resolve.blur=0", "changes one parameter of a preset"},
     {"glint sample street -o street.exr --truth 16", "makes a capture with a truth, which errors need"},
@@ -72,84 +70,26 @@ static error_t cmd_compare_parse(int key, char *arg, struct argp_state *state) {
     return 0;
 }
 
-static bool write_table(const char *folder, const struct contest_table *table, struct glint_error *err) {
-    char json_path[4096], csv_path[4096];
-    if (snprintf(json_path, sizeof json_path, "%s/table.json", folder) >= (int)sizeof json_path ||
-        snprintf(csv_path, sizeof csv_path, "%s/table.csv", folder) >= (int)sizeof csv_path)
-        return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
-    json_t *json = contest_json(table);
-    char *text = json ? record_text(json, JSON_INDENT(1)) : NULL, *csv = contest_csv(table);
-    bool ok = text && csv ? output_text(json_path, text, err) && output_text(csv_path, csv, err)
-                          : glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    free(csv);
-    free(text);
-    json_decref(json);
-    return ok;
-}
-
-static bool write_all(const char *folder, const struct contest_table *table, const struct sheet *sheet,
-                      const struct contest_pictures *pictures, struct glint_error *err) {
-    struct picture picture = {0};
-    char path[4096];
-    if (snprintf(path, sizeof path, "%s/sheet.png", folder) >= (int)sizeof path)
-        return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
-    bool ok = write_table(folder, table, err) && sheet_lay_out(&picture, sheet, err) &&
-              png_file_write(path, &picture, err) && contest_write_page(folder, table, pictures, err);
-    picture_finish(&picture);
-    return ok;
-}
-
-static bool run_capture(struct contest *contest, const char *path, struct showing *showings,
-                        struct contest_pictures *pictures, struct glint_error *err) {
-    struct pipe pipe;
-    const char *file = pipe_input(&pipe, path, err);
-    struct glint_capture *capture = file ? glint_capture_open(file, NULL, err) : NULL;
-    bool ok = capture && contest_run(contest, capture, showings, pictures, err);
-    glint_capture_close(&capture);
-    pipe_finish(&pipe);
-    return ok;
-}
-
-/* Prints all failures to stderr. */
+/* Tells on stderr which captures and presets failed; of more captures than are shown whole, how many. */
 static enum status report_failures(const struct contest_table *table) {
-    enum status status = STATUS_DONE;
-    for (size_t i = 0; i < table->capture_count * table->contest->count; i++) {
-        const struct showing *s = &table->showings[i];
-        if (s->ran) continue;
-        command_note(&cmd_compare, "%s: preset %s: %s", table->captures[i / table->contest->count],
-                     table->contest->contestants[i % table->contest->count].label, s->failure);
-        status = STATUS_CHECK;
+    const size_t presets = table->contest->count;
+    size_t captures = 0, failed = 0;
+    for (size_t c = 0; c < table->capture_count; c++) {
+        const bool read = table->log->entries[c].state == CONTEST_DONE;
+        captures += !read;
+        for (size_t p = 0; read && p < presets; p++) {
+            const struct showing *s = contest_showing(table, c, p);
+            if (!s->ran && !table->rows)
+                command_note(&cmd_compare, "%s: preset %s: %s", table->captures[c],
+                             table->contest->contestants[p].label, s->failure);
+            failed += !s->ran;
+        }
     }
-    return status;
-}
-
-static bool make_folders(const char *folder, struct glint_error *err) {
-    char path[4096];
-    if (snprintf(path, sizeof path, "%s/pictures", folder) >= (int)sizeof path)
-        return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
-    return glint_make_folder(path, err);
-}
-
-/* Each capture gets the same share of the sheet and of the page. */
-static struct contest_pictures *begin_pictures(const struct arguments *a, const struct glint_effect *effect,
-                                               const char *folder, struct sheet *sheet, uint32_t columns,
-                                               struct glint_error *err) {
-    const size_t count = a->captures.count, cells = CONTEST_ROWS * (size_t)columns;
-    struct contest_pictures *pictures = calloc(count, sizeof *pictures);
-    if (!pictures) glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    if (!pictures || !sheet_init(sheet, columns, CONTEST_ROWS * (uint32_t)count, err) || !make_folders(folder, err)) {
-        free(pictures);
-        return NULL;
-    }
-    for (size_t i = 0; i < count; i++)
-        pictures[i] = (struct contest_pictures){.effect = effect,
-                                                .cells = &sheet->cells[i * cells],
-                                                .columns = columns,
-                                                .capture = i,
-                                                .folder = folder,
-                                                .values_bytes = PAGE_VALUE_BYTES / (count * cells),
-                                                .rows = json_pack("[[], [], []]")};
-    return pictures;
+    if (captures)
+        command_note(&cmd_compare, "%zu of %zu captures could not be compared", captures, table->capture_count);
+    if (failed && table->rows)
+        command_note(&cmd_compare, "presets failed %zu times; --json and table.csv of -o have the messages", failed);
+    return captures || failed ? STATUS_CHECK : STATUS_DONE;
 }
 
 /* FOLDER, or FOLDER/EFFECT when there are several. */
@@ -161,38 +101,48 @@ static bool effect_folder(const struct arguments *a, const struct glint_effect *
            glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", a->out);
 }
 
-/* Compares the results of one effect; `json` collects it, or is NULL. */
-static enum status compare(struct contest *contest, const struct arguments *a, bool several, json_t *json,
-                           struct glint_error *err) {
-    char folder[4096];
-    struct sheet sheet = {0};
+/* Where the JSON of several effects is a list, what goes before and after them. */
+struct json_out {
+    bool wanted, several;
+    size_t written;
+};
+
+static void print_effect_json(struct json_out *json, const struct contest_work *work) {
+    console_plain(true);
+    if (json->several) fputs(json->written++ ? ",\n  " : "[\n  ", stdout);
+    contest_write_json(stdout, &work->table, work->overall, 2, json->several);
+    if (!json->several) putchar('\n');
+}
+
+static void note_kept(const struct contest_log *log) {
+    char text[512];
+    if (!log->journal.folder) return;
+    journal_describe_kept(&log->journal, "results", text);
+    command_note(&cmd_compare, "%s", text);
+}
+
+/* Compares the results of one effect. Its journal stays if `keep`, until all effects are compared; *done becomes false if this one is not. */
+static enum status compare(struct contest *contest, const struct arguments *a, const char *folder, bool keep,
+                           struct json_out *json, bool *done, struct glint_error *err) {
+    struct contest_work work = {.captures = &a->captures, .folder = folder[0] ? folder : NULL};
     struct progress progress;
-    struct contest_pictures *pictures = NULL;
-    struct showing *showings = calloc(a->captures.count * contest->count + 1, sizeof *showings);
-    const struct contest_table table = {contest, a->captures.items, showings, a->captures.count};
-    bool ok = (showings || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory")) &&
-              effect_folder(a, contest->effect, several, folder, err);
-    if (ok && a->out)
-        ok = (pictures = begin_pictures(a, contest->effect, folder, &sheet, (uint32_t)contest->count + 1, err)) != NULL;
-    progress_begin(&progress);
     struct missing missing = {0};
+    progress_begin(&progress);
     contest->progress = &progress;
     contest->missing = &missing;
-    for (size_t i = 0; ok && i < a->captures.count; i++)
-        ok = run_capture(contest, a->captures.items[i], &showings[i * contest->count], pictures ? &pictures[i] : NULL,
-                         err);
-    if (ok && a->out) ok = write_all(folder, &table, &sheet, pictures, err);
+    const bool ok = contest_compare(contest, &work, err);
     progress_end(&progress);
     enum status status = ok ? STATUS_DONE : command_fail(&cmd_compare, err);
+    if (!ok && err->code == GLINT_ERROR_INTERRUPTED) note_kept(&work.log);
     missing_note(&cmd_compare, &missing, 0);
-    if (ok && json) json_array_append_new(json, contest_json(&table));
-    else if (ok) contest_print(&table);
-    if (ok && status == STATUS_DONE) status = report_failures(&table);
-    for (size_t i = 0; showings && i < a->captures.count * contest->count; i++) showing_finish(&showings[i]);
-    for (size_t i = 0; pictures && i < a->captures.count; i++) json_decref(pictures[i].rows);
-    free(showings);
-    free(pictures);
-    sheet_finish(&sheet);
+    if (ok && json->wanted) print_effect_json(json, &work);
+    else if (ok) {
+        if (work.table.shown_count) contest_print(&work.table);
+        if (work.overall) contest_print_overall(&work.table, work.overall);
+    }
+    if (ok && status == STATUS_DONE) status = report_failures(&work.table);
+    contest_work_finish(&work, ok && !keep);
+    *done = *done && ok;
     return status;
 }
 
@@ -204,21 +154,28 @@ static enum status compare_all(struct contest *contest, const struct arguments *
     const struct effect_search search = {a->effect, pipelines, contest->all_count, false, &a->captures};
     const size_t count = pipelines ? effects_find(&search, effects, err) : 0;
     free(pipelines);
-    if (!count) return command_fail(&cmd_compare, err);
-    json_t *json = a->json ? json_array() : NULL;
+    struct glint_folder_lock *lock = NULL;
+    if (!count || (count > 1 && a->out && !(lock = glint_folder_lock(a->out, err))))
+        return command_fail(&cmd_compare, err);
+    struct json_out json = {a->json, count > 1, 0};
     enum status status = STATUS_DONE;
+    bool done = true;
     for (size_t e = 0; e < count && status != STATUS_INTERRUPTED; e++) {
+        char folder[4096];
         contest_judge(contest, effects[e]);
-        if (count > 1 && !json) printf("%s%s\n\n", e ? "\n" : "", effects[e]->title);
-        const enum status own = compare(contest, a, count > 1, json, err);
+        if (count > 1 && !a->json) printf("%s%s\n\n", e ? "\n" : "", effects[e]->title);
+        const enum status own = effect_folder(a, effects[e], count > 1, folder, err)
+                                    ? compare(contest, a, folder, count > 1, &json, &done, err)
+                                    : command_fail(&cmd_compare, err);
         if (own > status) status = own;
     }
-    if (!json) return status;
-    const size_t compared = json_array_size(json);
-    json_t *printed = count > 1 ? json_incref(json) : json_incref(json_array_get(json, 0));
-    json_decref(json);
-    const enum status shown = compared ? print_json(printed) : status;
-    return shown > status ? shown : status;
+    for (size_t e = 0; a->out && done && count > 1 && e < count; e++) {
+        char folder[4096];
+        if (effect_folder(a, effects[e], true, folder, err)) contest_log_remove(folder);
+    }
+    if (json.written) puts("\n]");
+    glint_folder_unlock(&lock);
+    return status;
 }
 
 static enum status cmd_compare_run(int argc, char **argv) {
@@ -230,10 +187,7 @@ static enum status cmd_compare_run(int argc, char **argv) {
     bool ok = contest_begin(&contest, a.presets.items, &a.settings, &err);
     if (ok) pipeline_note_fog(&cmd_compare, contest.all[0].pipeline, captures_fogged(&a.captures));
     ok = ok && (contest.device = glint_device_create(&device, &err)) != NULL;
-    struct glint_folder_lock *lock = NULL;
-    ok = ok && (!a.out || (lock = glint_folder_lock(a.out, &err)));
     enum status status = ok ? compare_all(&contest, &a, &err) : command_fail(&cmd_compare, &err);
-    glint_folder_unlock(&lock);
     contest_finish(&contest);
     glint_device_destroy(&contest.device);
     list_free(&a.captures);
@@ -255,7 +209,12 @@ const struct command cmd_compare = {
         "all passes, measured in alternating rounds. Passes that a scene does not need are not run, and listed. Fog "
         "is off, because the truth has none. Without --presets, presets that make the result by the same passes are "
         "measured once, and have the time of the first. Several effects are compared one after the other, each with "
-        "its own table of the presets that make it, or in a folder FOLDER/EFFECT of its own.",
+        "its own table of the presets that make it, or in a folder FOLDER/EFFECT of its own. Of several captures the "
+        "means "
+        "over all, and over those with each tag, follow, and the differences of presets in the same captures with "
+        "their "
+        "95 % intervals; of more than ten, the ten with the largest errors are shown whole, and the others as rows. A "
+        "capture that cannot be read is a row.",
     .options = options,
     .targets = targets,
     .operand = "capture",

@@ -26,19 +26,19 @@ struct bootstrap {
     uint32_t *drawn; /* [worker][tile] */
 };
 
-/* How often each tile is drawn. A resample has a stream of its own, whichever thread it runs on. */
-static void draw_tiles(const struct bootstrap *b, size_t index, uint32_t *drawn) {
-    uint64_t state = (uint64_t)b->c->options->seed << 32 | index;
+/* How often each of `count` things is drawn. A resample has a stream of its own, whichever thread it runs on. */
+static void draw(uint32_t seed, size_t index, size_t count, uint32_t *drawn) {
+    uint64_t state = (uint64_t)seed << 32 | index;
     state = next_random(&state);
-    memset(drawn, 0, b->tiles * sizeof *drawn);
-    for (size_t i = 0; i < b->tiles; i++) drawn[(next_random(&state) >> 32) * b->tiles >> 32]++;
+    memset(drawn, 0, count * sizeof *drawn);
+    for (size_t i = 0; i < count; i++) drawn[(next_random(&state) >> 32) * count >> 32]++;
 }
 
 static bool evaluate_resample(void *user, uint32_t worker, size_t index) {
     const struct bootstrap *b = user;
     uint32_t *drawn = b->drawn + worker * b->tiles;
     double *sums = b->sums + worker * b->rows * SUM_COUNT;
-    draw_tiles(b, index, drawn);
+    draw(b->c->options->seed, index, b->tiles, drawn);
     memset(sums, 0, b->rows * SUM_COUNT * sizeof *sums);
     for (size_t i = 0; i < b->count; i++) {
         const struct entry *e = &b->entries[i];
@@ -124,4 +124,56 @@ bool glint_metrics_difference(const struct glint_metric_table *a, const struct g
     if (!isnan(a->rows[row].of[metric].low) && !isnan(b->rows[row].of[metric].low)) set_interval(difference, values, n);
     free(values);
     return true;
+}
+
+/* ---- Means of values in clusters ---- */
+
+struct cluster {
+    double sum, count; /* of its known values */
+};
+
+/* Sums the known values of each cluster; those without any are left out. Returns how many remain. */
+static size_t sum_clusters(const struct glint_clustered *c, struct cluster *sums) {
+    size_t filled = 0;
+    memset(sums, 0, c->cluster_count * sizeof *sums);
+    for (size_t i = 0; i < c->count; i++) {
+        if (isnan(c->values[i])) continue;
+        sums[c->clusters[i]].sum += c->values[i];
+        sums[c->clusters[i]].count++;
+    }
+    for (size_t i = 0; i < c->cluster_count; i++)
+        if (sums[i].count > 0) sums[filled++] = sums[i];
+    return filled;
+}
+
+static double mean_of_drawn(const struct cluster *sums, const uint32_t *drawn, size_t count) {
+    struct cluster all = {0};
+    for (size_t i = 0; i < count; i++) {
+        const double times = drawn ? drawn[i] : 1;
+        all.sum += times * sums[i].sum;
+        all.count += times * sums[i].count;
+    }
+    return all.count > 0 ? all.sum / all.count : NAN;
+}
+
+bool glint_clustered_mean(const struct glint_clustered *c, struct glint_figure *mean, struct glint_error *err) {
+    struct cluster *sums = malloc((c->cluster_count + 1) * sizeof *sums);
+    uint32_t *drawn = malloc((c->cluster_count + 1) * sizeof *drawn);
+    double *values = malloc((c->resamples + 1) * sizeof *values);
+    const bool ok =
+        (sums && drawn && values) || glint_fail(err, GLINT_ERROR_MEMORY, "confidence intervals: out of memory");
+    *mean = (struct glint_figure){NAN, NAN, NAN};
+    if (ok) {
+        const size_t filled = sum_clusters(c, sums);
+        mean->value = mean_of_drawn(sums, NULL, filled);
+        for (size_t r = 0; filled > 1 && r < c->resamples; r++) {
+            draw(c->seed, r, filled, drawn);
+            values[r] = mean_of_drawn(sums, drawn, filled);
+        }
+        if (filled > 1) set_interval(mean, values, c->resamples);
+    }
+    free(sums);
+    free(drawn);
+    free(values);
+    return ok;
 }

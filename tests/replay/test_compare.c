@@ -222,6 +222,39 @@ static void a_difference_is_surer_than_its_parts(UNUSED void **state) {
     glint_metric_table_finish(&b);
 }
 
+/* The interval of a mean is that of the normal distribution; values that only repeat each other in their clusters do not narrow it. */
+static void intervals_of_means_are_those_of_clusters(UNUSED void **state) {
+    enum { CLUSTERS = 200, REPEATED = 4, VALUES = CLUSTERS * REPEATED };
+    static double values[VALUES];
+    static size_t clusters[VALUES];
+    double sum = 0, squares = 0;
+    uint64_t random = 5;
+    for (size_t i = 0; i < VALUES; i++) {
+        clusters[i] = i % CLUSTERS;
+        values[i] = i < CLUSTERS ? uniform(&random) : values[i % CLUSTERS];
+        sum += values[i];
+        squares += values[i] * values[i];
+    }
+    const double mean = sum / VALUES, half = 1.96 * sqrt((squares / VALUES - mean * mean) / CLUSTERS);
+    struct glint_clustered c = {values, clusters, VALUES, CLUSTERS, 2000, 1};
+    struct glint_figure found, once;
+    struct glint_error err = {0};
+    assert_true(glint_clustered_mean(&c, &found, &err));
+    assert_near(found.value, mean, 1e-12);
+    assert_near(found.high - found.low, 2 * half, 0.2 * half);
+    assert_true(found.low < mean && mean < found.high);
+    c.count = CLUSTERS;
+    assert_true(glint_clustered_mean(&c, &once, &err));
+    assert_near(once.low, found.low, 1e-12);
+    assert_near(once.high, found.high, 1e-12);
+    for (size_t i = 1; i < CLUSTERS; i++) values[i] = NAN; /* one is known */
+    assert_true(glint_clustered_mean(&c, &found, &err));
+    assert_true(found.value == values[0] && isnan(found.low) && isnan(found.high));
+    values[0] = NAN;
+    assert_true(glint_clustered_mean(&c, &found, &err));
+    assert_true(isnan(found.value));
+}
+
 /* Excluded pixels are black for metrics with neighbourhoods, whatever their values are. */
 static void what_is_left_out_leaks_into_no_neighbour(UNUSED void **state) {
     enum { SIZE = 24, PIXELS = SIZE * SIZE };
@@ -277,6 +310,7 @@ int main(void) {
         cmocka_unit_test(intervals_hold_the_mean_as_often_as_they_say),
         cmocka_unit_test(the_same_seed_gives_the_same_interval),
         cmocka_unit_test(a_difference_is_surer_than_its_parts),
+        cmocka_unit_test(intervals_of_means_are_those_of_clusters),
         cmocka_unit_test(what_is_left_out_leaks_into_no_neighbour),
         cmocka_unit_test(metrics_have_names),
     };

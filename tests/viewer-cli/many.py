@@ -2,15 +2,23 @@
 import json
 import os
 import shutil
+import signal
+import statistics
 import subprocess
 import sys
 import tempfile
+import time
 
+import browser
 import tap
 
 FLAT_KIB = 8192  # what 900 captures more may add; their files have 40 MB
+# The same where they are replayed: Lavapipe 22.3 keeps copies of shaders, up to 128 of each (replay/shader/program.c). Their pictures on the sheet alone would have 3 GB.
+FLAT_REPLAYED_KIB = 400000
 SCENES = ("room", "lake", "courtyard")
 BROKEN = "room.0002.exr"
+WAIT = "new Promise(done => {{ const look = () => {} ? done() : setTimeout(look, 20); look(); }})"
+IMAGES = "[...document.querySelectorAll('figure img')].map(i => [i.getAttribute('src'), i.loading, i.complete ? i.naturalWidth : 0])"
 
 
 class Tests:
@@ -18,8 +26,9 @@ class Tests:
         self.folder, self.count = folder, count
         for scene in SCENES:
             tap.glint("sample", scene, "-o", f"{scene}.exr", "--size", "16x9", "--cube-size", "4", "--truth", "1", folder=folder)
-        tap.glint("sample", "room", "-o", "large.exr", "--size", "64x36", "--cube-size", "16", folder=folder)
+        tap.glint("sample", "room", "-o", "large.exr", "--size", "32x18", "--cube-size", "8", folder=folder)
         tap.glint("set", "large.exr", "-o", "wrong.exr", "normalSpace=view", folder=folder)
+        shutil.copy(tap.PLAIN, self.path("short.json"))
         self.fill("few", count // 10)
         self.fill("all", count)
 
@@ -34,6 +43,8 @@ class Tests:
         with open(self.path(name, BROKEN), "wb") as file:
             file.write(b"not an image")
         shutil.copy(self.path("wrong.exr"), self.path(name, "wrong.exr"))
+        with open(self.path(f"{name}.json"), "w", encoding="utf-8") as file:
+            json.dump({"format": 1, "captures": [{"path": f"{name}/{SCENES[i % 3]}.{i // 3:04}.exr", "tags": [SCENES[i % 3], "made"]} for i in range(count)]}, file)
 
     def peak(self, *words, status=0):
         """The most memory that the command had, in KiB."""
@@ -43,13 +54,13 @@ class Tests:
         assert process.returncode == status, (words, process.returncode)
         return usage.ru_maxrss
 
-    def assert_flat(self, *words, status=0):
+    def assert_flat(self, *words, status=0, most=FLAT_KIB):
         """The command takes no more memory for ten times as many captures, of which there have to be many. ALL in its words is the folder of captures."""
         if self.count < 1000:
             return
         few, every = (self.peak(*(word.replace("ALL", name) for word in words), status=status) for name in ("few", "all"))
         print(f"# {words[0]}: {few} KiB for {self.count // 10} captures, {every} KiB for {self.count}", flush=True)
-        assert every - few < FLAT_KIB, (few, every)
+        assert every - few < most, (few, every)
 
     def test_lint(self):
         said = tap.glint("lint", "all", folder=self.folder, status=1).stdout
@@ -82,6 +93,132 @@ class Tests:
         assert len(found["files"]) == self.count + 2 and "nowhere.exr" in found["files"][-1]["error"] and not found["files"][-1]["valid"]
         assert tap.glint("validate", "room.exr", folder=self.folder).stdout == "room.exr: valid\n"
         self.assert_flat("validate", "ALL", "--json", status=1)
+
+    # ---- compare ----
+
+    PRESETS = ("--presets", f"{tap.PLAIN},short.json", "--set", "short:screen_trace.length_m=1", "--effect", "reflection", "--repeat", "1")
+
+    def compared(self):
+        """table.json of all captures, made once, by a comparison that was killed and resumed."""
+        if not os.path.exists(self.path("compared", "table.json")):
+            self.kill_compare()
+            self.said = tap.glint("compare", "all.json", *self.PRESETS, "-o", "compared", folder=self.folder, status=1)
+        with open(self.path("compared", "table.json"), encoding="utf-8") as file:
+            return json.load(file)
+
+    def kill_compare(self):
+        log = self.path("compared", "log.jsonl")
+        with subprocess.Popen([sys.argv[1], "compare", "all.json", *self.PRESETS, "-o", "compared"], cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
+            while not os.path.exists(log) or os.path.getsize(log) < 20000:
+                assert process.poll() is None, "it ended before it was killed"
+                time.sleep(0.01)
+            process.send_signal(signal.SIGKILL)
+        with open(log, "rb") as file:
+            self.lines = [json.loads(line) for line in file.read().split(b"\n")[:-1]]
+        assert 3 <= len(self.lines) < self.count
+        with open(log, "ab") as file:
+            file.write(b'{"capture": 1, "pres')
+
+    def test_compare_goes_on_where_it_was_killed(self):
+        table = self.compared()
+        for line in self.lines:  # whose times nobody measures a second time
+            kept = table["captures"][line["capture"]]
+            assert [p.get("frame_ms") for p in line["presets"]] == [p.get("frame_ms") for p in kept["presets"]], line
+        assert not {"log.jsonl", "compare.json"} & set(os.listdir(self.path("compared")))
+        undisturbed = json.loads(tap.glint("compare", "all.json", *self.PRESETS, "--json", folder=self.folder, status=1).stdout)
+        assert [self.errors(capture) for capture in undisturbed["captures"]] == [self.errors(capture, 9) for capture in table["captures"]]
+
+    def test_compare_refuses_the_journal_of_another_comparison(self):
+        os.mkdir(self.path("other"))
+        with open(self.path("other", "compare.json"), "w", encoding="utf-8") as file:
+            json.dump({"format": 1, "effect": "occlusion"}, file)
+        with open(self.path("other", "log.jsonl"), "w", encoding="utf-8") as file:
+            file.write("{}\n")
+        said = tap.glint("compare", "room.exr", *self.PRESETS, "-o", "other", folder=self.folder, status=2).stderr
+        assert "contains a compare with other" in said, said
+
+    @staticmethod
+    def errors(capture, digits=None):
+        """The errors of a capture's presets over the pixels that both cover."""
+        found = (p["surfaces"][0]["shared"]["symmetric"] for p in capture["presets"])
+        return [float(f"{v:.{digits}g}") if digits else v for v in found]
+
+    def test_compare_sums_up_what_the_captures_have(self):
+        table = self.compared()
+        captures = [c for c in table["captures"] if c["presets"]]
+        assert len(table["captures"]) == self.count and len(captures) == self.count - 1 and table["unreadable"] == 1
+        groups = {group["tag"]: group for group in table["overall"]}
+        assert list(groups) == [None, "room", "made", "lake", "courtyard"]
+        for tag, group in groups.items():
+            own = [self.errors(c) for c in captures if tag is None or tag in c["tags"]]
+            shots = {c["capture"].split(".")[0]: self.errors(c) for c in captures if tag is None or tag in c["tags"]}
+            assert group["captures"] == len(own) and group["shots"] == len(shots)
+            for k in range(2):
+                assert abs(group["presets"][k]["error"]["value"] - statistics.mean(e[k] for e in own)) < 1e-12
+            difference, = group["differences"]
+            found = difference["error"]
+            assert abs(found["value"] - statistics.mean(b - a for a, b in own)) < 1e-12 and (difference["from"], difference["to"]) == ("plain", "short")
+            # A bootstrap over three shots, in each of which all captures are equal, draws the same shot three times in 1 of 27 resamples: 3.7 %.
+            bounds = [b - a for a, b in shots.values()]
+            assert len(shots) == 1 and found["low"] is None or abs(found["low"] - min(bounds)) < 1e-12 and abs(found["high"] - max(bounds)) < 1e-12, found
+
+    def test_compare_shows_the_worst_ten(self):
+        table = self.compared()
+        worst = sorted((c for c in table["captures"] if c["presets"]), key=lambda c: -max(self.errors(c)))[:10]
+        assert [w["capture"] for w in table["worst"]] == [c["capture"] for c in worst]
+        assert [w["error"] for w in table["worst"]] == [max(self.errors(c)) for c in worst]
+        places = {[c["capture"] for c in table["captures"]].index(c["capture"]) for c in worst}
+        assert {int(name.split("-")[0]) for name in os.listdir(self.path("compared", "pictures"))} == places
+        with open(self.path("compared", "page.json"), encoding="utf-8") as file:
+            sections = {s["title"]: s["blocks"] for s in json.load(file)["sections"]}
+        assert list(sections) == ["All captures", "The worst captures", "Captures, the largest errors first"]
+        assert [b["heading"] for b in sections["The worst captures"] if "heading" in b] == [c["capture"] for c in worst]
+        rows = sections["Captures, the largest errors first"][0]["table"]["rows"]
+        assert len(rows) == self.count and [r[0] for r in rows[:10]] == [c["capture"] for c in worst]
+        assert rows[-1][0] == f"all/{BROKEN}" and rows[-1][2:4] == [None, None] and rows[-1][4].startswith("expected an OpenEXR file")
+        broken, = (c for c in table["captures"] if not c["presets"])
+        assert broken["capture"] == f"all/{BROKEN}" and "expected an OpenEXR file" in broken["failure"]
+        assert f"all/{BROKEN}" in self.said.stdout and f"1 of {self.count} captures could not be compared" in self.said.stderr
+        print(f"# the page of {self.count} captures has {os.path.getsize(self.path('compared', 'index.html'))} bytes", flush=True)
+        assert os.path.getsize(self.path("compared", "index.html")) < 10_000_000
+
+    def test_compare_memory(self):
+        self.assert_flat("compare", "ALL.json", *self.PRESETS, "-o", "peak-ALL", status=1, most=FLAT_REPLAYED_KIB)
+
+    def test_compare_page_loads_pictures_when_they_come_into_view(self):
+        table = self.compared()
+        with browser.Browser() as page:
+            page.show(self.path("compared", "index.html"))
+            at_first = [request for request in page.requests if "/pictures/" in request]
+            images = page.evaluate(IMAGES)
+            assert len(images) >= 2 * len(table["worst"]) and all(src.startswith("pictures/") and how == "lazy" for src, how, _ in images), images
+            page.evaluate("new Promise(done => { let y = 0; const step = () => { scrollTo(0, y += 300); y < document.body.scrollHeight ? setTimeout(step, 20) : done(); }; step(); })")
+            page.evaluate(WAIT.format(f"{IMAGES}.every(i => i[2] > 0)"))
+            page.evaluate("document.querySelector('details summary').click()")
+            page.evaluate(WAIT.format("document.querySelector('details table')"))
+            assert len(at_first) < len({request for request in page.requests if "/pictures/" in request}), "those of the fold at least are loaded later"
+            assert not page.messages and not page.dialogs, page.messages
+            assert all(os.path.dirname(request) == "file://" + self.path("compared", "pictures") for request in page.requests[1:]), page.requests
+        with open(self.path("compared", "index.html"), encoding="utf-8") as file:
+            assert "data:image/" not in file.read().split("<script>")[0]
+        tap.glint("report", "compared", "-o", "elsewhere.html", folder=self.folder)
+        with open(self.path("elsewhere.html"), encoding="utf-8") as file:
+            assert "data:image/png" in file.read().split("<script>")[0], "a page elsewhere contains its pictures"
+
+    def test_compare_has_a_row_for_a_broken_capture_among_few(self):
+        said = tap.glint("compare", "room.exr", f"all/{BROKEN}", *self.PRESETS, "--json", "-o", "two", folder=self.folder, status=1)
+        room, broken = json.loads(said.stdout)["captures"]
+        assert len(room["presets"]) == 2 and "expected an OpenEXR file" in broken["failure"] and not broken["presets"]
+        with open(self.path("two", "page.json"), encoding="utf-8") as file:
+            assert [s["title"] for s in json.load(file)["sections"]] == ["All captures", "room.exr", "Captures, the largest errors first"]
+        alone = tap.glint("compare", f"all/{BROKEN}", *self.PRESETS, "-o", "none", folder=self.folder, status=1)
+        assert "expected an OpenEXR file" in alone.stderr and not os.path.exists(self.path("none"))
+
+    def test_compare_refuses_a_capture_with_another_hash(self):
+        with open(self.path("hashed.json"), "w", encoding="utf-8") as file:
+            json.dump({"format": 1, "captures": [{"path": "room.exr", "hash": "0" * 32}, {"path": "lake.exr"}]}, file)
+        room, lake = json.loads(tap.glint("compare", "hashed.json", *self.PRESETS, "--json", folder=self.folder, status=1).stdout)["captures"]
+        assert "expected the hash 000" in room["failure"] and "failure" not in lake
 
 
 def main():

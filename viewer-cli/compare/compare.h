@@ -5,6 +5,7 @@
 #include "capture/missing.h"
 #include "options/args.h"
 #include "glint/judge.h"
+#include "journal/journal.h"
 #include "io/progress.h"
 #include "draw/view/sheet.h"
 
@@ -43,6 +44,7 @@ struct showing {
     struct contest_time frame, cubemaps; /* cubemaps: work that is only done when a cube map changes */
     double *frame_ms, *cubemaps_ms;      /* one for each round; malloc'd */
     json_t *passes;                      /* {slot, variant, ran, reason} */
+    json_t *kept;                        /* what it was read back from, which the texts of `ends` are in; or NULL */
 };
 
 struct contest {
@@ -75,6 +77,8 @@ struct contest_pictures {
     const struct glint_effect *effect;
     struct picture *cells; /* cells of the sheet, row by row */
     size_t columns, capture;
+    bool beside;         /* the page shows the files, and does not contain them */
+    bool drawn;          /* the pictures are there */
     const char *folder;  /* folder in which pictures/ contains them at their own size */
     size_t values_bytes; /* bytes of pixel values stored for each picture */
     json_t *rows;        /* for each row, the pictures as JSON for the page */
@@ -84,7 +88,9 @@ struct contest_pictures {
    for none. False when nothing can be shown at all, or after Ctrl-C. */
 bool contest_run(struct contest *contest, struct glint_capture *capture, struct showing *showings,
                  struct contest_pictures *pictures, struct glint_error *err);
-void showing_finish(struct showing *showing);
+/* Draws the pictures of a capture whose results are known. */
+bool contest_picture(struct contest *contest, struct glint_capture *capture, struct contest_pictures *pictures,
+                     struct glint_error *err);
 
 struct answer {
     struct glint_verdict verdict;
@@ -98,19 +104,97 @@ bool contest_draw_truth(struct contest_pictures *pictures, const struct glint_pi
 bool contest_draw(struct contest_pictures *pictures, size_t column, const struct contestant *contestant,
                   const struct answer *answer, const uint8_t *labels, struct glint_error *err);
 
-/* All captures of a call: showings[capture · contest->count + contestant]. */
+/* ---- Results as JSON, and back: showing.c ---- */
+
+void showing_finish(struct showing *showing);
+/* The share of the judged pixels of a class for which the preset gives a result. */
+double showing_coverage(const struct showing *s, size_t label);
+json_t *showing_json(const struct glint_effect *effect, const char *label, const struct showing *s);
+/* All but the times of single rounds. */
+bool showing_read(const struct glint_effect *effect, json_t *json, struct showing *s, struct glint_error *err);
+
+/* ---- Results of all captures, on disk: log.c ---- */
+
+/* What is kept in memory of each preset on each capture. NAN: unknown. */
+enum contest_figure {
+    CONTEST_ERROR /* over the pixels that all presets cover */,
+    CONTEST_MS,
+    CONTEST_COVERAGE,
+    CONTEST_FIGURES
+};
+enum contest_state { CONTEST_MISSING, CONTEST_DONE, CONTEST_UNREADABLE };
+struct contest_entry {
+    enum contest_state state;
+    long at; /* of its line */
+};
+struct contest_log {
+    const struct contest *contest;
+    const struct list *captures;
+    const char *folder; /* that of the journal, or NULL */
+    struct journal journal;
+    struct glint_folder_lock *lock;
+    FILE *spool; /* a line for each capture, in the order in which they came */
+    struct contest_entry *entries;
+    double *figures;          /* [capture][preset][CONTEST_FIGURES] */
+    struct showing *showings; /* of the capture `loaded` */
+    size_t loaded;
+    struct glint_error fault; /* what could not be stored or read back */
+};
+/* Resumes if the folder has a journal of the same comparison. Close it even if this fails. */
+bool contest_log_open(struct contest_log *log, const struct contest *contest, const struct list *captures,
+                      const char *folder, struct glint_error *err);
+/* Adds the results of a capture, or why there are none (showings is NULL). */
+bool contest_log_add(struct contest_log *log, size_t capture, const struct showing *showings, const char *failure,
+                     struct glint_error *err);
+/* The results of a capture, empty ones where there are none; valid until those of another one are asked for. */
+const struct showing *contest_log_showings(const struct contest_log *log, size_t capture);
+/* {"capture": N, "presets": […], "failure": T}; a new reference, NULL where there is none. */
+json_t *contest_log_line(const struct contest_log *log, size_t capture);
+double contest_log_figure(const struct contest_log *log, size_t capture, size_t preset, enum contest_figure figure);
+/* Whether all results could be stored and read back so far. */
+bool contest_log_check(const struct contest_log *log, struct glint_error *err);
+/* Removes the journal if the comparison is finished, or has no result yet. */
+void contest_log_close(struct contest_log *log, bool finished);
+/* Removes the journal in a folder. The log goes first: what is left if the process ends in between is a journal without results. */
+void contest_log_remove(const char *folder);
+
+/* ---- What is shown ---- */
+
+/* Captures that are shown whole, with pictures: all, or the worst of more. */
+enum { CONTEST_SHOWN = 10 };
 struct contest_table {
     const struct contest *contest;
+    const struct contest_log *log;
     const char *const *captures;
-    const struct showing *showings;
     size_t capture_count;
+    size_t shown[CONTEST_SHOWN]; /* which captures these are */
+    size_t shown_count;
+    bool rows; /* there are more captures */
 };
+const struct showing *contest_showing(const struct contest_table *table, size_t capture, size_t preset);
 void contest_print(const struct contest_table *table);
-json_t *contest_json(const struct contest_table *table);
-/* Lines of text, malloc'd; NULL when memory is short. */
-char *contest_csv(const struct contest_table *table);
-/* FOLDER/index.html, from page.json and the pictures of each capture. */
-bool contest_write_page(const char *folder, const struct contest_table *table, const struct contest_pictures *pictures,
-                        struct glint_error *err);
+/* All captures, one after the other. */
+struct contest_overall;
+void contest_write_json(FILE *out, const struct contest_table *table, const struct contest_overall *overall,
+                        size_t indent, size_t depth);
+void contest_write_csv(FILE *out, const struct contest_table *table);
+/* FOLDER/index.html, from page.json and the pictures of the captures that are shown. */
+bool contest_write_page(const char *folder, const struct contest_table *table, const struct contest_overall *overall,
+                        const struct contest_pictures *pictures, struct glint_error *err);
+
+/* ---- The whole comparison of one effect: run.c ---- */
+
+struct contest_work {
+    const struct list *captures;
+    const char *folder; /* for the results, or NULL */
+    struct glint_folder_lock *lock;
+    struct sheet sheet;
+    struct contest_log log;
+    struct contest_table table;
+    struct contest_overall *overall; /* NULL for one capture */
+    struct contest_pictures pictures[CONTEST_SHOWN];
+};
+bool contest_compare(struct contest *contest, struct contest_work *work, struct glint_error *err);
+void contest_work_finish(struct contest_work *work, bool finished);
 
 #endif

@@ -92,14 +92,6 @@ void contest_judge(struct contest *contest, const struct glint_effect *effect) {
     }
 }
 
-void showing_finish(struct showing *showing) {
-    free(showing->notes);
-    free(showing->frame_ms);
-    free(showing->cubemaps_ms);
-    json_decref(showing->passes);
-    *showing = (struct showing){0};
-}
-
 static void answer_finish(struct answer *answer) {
     glint_verdict_finish(&answer->verdict);
     glint_pixels_finish(&answer->picture);
@@ -288,20 +280,40 @@ static bool look_at_all(const struct contest *contest, struct showing *showings,
     return !pictures || contest_draw_truth(pictures, truth, glint_judge_capture(contest->judge), err);
 }
 
+static bool load(struct contest *contest, struct glint_capture *capture, struct glint_error *err) {
+    const struct glint_judge_options options = {.effect = contest->effect, .truth = true};
+    return (contest->judge || (contest->judge = glint_judge_create(contest->device, &options, err))) &&
+           glint_judge_load(contest->judge, capture, err);
+}
+
+/* The judge goes with the capture: presets share the images that it keeps, other captures do not. */
+static void unload(struct contest *contest, struct answer *answers) {
+    for (size_t i = 0; answers && i < contest->count; i++) answer_finish(&answers[i]);
+    if (contest->judge) glint_judge_destroy(&contest->judge);
+    free(answers);
+}
+
+bool contest_picture(struct contest *contest, struct glint_capture *capture, struct contest_pictures *pictures,
+                     struct glint_error *err) {
+    struct answer *answers = calloc(contest->count + 1, sizeof *answers);
+    struct showing *showings = calloc(contest->count + 1, sizeof *showings);
+    const bool ok = ((answers && showings) || fail_memory(err)) && load(contest, capture, err) &&
+                    look_at_all(contest, showings, answers, pictures, err);
+    for (size_t i = 0; showings && i < contest->count; i++) showing_finish(&showings[i]);
+    unload(contest, answers);
+    free(showings);
+    return ok;
+}
+
 bool contest_run(struct contest *contest, struct glint_capture *capture, struct showing *showings,
                  struct contest_pictures *pictures, struct glint_error *err) {
-    const struct glint_judge_options options = {.effect = contest->effect, .truth = true};
     const struct glint_part_info *gbuffer = glint_capture_find(capture, "gbuffer");
     struct answer *answers = calloc(contest->count + 1, sizeof *answers);
-    bool ok = (answers || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory")) &&
-              (contest->judge || (contest->judge = glint_judge_create(contest->device, &options, err))) &&
-              glint_judge_load(contest->judge, capture, err) &&
+    bool ok = (answers || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory")) && load(contest, capture, err) &&
               look_at_all(contest, showings, answers, pictures, err) &&
               share_pixels(contest, showings, answers, glint_judge_labels(contest->judge),
                            (size_t)gbuffer->width * gbuffer->height, err) &&
               take_turns(contest, showings, err);
-    for (size_t i = 0; answers && i < contest->count; i++) answer_finish(&answers[i]);
-    if (contest->judge) glint_judge_load(contest->judge, NULL, NULL);
-    free(answers);
+    unload(contest, answers);
     return ok;
 }

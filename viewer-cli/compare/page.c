@@ -2,12 +2,8 @@
 #include <math.h>
 #include <string.h>
 
-#include "compare/compare.h"
+#include "compare/overall.h"
 #include "draw/page/page.h"
-
-static const struct showing *showing_of(const struct contest_table *t, size_t capture, size_t preset) {
-    return &t->showings[capture * t->contest->count + preset];
-}
 
 static const char *label_of(const struct contest_table *t, size_t preset) {
     return t->contest->contestants[preset].label;
@@ -46,7 +42,8 @@ static json_t *by_column(const struct contest_pictures *pictures) {
         json_t *caption =
             json_sprintf("%s: %s", json_string_value(json_object_get(shown, "caption")), row_title(pictures, r));
         json_array_append_new(json_array_get(columns, column),
-                              json_pack("{s:O, s:o}", "file", json_object_get(shown, "file"), "caption", caption));
+                              json_pack("{s:O, s:o, s:O*}", "file", json_object_get(shown, "file"), "caption", caption,
+                                        "beside", json_object_get(shown, "beside")));
     }
     return columns;
 }
@@ -83,7 +80,7 @@ static json_t *values_of(const struct glint_effect *effect, const struct showing
 static void add_times(const struct contest_table *t, size_t capture, const json_t *pictures, json_t *blocks) {
     json_t *series = json_array();
     for (size_t p = 0; p < t->contest->count; p++) {
-        const struct showing *s = showing_of(t, capture, p);
+        const struct showing *s = contest_showing(t, capture, p);
         if (!s->ran || !s->compared || s->frame.n == 0) continue;
         json_array_append_new(series,
                               json_pack("{s:s, s:s, s:[{s:f, s:f, s:f, s:o, s:s, s:o, s:O}]}", "kind", "scatter",
@@ -100,7 +97,7 @@ static void add_times(const struct contest_table *t, size_t capture, const json_
 
 static void add_surfaces(const struct contest_table *t, size_t capture, json_t *blocks) {
     bool compared = false;
-    for (size_t p = 0; p < t->contest->count; p++) compared = compared || showing_of(t, capture, p)->compared;
+    for (size_t p = 0; p < t->contest->count; p++) compared = compared || contest_showing(t, capture, p)->compared;
     if (!compared) return;
     const size_t classes = glint_effect_class_count(t->contest->effect);
     json_t *series = json_array(), *names = json_array();
@@ -109,7 +106,7 @@ static void add_surfaces(const struct contest_table *t, size_t capture, json_t *
     for (size_t p = 0; p < t->contest->count; p++) {
         json_t *points = json_array();
         for (size_t k = 0; k <= classes; k++)
-            json_array_append_new(points, json_pack("[o, i]", error_json(showing_of(t, capture, p), k), (int)k));
+            json_array_append_new(points, json_pack("[o, i]", error_json(contest_showing(t, capture, p), k), (int)k));
         json_array_append_new(series,
                               json_pack("{s:s, s:s, s:o}", "kind", "bar", "name", label_of(t, p), "points", points));
     }
@@ -132,7 +129,7 @@ static void add_table(const struct contest_table *t, size_t capture, json_t *blo
     page_column(table, "cube maps", "ms");
     page_column(table, "notes", "");
     for (size_t p = 0; p < t->contest->count; p++) {
-        const struct showing *s = showing_of(t, capture, p);
+        const struct showing *s = contest_showing(t, capture, p);
         json_t *row = json_pack("[s, o]", label_of(t, p), share_json(s, 0));
         for (size_t k = 1; k <= classes + 1; k++) json_array_append_new(row, error_json(s, k % (classes + 1)));
         json_array_append_new(row, s->steps_px > 0 ? json_number(s->steps_px) : json_null());
@@ -156,7 +153,7 @@ static void add_ends(const struct contest_table *t, size_t capture, json_t *bloc
     json_t *reasons = json_object(), *presets = json_array(), *series = json_array(), *points;
     const char *name;
     for (size_t p = 0; p < t->contest->count; p++) {
-        const struct showing *s = showing_of(t, capture, p);
+        const struct showing *s = contest_showing(t, capture, p);
         json_array_append_new(presets, json_string(label_of(t, p)));
         for (size_t i = 0; s->ran && i < s->ends.count; i++) add_end(reasons, &s->ends.rows[i], p);
     }
@@ -172,10 +169,10 @@ static void add_ends(const struct contest_table *t, size_t capture, json_t *bloc
     json_decref(series);
 }
 
-static void add_capture(json_t *document, const struct contest_table *t, const struct contest_pictures *pictures,
-                        size_t capture) {
-    const char *path = t->captures[capture], *slash = strrchr(path, '/');
-    json_t *blocks = page_section(document, slash ? slash + 1 : path), *columns = by_column(pictures);
+/* Charts, table and pictures of a capture. */
+static void add_details(json_t *blocks, const struct contest_table *t, const struct contest_pictures *pictures) {
+    const size_t capture = pictures->capture;
+    json_t *columns = by_column(pictures);
     add_times(t, capture, columns, blocks);
     add_surfaces(t, capture, blocks);
     add_table(t, capture, blocks);
@@ -184,8 +181,35 @@ static void add_capture(json_t *document, const struct contest_table *t, const s
     json_decref(columns);
 }
 
-bool contest_write_page(const char *folder, const struct contest_table *t, const struct contest_pictures *pictures,
-                        struct glint_error *err) {
+/* One of the worst: its pictures, and the rest when it is asked for. */
+static void add_worst(json_t *blocks, const struct contest_table *t, const struct contest_pictures *pictures) {
+    json_t *shown = json_array(), *columns = by_column(pictures), *column;
+    size_t i;
+    json_array_foreach(columns, i, column) {
+        json_t *first = json_array_get(column, 0);
+        if (!first) continue;
+        json_array_append(shown, first);
+    }
+    page_text(blocks, "heading", t->captures[pictures->capture]);
+    json_array_append_new(blocks, json_pack("{s:O}", "pictures", shown));
+    add_details(page_fold(blocks, "Charts, table, all pictures"), t, pictures);
+    json_decref(columns);
+    json_decref(shown);
+}
+
+static void add_captures(json_t *document, const struct contest_table *t, const struct contest_pictures *pictures) {
+    json_t *worst = NULL;
+    if (t->rows) worst = page_section(document, "The worst captures");
+    for (size_t k = 0; k < CONTEST_SHOWN; k++) {
+        const char *path = t->captures[pictures[k].capture];
+        if (!pictures[k].drawn) continue;
+        if (t->rows) add_worst(worst, t, &pictures[k]);
+        else add_details(page_section(document, base_name(path)), t, &pictures[k]);
+    }
+}
+
+bool contest_write_page(const char *folder, const struct contest_table *t, const struct contest_overall *overall,
+                        const struct contest_pictures *pictures, struct glint_error *err) {
     const struct glint_device_info *device = glint_device_get_info(t->contest->device);
     char path[4096], text[400];
     if (snprintf(path, sizeof path, "%s/index.html", folder) >= (int)sizeof path)
@@ -200,7 +224,9 @@ bool contest_write_page(const char *folder, const struct contest_table *t, const
               "mean of |found \u2212 truth| / (found + truth), 0 to 1, over the pixels for which the preset finds "
               "one");
     bool ok = document || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    for (size_t c = 0; ok && c < t->capture_count; c++) add_capture(document, t, &pictures[c], c);
+    if (ok && overall) contest_page_figures(document, t, overall);
+    if (ok) add_captures(document, t, pictures);
+    if (ok && overall && (t->rows || overall->unreadable)) contest_page_rows(document, t, overall);
     ok = ok && page_store(folder, document, err) && page_write(path, document, folder, err);
     json_decref(document);
     return ok;

@@ -30,9 +30,10 @@ static bool keep_picture(struct contest_pictures *p, size_t row, size_t column, 
         render_plain(&picture, &legend, &source, &options, &invalid, err) && png_file_write(path, &picture, err);
     picture_finish(&picture);
     if (!ok) return false;
-    json_array_append_new(json_array_get(p->rows, row),
-                          json_pack("{s:s, s:s, s:I, s:o}", "file", file, "caption", label, "column",
-                                    (json_int_t)column, "values", page_values(&source, p->values_bytes)));
+    json_t *shown = json_pack("{s:s, s:s, s:I, s:o}", "file", file, "caption", label, "column", (json_int_t)column,
+                              "values", page_values(&source, p->values_bytes));
+    if (p->beside) json_object_set_new(shown, "beside", json_true());
+    json_array_append_new(json_array_get(p->rows, row), shown);
     return true;
 }
 

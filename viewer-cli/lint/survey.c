@@ -140,13 +140,6 @@ json_t *lint_survey_json(const struct lint_survey *survey) {
                      (json_int_t)count_failed(survey));
 }
 
-/* Without the path, which the row has already. */
-static const char *message_of(const struct lint_survey_row *row) {
-    const size_t length = strlen(row->path);
-    const bool named = !strncmp(row->failure, row->path, length) && !strncmp(row->failure + length, ": ", 2);
-    return row->failure + (named ? length + 2 : 0);
-}
-
 /* "depth.reversed, normal.space", or why the capture cannot be read. */
 static void cell_of_findings(struct table *table, const struct lint_survey_row *row) {
     char text[LINT_FINDINGS * (48 + 2)] = "";
@@ -154,7 +147,7 @@ static void cell_of_findings(struct table *table, const struct lint_survey_row *
     size_t i, length = 0;
     json_array_foreach(row->findings, i, finding) length += (size_t)snprintf(
         text + length, sizeof text - length, "%s%s", i ? ", " : "", json_string_value(json_object_get(finding, "id")));
-    table_cell(table, "%s", row->failure ? message_of(row) : text);
+    table_cell(table, "%s", row->failure ? without_path(row->failure, row->path) : text);
     if (row->failure) table_mark(table, MARK_FAIL);
 }
 

@@ -207,6 +207,12 @@ const char *base_name(const char *path) {
     return slash ? slash + 1 : path;
 }
 
+const char *without_path(const char *message, const char *path) {
+    const size_t length = strlen(path);
+    const bool named = !strncmp(message, path, length) && !strncmp(message + length, ": ", 2);
+    return message + (named ? length + 2 : 0);
+}
+
 bool fail_memory(struct glint_error *err) {
     return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
 }

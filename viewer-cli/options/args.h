@@ -90,6 +90,8 @@ char *join_names(const char *before, const char *const *names);
 
 /* The last component of a path. */
 const char *base_name(const char *path);
+/* What follows "PATH: " in a message that begins with it, for a row that has the path already; else the message. */
+const char *without_path(const char *message, const char *path);
 /* Sets the error and returns false. */
 bool fail_memory(struct glint_error *err);
 

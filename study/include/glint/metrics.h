@@ -141,6 +141,17 @@ bool glint_metrics_valid(const struct glint_metric_table *table, const char *wha
 bool glint_metrics_difference(const struct glint_metric_table *a, const struct glint_metric_table *b, size_t row,
                               enum glint_metric metric, struct glint_figure *difference, struct glint_error *err);
 
+/* Values that come in clusters, such as the figures of captures, of which those of one shot resemble each other. */
+struct glint_clustered {
+    const double *values;   /* NAN: unknown, which is left out */
+    const size_t *clusters; /* of each value, less than cluster_count */
+    size_t count, cluster_count;
+    uint32_t resamples, seed;
+};
+/* The mean of the known values (NAN without any) and its 95 % interval, by a bootstrap over clusters: NAN if fewer than two have known values.
+   Of few clusters the interval is too narrow. For a paired difference, the values are the differences of the pairs. */
+bool glint_clustered_mean(const struct glint_clustered *clustered, struct glint_figure *mean, struct glint_error *err);
+
 /* ---- Change from frame to frame ---- */
 
 /* Root mean squares over the first three channels of the pixels that are compared in both frames. Errors that stay where they are cancel:

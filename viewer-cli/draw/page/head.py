@@ -1,10 +1,11 @@
 """What stands around the document of every page: head.py STYLE.css... NOTICE ECHARTS.js SCRIPT.js... HEAD.html SCRIPTS.html. The policy
-names the scripts by their digests, so that nothing else on the page runs, and lets nothing be fetched. With --live before them, the page may
+names the scripts by their digests, so that nothing else on the page runs, and lets nothing be fetched but pictures beside the page. With --live before them, the page may
 ask its own server. ECharts is written between document and scripts by the program, which needs it for itself, too."""
 import base64
 import hashlib
 import sys
 
+BESIDE = " 'self' file:"  # a page that is opened as a file has no origin to be itself of
 LIVE = " blob:; connect-src 'self'"
 
 live = sys.argv[1] == "--live"
@@ -26,7 +27,7 @@ for path in scripts:
     if b"</script" in text.lower() or b"<!--" in text or b"\r" in text:
         sys.exit(f"{path}: cannot stand in a page as it is")
     digests.append("'sha256-" + base64.b64encode(hashlib.sha256(text).digest()).decode() + "'")
-policy = (f"default-src 'none'; script-src {' '.join(digests)}; style-src 'unsafe-inline'; img-src data:{LIVE if live else ''}; "
+policy = (f"default-src 'none'; script-src {' '.join(digests)}; style-src 'unsafe-inline'; img-src data:{LIVE if live else BESIDE}; "
           "base-uri 'none'; form-action 'none'")
 with open(head, "w", encoding="utf-8") as file:
     file.write(f"""<!doctype html>

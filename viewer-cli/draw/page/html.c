@@ -9,6 +9,7 @@
 #include "draw/blobs.h"
 #include "inside.h"
 #include "io/output.h"
+#include "options/args.h"
 
 /* ---- Pictures: each is stored once and referred to by its index ---- */
 
@@ -16,6 +17,7 @@ struct files {
     json_t *places; /* {file: index} */
     json_t *uris;
     const char *folder;
+    bool beside; /* the page is in this folder */
 };
 
 /* Replaces the file names of all pictures by their indices. */
@@ -30,7 +32,7 @@ static void number_files(struct files *files, json_t *json) {
         json_t *picture;
         json_array_foreach(item, i, picture) {
             const char *file = json_string_value(json_object_get(picture, "file"));
-            if (!file) continue;
+            if (!file || (files->beside && json_is_true(json_object_get(picture, "beside")))) continue;
             if (!json_object_get(files->places, file))
                 json_object_set_new(files->places, file, json_integer((json_int_t)json_object_size(files->places)));
             json_object_set(picture, "file", json_object_get(files->places, file));
@@ -128,9 +130,16 @@ char *page_live(struct glint_error *err) {
     return text;
 }
 
+/* Whether the file is in the folder, by their names. */
+static bool is_in(const char *path, const char *folder) {
+    const char *name = base_name(path);
+    const size_t length = folder ? strlen(folder) : 0;
+    return length && (size_t)(name - path) == length + 1 && !strncmp(path, folder, length);
+}
+
 bool page_write(const char *path, const json_t *document, const char *folder, struct glint_error *err) {
     json_t *copy = json_deep_copy(document);
-    struct files files = {json_object(), json_array(), folder};
+    struct files files = {json_object(), json_array(), folder, is_in(path, folder)};
     number_files(&files, copy);
     bool ok = load_files(&files, err);
     if (ok) json_object_set(copy, "files", files.uris);

@@ -22,8 +22,9 @@
    "refresh" of a document, in seconds: the page reloads itself unless somebody is using it.
    CELL: text, number, boolean, null (unknown), or {"value": number, "low": L, "high": H, "text": T}: a number with its
    interval, or shown as T and sorted by value.
-   PICTURE: {"file": F, "caption": T, "group": T}. A picture whose group is not that of the one before begins a row below the
-   group's name. F: a PNG in the document's folder, or the result of page_picture.
+   PICTURE: {"file": F, "caption": T, "group": T, "beside": BOOL}. A picture whose group is not that of the one before begins a row
+   below the group's name. F: a PNG in the document's folder, or the result of page_picture. beside: a page in that folder shows the
+   file pictures/NAME.png itself, which is loaded when it comes into view; pages elsewhere contain it.
    SHOWN: a PICTURE, optionally with "values": VALUES and "key": KEY; "alone": BOOL, it is not compared with others (a heat map).
    VALUES: {"channels": [T, …], "unit": T, "width": PX, "height": PX, "every": N, "names": {"VALUE": T, …}, "data": the result of page_values}
                                              the values of every N-th pixel, to limit the size; names: what single values mean
@@ -44,7 +45,8 @@
    MARK: {"x": X} or {"y": Y}: a line; {"x": X, "y": Y}: a point; with "label": T.
    Points <= 0 on a logarithmic axis are skipped, and the page counts them. Unknown members are ignored.
 
-   Any text may come from an untrusted file: pages never interpret texts, run only their own scripts and load nothing. */
+   Any text may come from an untrusted file: pages never interpret texts, run only their own scripts and load nothing but
+   pictures beside them. */
 #ifndef GLINT_VIEWER_PAGE_H
 #define GLINT_VIEWER_PAGE_H
 

@@ -3,8 +3,9 @@
     'use strict';
     const {list, element, terms} = glintParts;
     const page = JSON.parse(document.getElementById('document').textContent);
-    const data = /^data:image\/(png|jpeg);base64,[A-Za-z0-9+\/=]*$/;
+    const data = /^data:image\/(png|jpeg);base64,[A-Za-z0-9+\/=]*$/, beside = /^pictures\/[\w-]+\.png$/;
     const own = glintParts.page(picture => {
+        if (picture.beside === true && typeof picture.file === 'string') return beside.test(picture.file) ? picture.file : null;
         const uri = list(page.files)[picture.file];
         return typeof uri === 'string' && data.test(uri) ? uri : null;
     });
