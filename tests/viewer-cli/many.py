@@ -220,6 +220,47 @@ class Tests:
         room, lake = json.loads(tap.glint("compare", "hashed.json", *self.PRESETS, "--json", folder=self.folder, status=1).stdout)["captures"]
         assert "expected the hash 000" in room["failure"] and "failure" not in lake
 
+    # ---- check ----
+
+    def make_runs(self):
+        """As many runs and baselines as captures, all of them equal; one that differs, one that is broken, and one without a baseline."""
+        replay = ("replay", "room.exr", "-p", tap.PLAIN, "--outputs", "reflection")
+        tap.glint(*replay, "-o", "run", folder=self.folder)
+        tap.glint(*replay, "--set", "cubemap_trace.steps_hq=1", "--set", "screen_trace.length_m=0.1", "-o", "other", folder=self.folder)
+        for name, count in (("few", self.count // 10), ("all", self.count)):
+            for folder in (f"runs-{name}", f"bases-{name}"):
+                for i in range(count):
+                    shutil.copytree(self.path("run"), self.path(folder, f"r{i:04}"))
+            shutil.copytree(self.path("run"), self.path(f"runs-{name}", "new"))
+            for run, source in (("x-other", "other"), ("x-broken", "run")):
+                shutil.copytree(self.path(source), self.path(f"runs-{name}", run))
+                shutil.copytree(self.path("run"), self.path(f"bases-{name}", run))
+            for file in os.listdir(self.path(f"runs-{name}", "x-broken")):
+                if file.endswith(".exr"):
+                    os.truncate(self.path(f"runs-{name}", "x-broken", file), 100)
+
+    def test_check(self):
+        self.make_runs()
+        said = tap.glint("check", "runs-all", "--baseline", "bases-all", folder=self.folder, status=4)
+        lines = said.stdout.splitlines()
+        assert lines[-1] == f"{self.count + 3} runs: {self.count} same, 2 fails, 1 unreadable", said.stdout[-300:]
+        begin = next(i for i, line in enumerate(lines) if line.startswith("run ") and "first that differs" in line)
+        rows = [line.split() for line in lines[begin + 1:-2]]
+        assert len(rows) == self.count + 3 and [row[0] for row in rows[:4]] == [f"runs-all/{name}" for name in ("x-broken", "x-other", "new", "r0000")], rows[:4]
+        assert rows[0][1] == "unreadable" and rows[1][1:3] == ["fails", "1"] and rows[2][1] == "fails" and "--approve" in rows[2] and rows[3][1] == "same"
+        shown = [line for line in lines[:begin] if line.startswith("runs-all/")]
+        assert shown == ["runs-all/new", "runs-all/x-other"], "of many, those that differ"
+        assert "x-broken" in said.stderr
+        found = json.loads(tap.glint("check", "runs-all", "--baseline", "bases-all", "--json", folder=self.folder, status=4).stdout)
+        assert found["status"] == 4 and len(found["runs"]) == self.count + 3
+        assert found["summary"] == {"same": self.count, "warning": 0, "fails": 2, "different size": 0, "unreadable": 1}
+        assert [os.path.basename(row["b"]) for row in found["worst"]] == [os.path.basename(row[0]) for row in rows]
+        broken, = (run for run in found["runs"] if os.path.basename(run["b"]) == "x-broken")
+        assert broken["status"] == 4 and broken["error"] and broken["error"] == found["worst"][0]["message"]
+        if self.count // 10 + 3 <= 10:
+            assert tap.glint("check", "runs-few", "--baseline", "bases-few", folder=self.folder, status=4).stdout.count("runs-few/r0000\n") == 1, "of few, all"
+        self.assert_flat("check", "runs-ALL", "--baseline", "bases-ALL", "--json", status=4)
+
 
 def main():
     sys.argv[1] = os.path.abspath(sys.argv[1])

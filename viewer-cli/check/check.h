@@ -2,7 +2,7 @@
 #ifndef GLINT_VIEWER_CHECK_H
 #define GLINT_VIEWER_CHECK_H
 
-#include "glint/common.h"
+#include "diff/diff.h"
 
 /* ---- Pairs of folders: runs.c ---- */
 
@@ -17,6 +17,29 @@ struct check_pairs {
 /* A run and its baseline; of a folder of runs (as replay makes of several captures) each with the one of its name, by name. */
 bool check_pairs_find(struct check_pairs *pairs, const char *run, const char *baseline, struct glint_error *err);
 void check_pairs_finish(struct check_pairs *pairs);
+
+/* ---- What is told of many runs: survey.c ---- */
+
+struct check_row {
+    const struct check_pair *pair;
+    enum diff_status status;
+    size_t differing, images; /* that differ by more than the limits, or that only one run has; all */
+    char *first;              /* "SLOT: IMAGE", the first that differs; or NULL */
+    char *message;            /* why they were not compared; or NULL */
+};
+struct check_survey {
+    struct check_row *rows; /* zero-initialised */
+    size_t count;
+};
+/* Adds a row, of which it copies the message; `diff` may be NULL. */
+bool check_survey_add(struct check_survey *survey, const struct check_pair *pair, enum diff_status status,
+                      const struct diff *diff, const char *message, struct glint_error *err);
+/* Sorts the rows: the worst status first, then the most images that differ. */
+void check_survey_sort(struct check_survey *survey);
+void check_survey_print(const struct check_survey *survey);
+/* {"summary": {STATUS: number}, "worst": the rows} */
+json_t *check_survey_json(const struct check_survey *survey);
+void check_survey_finish(struct check_survey *survey);
 
 /* ---- Approval: approve.c ---- */
 

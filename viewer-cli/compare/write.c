@@ -30,22 +30,6 @@ static json_t *capture_json(const struct contest_table *t, size_t capture) {
     return json;
 }
 
-/* A text of JSON, whose strings have no line breaks, further inside by so many spaces. */
-static void put_inside(FILE *out, const char *text, size_t spaces) {
-    for (const char *end; (end = strchr(text, '\n')) != NULL; text = end + 1)
-        fprintf(out, "%.*s\n%*s", (int)(end - text), text, (int)spaces, "");
-    fputs(text, out);
-}
-
-/* Writes the value, and releases it. */
-static void put_json(FILE *out, json_t *json, size_t indent, size_t spaces) {
-    char *text = json ? record_text(json, JSON_INDENT(indent) | (indent > 1 ? JSON_REAL_PRECISION(9) : 0)) : NULL;
-    if (text) put_inside(out, text, spaces);
-    else memory_note();
-    free(text);
-    json_decref(json);
-}
-
 void contest_write_json(FILE *out, const struct contest_table *t, const struct contest_overall *overall, size_t indent,
                         size_t depth) {
     static const char empty[] = "\"captures\": []";
@@ -58,13 +42,13 @@ void contest_write_json(FILE *out, const struct contest_table *t, const struct c
         const size_t spaces = indent * depth, inner = spaces + 2 * indent;
         char *list = cut + strlen(mark) - 1;
         *list = '\0';
-        put_inside(out, text, spaces);
+        json_put_text(out, text, spaces);
         for (size_t c = 0; c < t->capture_count; c++) {
             fprintf(out, "%s\n%*s", c ? "," : "", (int)inner, "");
-            put_json(out, capture_json(t, c), indent, inner);
+            json_put(out, capture_json(t, c), indent, inner);
         }
         fprintf(out, "\n%*s]", (int)(spaces + indent), "");
-        put_inside(out, list + 1, spaces);
+        json_put_text(out, list + 1, spaces);
     } else memory_note();
     free(text);
     json_decref(around);

@@ -10,6 +10,7 @@
 
 #include "io/console.h"
 #include "nearest.h"
+#include "io/memory.h"
 #include "options/capture_set.h"
 #include "record.h"
 
@@ -226,6 +227,21 @@ enum status print_json(json_t *json) {
     else fprintf(stderr, "glint: cannot make the JSON text: out of memory, or a text that is not UTF-8\n");
     free(text);
     return failed ? STATUS_CHECK : STATUS_DONE;
+}
+
+/* Strings of JSON have no line breaks. */
+void json_put_text(FILE *out, const char *text, size_t spaces) {
+    for (const char *end; (end = strchr(text, '\n')) != NULL; text = end + 1)
+        fprintf(out, "%.*s\n%*s", (int)(end - text), text, (int)spaces, "");
+    fputs(text, out);
+}
+
+void json_put(FILE *out, json_t *json, size_t indent, size_t spaces) {
+    char *text = json ? record_text(json, JSON_INDENT(indent) | (indent > 1 ? JSON_REAL_PRECISION(9) : 0)) : NULL;
+    if (text) json_put_text(out, text, spaces);
+    else memory_note();
+    free(text);
+    json_decref(json);
 }
 
 json_t *json_number(double value) {

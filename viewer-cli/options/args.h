@@ -97,6 +97,10 @@ bool fail_memory(struct glint_error *err);
 
 /* Prints indented JSON to stdout and releases it. */
 enum status print_json(json_t *json);
+/* For JSON that is written in pieces, because it is large. Writes a text of JSON to a place that is indented by so many spaces. */
+void json_put_text(FILE *out, const char *text, size_t spaces);
+/* The same for a value, which it releases; indented by `indent`, with the digits that print_json shows unless that is 1. */
+void json_put(FILE *out, json_t *json, size_t indent, size_t spaces);
 /* A JSON number; null if it is not finite. */
 json_t *json_number(double value);
 json_t *json_numbers(const double *values, size_t count);
