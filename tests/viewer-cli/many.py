@@ -17,7 +17,7 @@ FLAT_KIB = 8192  # what 900 captures more may add; their files have 40 MB
 FLAT_REPLAYED_KIB = 400000
 SCENES = ("room", "lake", "courtyard")
 BROKEN = "room.0002.exr"
-WAIT = "new Promise(done => {{ const look = () => {} ? done() : setTimeout(look, 20); look(); }})"
+WAIT = "new Promise((done, fail) => {{ const end = Date.now() + 30000, look = () => {} ? done() : Date.now() > end ? fail() : setTimeout(look, 20); look(); }})"
 IMAGES = "[...document.querySelectorAll('figure img')].map(i => [i.getAttribute('src'), i.loading, i.complete ? i.naturalWidth : 0])"
 
 
@@ -69,12 +69,12 @@ class Tests:
         assert rows[0].startswith(f"all/{BROKEN} ") and "expected an OpenEXR file" in rows[0], rows[0]
         assert rows[1].split()[:2] == ["all/wrong.exr", "1"] and rows[1].endswith("normal.world_space"), rows[1]
         assert said.splitlines()[-1] == f"{self.count + 1} captures: 1 with findings, {self.count - 1} without, 1 unreadable", said[-200:]
-        found = json.loads(tap.glint("lint", "all", "--json", folder=self.folder, status=1).stdout)
-        assert [row["capture"] for row in found["captures"][:2]] == [f"all/{BROKEN}", "all/wrong.exr"]
+        found = json.loads(tap.glint("lint", "few", "--json", folder=self.folder, status=1).stdout)
+        assert [row["capture"] for row in found["captures"][:2]] == [f"few/{BROKEN}", "few/wrong.exr"]
         assert "expected an OpenEXR file" in found["captures"][0]["error"]
         assert found["captures"][1]["findings"] == [{"id": "normal.world_space", "likelihood": "certain"}] and found["captures"][1]["certain"] == 1
         assert [(row["id"], row["captures"], row["certain"]) for row in found["findings"]] == [("normal.world_space", 1, 1)]
-        assert found["summary"] == {"captures": self.count + 1, "with_findings": 1, "unreadable": 1}
+        assert found["summary"] == {"captures": len(os.listdir(self.path("few"))), "with_findings": 1, "unreadable": 1}
         self.assert_flat("lint", "ALL", "--json", status=1)
 
     def test_lint_of_one_capture(self):
