@@ -61,6 +61,10 @@ class Tests:
         found = said.rsplit("found ", 1)[1].strip()
         self.write("hashed.json", {"format": 1, "captures": [{"path": "shot/f.0002.exr", "hash": found}]})
         tap.glint(*sweep, folder=self.folder)
+        wrong = {"path": "shot/f.0001.exr", "hash": "1" * 32}  # of several captures, this one alone is left out
+        self.write("hashed.json", {"format": 1, "captures": [{"path": "shot/f.0002.exr", "hash": found}, wrong]})
+        run = tap.glint(*[word.replace("swept", "two") for word in sweep], folder=self.folder, status=1)
+        assert "left out: shot/f.0001.exr: expected the hash 111" in run.stderr and "mean of 1 of 2" in run.stdout, run
 
     def test_a_sweep_has_figures_by_tag_and_goes_on_without_broken_captures(self):
         tap.glint("sample", "room", "-o", "true.exr", "--size", "16x9", "--cube-size", "4", "--truth", "1", folder=self.folder)

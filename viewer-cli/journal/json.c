@@ -66,6 +66,10 @@ json_t *captures_json(const struct list *captures, bool lenient, struct glint_er
     for (size_t i = 0; i < captures->count; i++) {
         char hash[33];
         *err = (struct glint_error){0};
+        if (lenient && capture_set_hash(captures, i)) {
+            json_array_append_new(list, json_string(capture_set_hash(captures, i)));
+            continue;
+        }
         struct glint_capture *capture = glint_capture_open(captures->items[i], NULL, err);
         const bool ok = capture && glint_capture_hash(capture, hash, err) && capture_set_check(captures, i, hash, err);
         if (capture) glint_capture_close(&capture);

@@ -225,8 +225,12 @@ json_t *capture_set_all_tags(const struct list *captures) {
     return all;
 }
 
+const char *capture_set_hash(const struct list *captures, size_t i) {
+    return json_string_value(json_object_get(json_array_get(captures->set, i), "hash"));
+}
+
 bool capture_set_check(const struct list *captures, size_t i, const char *hash, struct glint_error *err) {
-    const char *expected = json_string_value(json_object_get(json_array_get(captures->set, i), "hash"));
+    const char *expected = capture_set_hash(captures, i);
     return !expected || !strcmp(expected, hash) ||
            glint_fail(err, GLINT_ERROR_FORMAT, "%s: expected the hash %s, as its set says, found %s",
                       captures->items[i], expected, hash);

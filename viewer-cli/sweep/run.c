@@ -8,6 +8,7 @@
 #include "draw/view/pixels.h"
 #include "draw/view/png_file.h"
 #include "journal/again.h"
+#include "options/capture_set.h"
 #include "sweep/sweep.h"
 
 /* State of the work on one capture. */
@@ -214,6 +215,13 @@ static bool take_turns(struct work *work, struct glint_error *err) {
 
 typedef bool (*task)(struct work *work, struct glint_error *err);
 
+/* Reading a large capture for its hash takes long: of a set of many, a shard reads those that it works on. */
+static bool check_hash(const struct sweep *sweep, size_t c, struct glint_capture *capture, struct glint_error *err) {
+    char hash[33];
+    return !capture_set_hash(&sweep->captures, c) ||
+           (glint_capture_hash(capture, hash, err) && capture_set_check(&sweep->captures, c, hash, err));
+}
+
 static bool on_capture(struct work *work, size_t c, task task, struct glint_error *err) {
     struct sweep *sweep = work->sweep;
     struct glint_judge_options options = answer_args_judge(&sweep->against, sweep->out, c);
@@ -223,7 +231,8 @@ static bool on_capture(struct work *work, size_t c, task task, struct glint_erro
     struct glint_capture *capture = glint_capture_open(sweep->captures.items[c], NULL, err);
     work->capture = c;
     work->again = (struct again){&cmd_sweep, sweep->device, &work->judge, 1, 0, false};
-    bool ok = capture && (work->judge = glint_judge_create(sweep->device, &options, err)) &&
+    bool ok = capture && check_hash(sweep, c, capture, err) &&
+              (work->judge = glint_judge_create(sweep->device, &options, err)) &&
               glint_judge_load(work->judge, capture, err) && find_answer(work, err);
     work->begun = ok;
     ok = ok && task(work, err);
