@@ -95,7 +95,9 @@ void man_print_program(void) {
     }
     printf(".El\n"
            ".Sh ENVIRONMENT\n.Bl -tag -width GLINT_DISPATCH_LIMIT\n"
-           ".It Ev GLINT_CACHE\nThe folder in which results for cube maps are kept; none disables it.\n"
+           ".It Ev GLINT_CACHE\nThe folder in which results for cube maps and traced references are kept; none "
+           "disables it.\n"
+           ".It Ev GLINT_CACHE_GIB\nHow much it may hold, in GiB (default 4).\n"
            ".It Ev GLINT_DEVICE\nThe device to use: its index or a part of its name.\n"
            ".It Ev GLINT_DISPATCH_LIMIT\nThe seconds that the device may take for a pass.\n"
            ".It Ev GLINT_PASSES\nA folder whose shaders replace the built-in ones, such as a source tree's\n.Pa "

@@ -6,7 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "cache.h"
+#include "glint/cache.h"
 #include "glint/replay.h"
 #include "unit.h"
 
@@ -59,19 +59,19 @@ static void what_was_stored_comes_back(UNUSED void **state) {
     struct place place;
     char path[256];
     begin(&place);
-    assert_false(cache_find(place.folder, keys[0], path, sizeof path)); /* no folder yet */
+    assert_false(glint_cache_find(place.folder, keys[0], path, sizeof path)); /* no folder yet */
     write_text(place.file, "first");
-    cache_store(place.folder, keys[0], place.file, UINT64_MAX);
+    glint_cache_store(place.folder, keys[0], place.file, UINT64_MAX);
     write_text(place.file, "changed"); /* modified in place, but the entry is a copy */
-    assert_true(cache_copy(place.folder, keys[0], place.back));
+    assert_true(glint_cache_copy(place.folder, keys[0], place.back));
     expect_text(place.back, "first");
     write_text(place.back, "changed");
-    assert_true(cache_find(place.folder, keys[0], path, sizeof path));
+    assert_true(glint_cache_find(place.folder, keys[0], path, sizeof path));
     expect_text(path, "first");
-    assert_false(cache_find(place.folder, keys[1], path, sizeof path));
+    assert_false(glint_cache_find(place.folder, keys[1], path, sizeof path));
     write_text(place.file, "second");
-    cache_store(place.folder, keys[0], place.file, UINT64_MAX);
-    assert_true(cache_copy(place.folder, keys[0], place.back));
+    glint_cache_store(place.folder, keys[0], place.file, UINT64_MAX);
+    assert_true(glint_cache_copy(place.folder, keys[0], place.back));
     expect_text(place.back, "second");
     assert_int_equal(count_files(place.folder), 1); /* no incomplete or old files */
     remove_place(&place);
@@ -84,11 +84,11 @@ static void a_damaged_entry_is_none(UNUSED void **state) {
     begin(&place);
     for (int give = 0; give < 2; give++) {
         write_text(place.file, "first");
-        cache_store(place.folder, keys[0], place.file, UINT64_MAX);
-        assert_true(cache_find(place.folder, keys[0], path, sizeof path));
+        glint_cache_store(place.folder, keys[0], place.file, UINT64_MAX);
+        assert_true(glint_cache_find(place.folder, keys[0], path, sizeof path));
         write_text(path, give ? "firs" : "worst");
-        if (give) assert_false(cache_copy(place.folder, keys[0], place.back));
-        else assert_false(cache_find(place.folder, keys[0], path, sizeof path));
+        if (give) assert_false(glint_cache_copy(place.folder, keys[0], place.back));
+        else assert_false(glint_cache_find(place.folder, keys[0], path, sizeof path));
         assert_int_equal(access(place.back, F_OK), -1);
     }
     remove_place(&place);
@@ -101,15 +101,15 @@ static void another_keys_contents_are_none(UNUSED void **state) {
     begin(&place);
     for (int i = 0; i < 2; i++) {
         write_text(place.file, i ? "first" : "other");
-        cache_store(place.folder, keys[i], place.file, UINT64_MAX);
+        glint_cache_store(place.folder, keys[i], place.file, UINT64_MAX);
     }
-    assert_true(cache_find(place.folder, keys[0], other, sizeof other));
-    assert_true(cache_find(place.folder, keys[1], path, sizeof path));
+    assert_true(glint_cache_find(place.folder, keys[0], other, sizeof other));
+    assert_true(glint_cache_find(place.folder, keys[1], path, sizeof path));
     assert_int_equal(unlink(path), 0);
     snprintf(path, sizeof path, "%s/%s%s", place.folder, keys[1], other + strlen(place.folder) + 1 + strlen(keys[0]));
     assert_int_equal(rename(other, path), 0);
-    assert_false(cache_copy(place.folder, keys[1], place.back));
-    assert_false(cache_find(place.folder, keys[1], path, sizeof path));
+    assert_false(glint_cache_copy(place.folder, keys[1], place.back));
+    assert_false(glint_cache_find(place.folder, keys[1], path, sizeof path));
     assert_int_equal(count_files(place.folder), 0);
     remove_place(&place);
 }
@@ -121,12 +121,12 @@ static void what_is_no_file_is_none(UNUSED void **state) {
     begin(&place);
     for (int kind = 0; kind < 3; kind++) {
         write_text(place.file, "first");
-        cache_store(place.folder, keys[0], place.file, UINT64_MAX);
-        assert_true(cache_find(place.folder, keys[0], path, sizeof path));
+        glint_cache_store(place.folder, keys[0], place.file, UINT64_MAX);
+        assert_true(glint_cache_find(place.folder, keys[0], path, sizeof path));
         assert_int_equal(rename(path, place.back), 0); /* the very contents */
         assert_int_equal(kind == 0 ? mkfifo(path, 0600) : kind == 1 ? symlink(place.back, path) : mkdir(path, 0700), 0);
-        assert_false(cache_copy(place.folder, keys[0], place.file));
-        assert_false(cache_find(place.folder, keys[0], path, sizeof path));
+        assert_false(glint_cache_copy(place.folder, keys[0], place.file));
+        assert_false(glint_cache_find(place.folder, keys[0], path, sizeof path));
     }
     remove_place(&place);
 }
@@ -138,12 +138,12 @@ static void a_killed_process_leaves_nothing_for_long(UNUSED void **state) {
     struct stat found;
     begin(&place);
     write_text(place.file, "first");
-    cache_store(place.folder, keys[0], place.file, UINT64_MAX);
+    glint_cache_store(place.folder, keys[0], place.file, UINT64_MAX);
     snprintf(path, sizeof path, "%s/%s.tmp-0123abcd", place.folder, keys[1]);
     write_text(path, "half");
-    cache_store(place.folder, keys[0], place.file, UINT64_MAX);
+    glint_cache_store(place.folder, keys[0], place.file, UINT64_MAX);
     assert_int_equal(access(path, F_OK), -1);
-    assert_true(cache_find(place.folder, keys[0], path, sizeof path));
+    assert_true(glint_cache_find(place.folder, keys[0], path, sizeof path));
     assert_int_equal(stat(path, &found), 0);
     assert_int_equal(found.st_mode & 077, 0);
     assert_int_equal(stat(place.folder, &found), 0);
@@ -158,15 +158,15 @@ static void what_was_not_used_for_longest_goes(UNUSED void **state) {
     begin(&place);
     write_text(place.file, "ten bytes.");
     for (int i = 0; i < 2; i++) {
-        cache_store(place.folder, keys[i], place.file, 25);
+        glint_cache_store(place.folder, keys[i], place.file, 25);
         usleep(20000); /* times of files have a limited resolution */
     }
-    assert_true(cache_find(place.folder, keys[0], path, sizeof path));
+    assert_true(glint_cache_find(place.folder, keys[0], path, sizeof path));
     usleep(20000);
-    cache_store(place.folder, keys[2], place.file, 25);
-    assert_true(cache_find(place.folder, keys[0], path, sizeof path));
-    assert_false(cache_find(place.folder, keys[1], path, sizeof path));
-    assert_true(cache_find(place.folder, keys[2], path, sizeof path));
+    glint_cache_store(place.folder, keys[2], place.file, 25);
+    assert_true(glint_cache_find(place.folder, keys[0], path, sizeof path));
+    assert_false(glint_cache_find(place.folder, keys[1], path, sizeof path));
+    assert_true(glint_cache_find(place.folder, keys[2], path, sizeof path));
     remove_place(&place);
 }
 
@@ -176,9 +176,9 @@ static void a_folder_that_cannot_be_written_keeps_nothing(UNUSED void **state) {
     char path[256];
     begin(&place);
     write_text(place.file, "first");
-    cache_store(place.file, keys[0], place.file, UINT64_MAX); /* a file exists at that path */
-    assert_false(cache_find(place.file, keys[0], path, sizeof path));
-    assert_false(cache_copy(place.file, keys[0], place.back));
+    glint_cache_store(place.file, keys[0], place.file, UINT64_MAX); /* a file exists at that path */
+    assert_false(glint_cache_find(place.file, keys[0], path, sizeof path));
+    assert_false(glint_cache_copy(place.file, keys[0], place.back));
     expect_text(place.file, "first");
     remove_place(&place);
 }
@@ -192,20 +192,20 @@ static void a_folder_of_others_is_refused(UNUSED void **state) {
     write_text(place.file, "private");
     assert_null(glint_cache_refusal(place.folder)); /* not there yet */
     const mode_t before = umask(0);
-    cache_store(place.folder, keys[0], place.file, UINT64_MAX);
+    glint_cache_store(place.folder, keys[0], place.file, UINT64_MAX);
     umask(before);
     assert_int_equal(stat(place.folder, &info), 0);
     assert_int_equal(info.st_mode & 07777, 0700);
-    assert_true(cache_find(place.folder, keys[0], path, sizeof path));
+    assert_true(glint_cache_find(place.folder, keys[0], path, sizeof path));
     assert_int_equal(stat(path, &info), 0);
     assert_int_equal(info.st_mode & 07777, 0600);
 
     for (int who = 0; who < 2; who++) {
         assert_int_equal(chmod(place.folder, who ? 0702 : 0720), 0);
         assert_string_equal(glint_cache_refusal(place.folder), "others may write to it");
-        assert_false(cache_find(place.folder, keys[0], path, sizeof path));
-        assert_false(cache_copy(place.folder, keys[0], place.back));
-        cache_store(place.folder, keys[1], place.file, UINT64_MAX);
+        assert_false(glint_cache_find(place.folder, keys[0], path, sizeof path));
+        assert_false(glint_cache_copy(place.folder, keys[0], place.back));
+        glint_cache_store(place.folder, keys[1], place.file, UINT64_MAX);
         assert_int_equal(count_files(place.folder), 1);
     }
     assert_int_equal(chmod(place.folder, 0755), 0); /* they may read names, but no file */
@@ -215,7 +215,7 @@ static void a_folder_of_others_is_refused(UNUSED void **state) {
     snprintf(with_slash, sizeof with_slash, "%s/", place.folder);
     assert_int_equal(symlink(place.folder, link), 0);
     assert_string_equal(glint_cache_refusal(link), "it is a symbolic link");
-    assert_false(cache_find(link, keys[0], path, sizeof path));
+    assert_false(glint_cache_find(link, keys[0], path, sizeof path));
     assert_null(glint_cache_refusal(with_slash));
     assert_string_equal(glint_cache_refusal(place.file), "it is no folder");
     if (geteuid() != 0) assert_string_equal(glint_cache_refusal("/"), "it belongs to another user");
