@@ -251,7 +251,7 @@ static void however_many_entries_the_limit_holds(UNUSED void **state) {
     glint_cache_store(place.folder, keys[1], place.file, 25);
     assert_true(glint_cache_find(place.folder, keys[0], path, sizeof path));
     assert_int_equal(count_files(place.folder), 1);
-    for (unsigned i = 0; i < 700; i++) {
+    for (unsigned i = 0; i < 400; i++) {
         snprintf(path, sizeof path, "%s/%032x-%032x.exr", place.folder, i + 1, i);
         write_text(path, "ten bytes.");
         set_age(path, 1000 + i);
@@ -369,7 +369,7 @@ static void many_processes_read_write_evict_and_damage(UNUSED void **state) {
     for (unsigned p = 0; p < PROCESSES; p++) {
         children[p] = fork();
         assert_true(children[p] >= 0);
-        if (children[p] == 0) use_cache(&place, p, p == 0 ? UINT32_MAX : 300, hits);
+        if (children[p] == 0) use_cache(&place, p, p == 0 ? UINT32_MAX : 150, hits);
     }
     for (unsigned p = 1; p < PROCESSES; p++) {
         assert_int_equal(waitpid(children[p], &status, 0), children[p]);
@@ -378,7 +378,7 @@ static void many_processes_read_write_evict_and_damage(UNUSED void **state) {
     assert_int_equal(kill(children[0], SIGKILL), 0); /* the one that would go on for ever, somewhere in the midst */
     assert_int_equal(waitpid(children[0], &status, 0), children[0]);
     assert_true(WIFSIGNALED(status));
-    assert_true(atomic_load(hits) > 100); /* of more than 1,500 */
+    assert_true(atomic_load(hits) > 50); /* of more than 750 */
     assert_int_equal(munmap(hits, sizeof *hits), 0);
     for (unsigned k = 0; k <= KEYS; k++) { /* whatever is left, and one that nobody stored */
         make_key(k, key);
