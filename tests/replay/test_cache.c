@@ -1,66 +1,10 @@
-/* The cache folder: what it returns, what it does not, how much it keeps, and what many processes at once do to it. */
-#include <stdio.h>
-#include <stdlib.h>
-#include <dirent.h>
-#include <fcntl.h>
+/* The cache folder: what it returns, what it does not, and how much it keeps. */
 #include <signal.h>
-#include <stdatomic.h>
-#include <string.h>
-#include <sys/mman.h>
 #include <sys/resource.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
-#include "glint/cache.h"
-#include "glint/replay.h"
-#include "unit.h"
-
-static const char *const keys[] = {"00000000000000000000000000000000", "11111111111111111111111111111111",
-                                   "22222222222222222222222222222222"};
-struct place {
-    char top[64], folder[96], file[96], back[96];
-};
-
-static void begin(struct place *place) {
-    snprintf(place->top, sizeof place->top, "/tmp/glint-cache-XXXXXX");
-    assert_non_null(mkdtemp(place->top));
-    snprintf(place->folder, sizeof place->folder, "%s/a/b", place->top); /* neither exists */
-    snprintf(place->file, sizeof place->file, "%s/file", place->top);
-    snprintf(place->back, sizeof place->back, "%s/back", place->top);
-}
-
-static void remove_place(const struct place *place) {
-    char command[128];
-    snprintf(command, sizeof command, "rm -r '%s'", place->top);
-    assert_int_equal(system(command), 0);
-}
-
-static void write_text(const char *path, const char *text) {
-    FILE *file = fopen(path, "w");
-    assert_non_null(file);
-    assert_true(fputs(text, file) >= 0);
-    assert_int_equal(fclose(file), 0);
-}
-
-static void expect_text(const char *path, const char *text) {
-    char found[64] = "";
-    FILE *file = fopen(path, "r");
-    assert_non_null(file);
-    assert_non_null(fgets(found, sizeof found, file));
-    fclose(file);
-    assert_string_equal(found, text);
-}
-
-static size_t count_files(const char *folder) {
-    size_t count = 0;
-    DIR *entries = opendir(folder);
-    assert_non_null(entries);
-    for (struct dirent *entry; (entry = readdir(entries));) count += entry->d_name[0] != '.';
-    closedir(entries);
-    return count;
-}
+#include "cache_place.h"
 
 static void what_was_stored_comes_back(UNUSED void **state) {
     struct place place;
@@ -125,7 +69,7 @@ static void another_keys_contents_are_none(UNUSED void **state) {
     remove_place(&place);
 }
 
-/* Catches: a wait for a pipe, and a read of what a link leads to. */
+/* Catches: a wait for a pipe, a read of what a link leads to, and a removal of what could not be read. */
 static void what_is_no_file_is_none(UNUSED void **state) {
     struct place place;
     char path[256];
@@ -138,6 +82,7 @@ static void what_is_no_file_is_none(UNUSED void **state) {
         assert_int_equal(kind == 0 ? mkfifo(path, 0600) : kind == 1 ? symlink(place.back, path) : mkdir(path, 0700), 0);
         assert_false(glint_cache_copy(place.folder, keys[0], place.file));
         assert_false(glint_cache_find(place.folder, keys[0], path, sizeof path));
+        assert_int_equal(count_files(place.folder), 1);
     }
     remove_place(&place);
 }
@@ -166,11 +111,6 @@ static void one_of_two_entries_is_enough(UNUSED void **state) {
         assert_int_equal(system(path), 0);
     }
     remove_place(&place);
-}
-
-static void set_age(const char *path, time_t seconds) {
-    const struct timespec times[2] = {{time(NULL) - seconds, 0}, {time(NULL) - seconds, 0}};
-    assert_int_equal(utimensat(AT_FDCWD, path, times, 0), 0);
 }
 
 /* Ends as it writes the third byte. */
@@ -291,108 +231,6 @@ static void the_limit_is_a_number_of_gibibytes(UNUSED void **state) {
     remove_place(&place);
 }
 
-/* ---- Many processes ---- */
-
-enum { PROCESSES = 6, KEYS = 5, LIMIT = 3000 };
-
-static void make_key(unsigned k, char key[GLINT_CACHE_KEY_SIZE]) {
-    snprintf(key, GLINT_CACHE_KEY_SIZE, "%032x", k + 1);
-}
-
-/* What the entries of a key begin with; what follows is of the process that stored it, as times are. */
-static void make_contents(unsigned k, unsigned process, char text[1024]) {
-    const int length = snprintf(text, 1024, "key %u process %u ", k, process);
-    memset(text + length, (int)('a' + k), 600 + 20 * k);
-    snprintf(text + length + 600 + 20 * k, 16, " end");
-}
-
-/* Changes an entry without its name, in place or by another file. */
-static void damage_any(const struct place *place, unsigned chance, unsigned process) {
-    char path[256 + sizeof place->folder], other[160];
-    DIR *entries = opendir(place->folder);
-    for (struct dirent *entry; entries && (entry = readdir(entries));) {
-        if (entry->d_name[0] == '.' || strstr(entry->d_name, ".tmp-") || chance-- % KEYS) continue;
-        snprintf(path, sizeof path, "%s/%s", place->folder, entry->d_name);
-        if (chance % 3 == 0) unlink(path);
-        else if (chance % 3 == 1 && truncate(path, chance % 600)) continue;
-        else {
-            snprintf(other, sizeof other, "%s/wrong%u", place->top, process);
-            write_text(other, "key 0 process 0 but not its end");
-            rename(other, path);
-        }
-        break;
-    }
-    if (entries) closedir(entries);
-}
-
-/* Exits with 1 if it was given what nobody stored. */
-static void use_cache(const struct place *place, unsigned process, unsigned rounds, atomic_uint *hits) {
-    char key[GLINT_CACHE_KEY_SIZE], own[160], back[160], found[256], expected[1024], text[1024];
-    unsigned chance = 12345 + process * 7919, k, by;
-    snprintf(own, sizeof own, "%s/own%u.txt", place->top, process);
-    snprintf(back, sizeof back, "%s/back%u", place->top, process);
-    for (unsigned i = 0; i < rounds; i++) {
-        chance = chance * 1103515245 + 12345;
-        k = chance >> 16 & 0x7fff;
-        if (k % 11 == 0) damage_any(place, k / 11, process);
-        k %= KEYS;
-        make_key(k, key);
-        glint_cache_find(place->folder, key, found, sizeof found);
-        if (!glint_cache_copy(place->folder, key, back)) {
-            make_contents(k, process, text);
-            write_text(own, text);
-            glint_cache_store(place->folder, key, own, LIMIT);
-            continue;
-        }
-        FILE *file = fopen(back, "r");
-        const size_t length = file ? fread(text, 1, sizeof text - 1, file) : 0;
-        text[length] = 0;
-        if (file) fclose(file);
-        if (sscanf(text, "key %*u process %u", &by) != 1) _exit(1);
-        make_contents(k, by, expected);
-        if (by >= PROCESSES || strcmp(text, expected) != 0) _exit(1);
-        atomic_fetch_add(hits, 1);
-    }
-    _exit(0);
-}
-
-/* Catches: contents that are damaged, cut or of another key; an error that a file causes which vanishes; a limit that many exceed together; and
-   temporary files that a killed process leaves. */
-static void many_processes_read_write_evict_and_damage(UNUSED void **state) {
-    struct place place;
-    char path[256], key[GLINT_CACHE_KEY_SIZE], text[1024];
-    int status;
-    pid_t children[PROCESSES];
-    begin(&place);
-    atomic_uint *hits = mmap(NULL, sizeof *hits, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-    assert_ptr_not_equal(hits, MAP_FAILED);
-    for (unsigned p = 0; p < PROCESSES; p++) {
-        children[p] = fork();
-        assert_true(children[p] >= 0);
-        if (children[p] == 0) use_cache(&place, p, p == 0 ? UINT32_MAX : 150, hits);
-    }
-    for (unsigned p = 1; p < PROCESSES; p++) {
-        assert_int_equal(waitpid(children[p], &status, 0), children[p]);
-        assert_int_equal(status, 0);
-    }
-    assert_int_equal(kill(children[0], SIGKILL), 0); /* the one that would go on for ever, somewhere in the midst */
-    assert_int_equal(waitpid(children[0], &status, 0), children[0]);
-    assert_true(WIFSIGNALED(status));
-    assert_true(atomic_load(hits) > 50); /* of more than 750 */
-    assert_int_equal(munmap(hits, sizeof *hits), 0);
-    for (unsigned k = 0; k <= KEYS; k++) { /* whatever is left, and one that nobody stored */
-        make_key(k, key);
-        make_contents(k, 0, text);
-        write_text(place.file, text);
-        usleep(20000); /* times of files have a limited resolution */
-        glint_cache_store(place.folder, key, place.file, LIMIT);
-        assert_true(glint_cache_find(place.folder, key, path, sizeof path));
-    }
-    const size_t left = count_files(place.folder);
-    assert_int_equal(left, 4); /* of more than 600 and less than 750 bytes each, and no temporary file */
-    remove_place(&place);
-}
-
 /* Catches: a cache whose failure makes its user fail. */
 static void a_folder_that_cannot_be_written_keeps_nothing(UNUSED void **state) {
     struct place place;
@@ -459,7 +297,6 @@ int main(void) {
         cmocka_unit_test(what_was_not_used_for_longest_goes),
         cmocka_unit_test(however_many_entries_the_limit_holds),
         cmocka_unit_test(the_limit_is_a_number_of_gibibytes),
-        cmocka_unit_test(many_processes_read_write_evict_and_damage),
         cmocka_unit_test(a_folder_that_cannot_be_written_keeps_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
