@@ -24,6 +24,8 @@ static bool find_cache_key(const struct run *run, const struct step *step, char 
         return false;
     }
     XXH3_128bits_update(state, &step->key, sizeof step->key);
+    const uint64_t processor = device->is_cpu ? glint_cache_processor() : 0;
+    XXH3_128bits_update(state, &processor, sizeof processor);
     const char *const texts[] = {GLINT_VERSION,          device->name, device->driver,
                                  device->driver_version, pass->slot,   pass->variant};
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) add_text(state, texts[i]);

@@ -64,6 +64,19 @@ const char *glint_cache_refusal(const char *folder) {
     return info.st_mode & (S_IWGRP | S_IWOTH) ? "others may write to it" : NULL;
 }
 
+uint64_t glint_cache_processor(void) {
+    static const char *const of_model[] = {"model name", "flags", "CPU implementer", "CPU part", "Features", "isa"};
+    FILE *file = fopen("/proc/cpuinfo", "re");
+    char line[8192];
+    uint64_t hash = 0;
+    while (file && fgets(line, sizeof line, file) && line[0] != '\n') /* the first of them */
+        for (size_t i = 0; i < sizeof of_model / sizeof *of_model; i++)
+            if (strncmp(line, of_model[i], strlen(of_model[i])) == 0)
+                hash = XXH3_64bits_withSeed(line, strlen(line), hash);
+    if (file) fclose(file);
+    return hash;
+}
+
 /* The descriptor of a file that can be read, or -1: not of a pipe, which would have us wait, nor of a symbolic link. */
 static int open_file(const char *path) {
     struct stat found;

@@ -43,7 +43,7 @@ struct glint_reference {
     struct halves halves;
     struct glint_reference_state state;
     json_t *settings;    /* everything that its rays depend on; NULL without a folder */
-    uint64_t made_of[2]; /* hash of the settings with all digits, and of the driver */
+    uint64_t made_of[2]; /* hash of the settings with all digits, the driver and a CPU device's processor */
     json_t *sensitivity; /* NULL before it is measured */
     json_t *record;      /* run.json; NULL before the first round */
 };

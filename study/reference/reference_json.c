@@ -8,6 +8,7 @@
 
 #include <xxhash.h>
 
+#include "glint/cache.h"
 #include "no_memory.h"
 #include "record.h"
 
@@ -34,9 +35,10 @@ static json_t *pass_settings(const struct glint_reference *reference, const stru
                      shader);
 }
 
-static void hash_settings(const char *settings, const char *driver, uint64_t hash[2]) {
-    const XXH128_hash_t of_driver = XXH3_128bits(driver, strlen(driver)),
-                        all = XXH3_128bits_withSeed(settings, strlen(settings), of_driver.low64);
+static void hash_settings(const char *settings, const struct glint_device_info *device, uint64_t hash[2]) {
+    const uint64_t processor = device->is_cpu ? glint_cache_processor() : 0,
+                   driver = XXH3_64bits_withSeed(device->driver, strlen(device->driver), processor);
+    const XXH128_hash_t all = XXH3_128bits_withSeed(settings, strlen(settings), driver);
     hash[0] = all.high64;
     hash[1] = all.low64;
 }
@@ -57,7 +59,7 @@ bool reference_settings(struct glint_reference *reference, struct glint_error *e
     /* Written and read once, so that numbers are rounded as in a file. */
     char *text = record_text(all, JSON_REAL_PRECISION(REFERENCE_DIGITS)),
          *exact = record_text(all, JSON_REAL_PRECISION(17) | JSON_SORT_KEYS);
-    if (exact) hash_settings(exact, device->driver, reference->made_of);
+    if (exact) hash_settings(exact, device, reference->made_of);
     reference->settings = text && exact ? json_loads(text, 0, NULL) : NULL;
     free(exact);
     free(text);

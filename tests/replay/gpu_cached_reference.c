@@ -1,5 +1,6 @@
 /* Finished references that one process stores in the cache folder for others, here one reference's folder for another. */
 #include <dirent.h>
+#include <dlfcn.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -42,6 +43,14 @@ static bool count_calls(void *user, UNUSED const char *what, UNUSED double done)
         sleep(6); /* the folder is saved every five seconds */
     }
     return ++watched->calls != watched->stop;
+}
+
+/* Where glint reads which processor it runs on; NULL: in the system. */
+static const char *processor;
+FILE *fopen64(const char *path, const char *mode) {
+    FILE *(*open)(const char *, const char *);
+    *(void **)&open = dlsym(RTLD_NEXT, "fopen64");
+    return open(processor && !strcmp(path, "/proc/cpuinfo") ? processor : path, mode);
 }
 
 static void trace(struct fixture *fixture, const char *cache, struct asked asked, struct traced *found) {
@@ -209,6 +218,16 @@ static void other_references_are_not_found(void **state) {
         assert_true(found.traced);
         finish(&found);
     }
+    snprintf(path, sizeof path, "%s/cpuinfo", fixture->folder);
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    assert_true(fputs("processor\t: 0\nmodel name\t: Another\nflags\t\t: fpu sse2\n\n", file) > 0);
+    assert_int_equal(fclose(file), 0);
+    processor = path;
+    trace(fixture, cache, (struct asked){.name = "processor"}, &found);
+    processor = NULL;
+    assert_true(found.traced || !glint_device_get_info(fixture->device)->is_cpu);
+    finish(&found);
     snprintf(first, sizeof first, "%s", fixture->capture_path);
     snprintf(path, sizeof path, "%s/other.exr", fixture->folder);
     assert_true(fixture_write_capture(path, &(struct fixture_options){.number = 8}, &err));

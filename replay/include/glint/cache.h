@@ -19,6 +19,8 @@ enum {
 /* Why a folder is not used as a cache, or NULL: a folder that is there has to belong to the user, nobody else may write to it, and
    $GLINT_CACHE_GIB has to be a size. */
 const char *glint_cache_refusal(const char *folder);
+/* Belongs into the key of what a CPU device computed: a hash of the processor's model and instructions, for which its driver compiles. */
+uint64_t glint_cache_processor(void);
 /* The path of an intact entry of the key, which is also marked as recently used. Damaged ones are removed. Another process may remove the entry at
    any time: that its path cannot be opened or read afterwards is a miss, too. */
 bool glint_cache_find(const char *folder, const char *key, char *path, size_t size);
