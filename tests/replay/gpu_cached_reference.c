@@ -202,7 +202,7 @@ static void what_is_damaged_is_made_anew(void **state) {
 static void other_references_are_not_found(void **state) {
     static const struct asked others[] = {
         {.name = "set", .set = "cubemap_trace.tolerance=0.03"},
-        {.name = "digits", .set = "cubemap_trace.tolerance=0.02000000042"},
+        {.name = "digits", .set = "cubemap_trace.tolerance=0.020000000004"},
         {.name = "more", .rays = 32},
         {.name = "at_once", .at_once = 3},
     };
@@ -218,6 +218,9 @@ static void other_references_are_not_found(void **state) {
         assert_true(found.traced);
         finish(&found);
     }
+    trace(fixture, cache, (struct asked){.name = "more_again", .rays = 32}, &found); /* both are kept */
+    assert_false(found.traced);
+    finish(&found);
     snprintf(path, sizeof path, "%s/cpuinfo", fixture->folder);
     FILE *file = fopen(path, "w");
     assert_non_null(file);

@@ -22,6 +22,7 @@ static void what_was_stored_comes_back(UNUSED void **state) {
     assert_false(glint_cache_find(place.folder, keys[1], path, sizeof path));
     write_text(place.file, "second"); /* as of another process, with its own times */
     glint_cache_store(place.folder, keys[0], place.file, UINT64_MAX);
+    assert_int_equal(count_files(place.folder), 1);
     assert_true(glint_cache_copy(place.folder, keys[0], place.back));
     expect_text(place.back, "first");
     write_text(path, "damaged");
