@@ -40,8 +40,8 @@ NUMBER = re.compile("[0-9]+([.][0-9]+)?(e-?[0-9]+)?( (ns|µs|ms|s)\\b)?|[ ─█
 # Without memory Jansson 2.14 reads something else than the text has, or writes past the end of a string: that is not glint's to mend, and the
 # program glint has a reserve for it.
 JANSSON_READS = "json_load"
-# What OpenEXRCore 3.1 (exr_add_part) and Duktape 2.7 forget a block or two of when they lack memory, and the functions of glint that it is allocated for.
-FORGETFUL = (("libOpenEXRCore", "glint_exr_memory_take"), ("libduktape", "evaluate_script"))
+# What OpenEXRCore 3.1 (exr_add_part) forgets a block or two of when it lacks memory, and the function of glint that it is allocated for.
+FORGETFUL = (("libOpenEXRCore", "glint_exr_memory_take"),)
 # glslang throws where it lacks memory while it starts, and cannot be ended then, in which state everything that it has allocated stays.
 UNENDED = "glslang cannot start"
 # What a command that goes on where it was interrupted may keep, whole as it is without the fault, and uses then.
