@@ -125,16 +125,18 @@ class Tests:
             kept = table["captures"][line["capture"]]
             assert [p.get("frame_ms") for p in line["presets"]] == [p.get("frame_ms") for p in kept["presets"]], line
         assert not {"log.jsonl", "compare.json"} & set(os.listdir(self.path("compared")))
+        if self.count < 1000:
+            return
         undisturbed = json.loads(tap.glint("compare", "all.json", *self.PRESETS, "--json", folder=self.folder, status=1).stdout)
         assert [self.errors(capture) for capture in undisturbed["captures"]] == [self.errors(capture, 9) for capture in table["captures"]]
 
     def test_compare_refuses_the_journal_of_another_comparison(self):
-        os.mkdir(self.path("other"))
-        with open(self.path("other", "compare.json"), "w", encoding="utf-8") as file:
+        os.mkdir(self.path("foreign"))
+        with open(self.path("foreign", "compare.json"), "w", encoding="utf-8") as file:
             json.dump({"format": 1, "effect": "occlusion"}, file)
-        with open(self.path("other", "log.jsonl"), "w", encoding="utf-8") as file:
+        with open(self.path("foreign", "log.jsonl"), "w", encoding="utf-8") as file:
             file.write("{}\n")
-        said = tap.glint("compare", "room.exr", *self.PRESETS, "-o", "other", folder=self.folder, status=2).stderr
+        said = tap.glint("compare", "room.exr", *self.PRESETS, "-o", "foreign", folder=self.folder, status=2).stderr
         assert "contains a compare with other" in said, said
 
     @staticmethod

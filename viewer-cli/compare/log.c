@@ -12,28 +12,10 @@
 
 /* ---- The study that a journal belongs to ---- */
 
-/* The hash of each capture; null of one that cannot be read, which is a result like others. */
-static json_t *hashes_json(const struct list *captures, struct glint_error *err) {
-    json_t *hashes = json_array();
-    for (size_t i = 0; i < captures->count; i++) {
-        char hash[33];
-        struct glint_error own = {0};
-        struct glint_capture *capture = glint_capture_open(captures->items[i], NULL, &own);
-        const bool hashed = capture && glint_capture_hash(capture, hash, &own);
-        glint_capture_close(&capture);
-        if (!hashed && (captures->count == 1 || own.code == GLINT_ERROR_MEMORY)) {
-            json_decref(hashes);
-            return glint_fail(err, own.code, "%s", own.message), NULL;
-        }
-        json_array_append_new(hashes, hashed ? json_string(hash) : json_null());
-    }
-    return hashes;
-}
-
 /* Everything that the results depend on. */
 static json_t *define(const struct contest *contest, const struct list *captures, struct glint_error *err) {
     const struct glint_device_info *device = glint_device_get_info(contest->device);
-    json_t *hashes = hashes_json(captures, err), *presets = json_array();
+    json_t *hashes = captures_json(captures, captures->count > 1, err), *presets = json_array();
     for (size_t p = 0; p < contest->count; p++)
         json_array_append_new(presets, json_pack("{s:s, s:o}", "label", contest->contestants[p].label, "pipeline",
                                                  pipeline_json(contest->contestants[p].pipeline)));
