@@ -46,6 +46,7 @@ FORGETFUL = (("libOpenEXRCore", "glint_exr_memory_take"),)
 UNENDED = "glslang cannot start"
 # What a command that goes on where it was interrupted may keep, whole as it is without the fault, and uses then.
 GROWS = {"replay --against", "sweep", "tune", "blame", "reference", "library reference"}  # by errors, pages, logs and rays
+JOURNAL = {"out/compare.json", "out/log.jsonl"}  # of compare, until it is finished
 KEEPS = {"live", "replay SHOT", "replay PART", "explain", "compare", "stability", *GROWS}
 
 
@@ -90,6 +91,7 @@ class Command:
         if files == before or self.same_files(files):
             return True
         new = [path for path in files if before.get(path, b"") != files[path] or path not in before]
+        new = [path for path in new if self.name != "compare" or path not in JOURNAL]
         whole, grows = self.whole.files, self.name in GROWS
         return self.name in KEEPS and before.keys() <= files.keys() and all(path in whole and (grows or self.same(path, files[path], whole[path])) for path in new)
 

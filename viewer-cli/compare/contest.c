@@ -272,8 +272,8 @@ static bool look_at_all(const struct contest *contest, struct showing *showings,
     for (size_t i = 0; i < contest->count; i++) {
         const struct contestant *c = &contest->contestants[i];
         struct glint_error own = {0};
-        showings[i].ran = measure_contestant(contest, i, &showings[i], &answers[i], &own) &&
-                          (!pictures || contest_draw(pictures, i + 1, c, &answers[i], labels, &own));
+        showings[i].ran = measure_contestant(contest, i, &showings[i], &answers[i], &own);
+        if (showings[i].ran && pictures && !contest_draw(pictures, i + 1, c, &answers[i], labels, err)) return false;
         if (!showings[i].ran && !fail_alone(contest, &showings[i], c, &own, err)) return false;
         if (!truth && showings[i].compared) truth = answers[i].truth;
     }
