@@ -89,10 +89,10 @@ json_t *contest_log_line(const struct contest_log *log, size_t capture) {
     json_t *line = NULL;
     if (log->entries[capture].state == CONTEST_MISSING) return NULL;
     errno = 0;
-    const bool found =
-        fseek(log->spool, log->entries[capture].at, SEEK_SET) == 0 && getline(&text, &size, log->spool) > 0;
+    const bool found = fseek(log->spool, log->entries[capture].at, SEEK_SET) == 0 &&
+                       getline(&text, &size, log->spool) > 0 && !ferror(log->spool);
     const int why = errno;
-    if (found && !why) line = json_loads(text, 0, NULL);
+    if (found) line = json_loads(text, 0, NULL);
     if (!line)
         glint_fail(&own->fault, GLINT_ERROR_IO, "the temporary file of results: cannot be read back: %s",
                    strerror(why));
