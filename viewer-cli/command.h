@@ -48,6 +48,7 @@ extern const struct command
     cmd_reference,
     cmd_compare,
     cmd_sweep,
+    cmd_batch,
     cmd_blame,
     cmd_tune,
     cmd_stability,
