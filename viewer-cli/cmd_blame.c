@@ -71,7 +71,7 @@ static const struct example examples[] = {
 static const struct arg_target targets[] = {
     STORED(KEY_SHOT, struct arguments, blame.shot),
     STORED_NUMBER(KEY_PLAYER_RAYS, struct arguments, blame.player_rays, 1, 1024),
-    STORED(ARGP_KEY_ARG, struct arguments, blame.captures),
+    STORED_CAPTURES(struct arguments, blame.captures),
     STORED('o', struct arguments, blame.out),
     STORED('j', struct arguments, json),
     STORED(KEY_PROGRESS, struct arguments, progress),

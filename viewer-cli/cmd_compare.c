@@ -52,7 +52,7 @@ static const struct arg_target targets[] = {
     STORED(KEY_EFFECT, struct arguments, effect),
     STORED(KEY_SET, struct arguments, settings),
     STORED_NUMBER(KEY_REPEAT, struct arguments, rounds, 1, 100000),
-    STORED(ARGP_KEY_ARG, struct arguments, captures),
+    STORED_CAPTURES(struct arguments, captures),
     {0},
 };
 

@@ -8,6 +8,7 @@
 #include "options/pipeline_args.h"
 #include "record.h"
 #include "sweep/sweep.h"
+#include "io/console.h"
 #include "io/output.h"
 
 struct arguments {
@@ -17,6 +18,7 @@ struct arguments {
     const char *sample, *metric;
     uint32_t hypercube, seed;
     bool json;
+    char folder[4096]; /* of a shard */
 };
 
 enum { KEY_VARY = 256, KEY_SAMPLE, KEY_SEED, KEY_REPEAT, KEY_WHOLE, KEY_METRIC, KEY_NO_PICTURES };
@@ -30,6 +32,7 @@ static const struct argp_option options[] = {
     {"seed",      KEY_SEED,      "N",             0, "Seed of --sample (default 1)", 0},
     {"repeat",    KEY_REPEAT,    "N",             0, "Timed rounds; every round runs each point once (default 3; 0: no times)", 0},
     {"whole",     KEY_WHOLE,     NULL,            0, "Run all passes of each point in every round, instead of sharing the passes that points have in common", 0},
+    SHARD_OPTION,
     EFFECT_OPTION,
     {"reference", KEY_REFERENCE, "RUN|truth",     0, "Errors are measured against this: the run of glint reference (once for each capture), or the truth in the capture "
         "(default: a reference is traced once and kept in the folder)", 0},
@@ -60,7 +63,7 @@ static const struct example examples[] = {
 
 static const struct arg_target targets[] = {
     STORED(KEY_METRIC, struct arguments, metric),
-    STORED(ARGP_KEY_ARG, struct arguments, sweep.captures),
+    STORED_CAPTURES(struct arguments, sweep.captures),
     STORED('o', struct arguments, sweep.out),
     STORED('j', struct arguments, json),
     STORED(KEY_VARY, struct arguments, axes),
@@ -89,6 +92,9 @@ static error_t cmd_sweep_parse(int key, char *arg, struct argp_state *state) {
     switch (key) {
     case KEY_SAMPLE:
         parse_sample(a, arg, state);
+        return 0;
+    case KEY_SHARD:
+        shard_parse(&a->sweep.shard, arg, state);
         return 0;
     case KEY_NO_PICTURES:
         a->sweep.pictures = false;
@@ -135,7 +141,8 @@ static bool begin_sweep(struct arguments *a, struct glint_error *err) {
     char sample[64] = "grid";
     if (a->hypercube) snprintf(sample, sizeof sample, "lhs:%u seed %u", a->hypercube, a->seed);
     sweep->points = sweep->space ? glint_space_count(sweep->space) : 0;
-    return sweep->space && sort_points(sweep, err) && (sweep->device = pipeline_args_device(&a->pipeline, err)) &&
+    return sweep->space && sort_points(sweep, err) && sweep_cut(sweep, err) &&
+           (sweep->device = pipeline_args_device(&a->pipeline, err)) &&
            sweep_open(sweep, a->axes.items, sample, &a->pipeline.shader, err);
 }
 
@@ -175,23 +182,51 @@ static void note_kept(const struct sweep *sweep) {
     command_note(&cmd_sweep, "%s", text);
 }
 
+/* What one of several processes does: its part of the results, without what is made of all. */
+static bool run_shard(struct sweep *sweep, int argc, char **argv, struct glint_error *err) {
+    const struct shard_record record = {
+        sweep->shard,           sweep->out, (sweep->end - sweep->begin) * (1 + (size_t)sweep->rounds),
+        sweep->journal.results, argc,       argv};
+    return shard_write(&record, false, err) && sweep_run(sweep, err) && shard_write(&record, true, err);
+}
+
+static bool run_whole(struct sweep *sweep, struct glint_error *err) {
+    return sweep_run(sweep, err) && sweep_sum_up(sweep, err) && write_tables(sweep, err) &&
+           sweep_draw_fronts(sweep, err) && sweep_write_page(sweep, err);
+}
+
+static enum status report_shard(const struct arguments *a) {
+    const struct sweep *sweep = &a->sweep;
+    const size_t rows = sweep->end - sweep->begin, all = sweep->captures.count * sweep->points;
+    if (a->json)
+        return print_json(json_pack("{s:I, s:I, s:I, s:I, s:s}", "shard", (json_int_t)sweep->shard.number, "of",
+                                    (json_int_t)sweep->shard.count, "points", (json_int_t)rows, "of_points",
+                                    (json_int_t)all, "folder", sweep->out));
+    printf("shard %u of %u: %zu of %zu points on captures are done in %s\n", sweep->shard.number, sweep->shard.count,
+           rows, all, name_text(sweep->out));
+    return STATUS_DONE;
+}
+
 static enum status cmd_sweep_run(int argc, char **argv) {
     struct arguments a = {.sweep = {.rounds = 3, .pictures = true, .metric = GLINT_METRIC_RMSE}, .seed = 1};
     struct glint_error err = {0};
     struct progress progress;
     command_parse(&cmd_sweep, argc, argv, &a);
     struct sweep *sweep = &a.sweep;
+    const bool shard = sweep->shard.count > 0;
     progress_begin(&progress);
     sweep->progress = &progress;
-    bool ok = begin_sweep(&a, &err) && sweep_run(sweep, &err) && sweep_sum_up(sweep, &err) &&
-              write_tables(sweep, &err) && sweep_draw_fronts(sweep, &err) && sweep_write_page(sweep, &err);
+    bool ok = !shard || shard_folder(&sweep->shard, sweep->out, a.folder, &err);
+    if (ok && shard) sweep->out = a.folder;
+    ok = ok && begin_sweep(&a, &err) && (shard ? run_shard(sweep, argc, argv, &err) : run_whole(sweep, &err));
     progress_end(&progress);
     enum status status = ok ? STATUS_DONE : command_fail(&cmd_sweep, &err);
     if (!ok && err.code == GLINT_ERROR_INTERRUPTED) note_kept(sweep);
     missing_note(&cmd_sweep, &sweep->missing, 0);
-    if (ok && a.json) status = print_json(sweep_json(sweep));
+    if (ok && shard) status = report_shard(&a);
+    else if (ok && a.json) status = print_json(sweep_json(sweep));
     else if (ok) sweep_print(sweep);
-    if (ok && status == STATUS_DONE) status = report_failures(sweep);
+    if (ok && status == STATUS_DONE && !shard) status = report_failures(sweep);
     sweep_finish(sweep);
     if (sweep->device) glint_device_destroy(&sweep->device);
     pipeline_args_finish(&a.pipeline);

@@ -106,7 +106,7 @@ static const struct arg_target targets[] = {
     STORED_OUTPUT('o', struct arguments, tune.out, OUTPUT_JSON),
     STORED(KEY_OVERWRITE, struct arguments, overwrite),
     STORED('j', struct arguments, json),
-    STORED(ARGP_KEY_ARG, struct arguments, tune.captures),
+    STORED_CAPTURES(struct arguments, tune.captures),
     PIPELINE_TARGETS(struct arguments, pipeline),
     {0},
 };

@@ -26,7 +26,7 @@ static const struct example examples[] = {
 
 static const struct arg_target targets[] = {
     STORED('j', struct arguments, json),
-    STORED(ARGP_KEY_ARG, struct arguments, files),
+    STORED_CAPTURES(struct arguments, files),
     {0},
 };
 

@@ -33,6 +33,7 @@ static error_t command_parse_key(int key, char *arg, struct argp_state *state) {
         if (parsing->command->operand) argp_error(state, "no %s given", parsing->command->operand);
         break;
     }
+    if (key == ARGP_KEY_END) args_expand_sets(&table, state, parsing->input);
     if (args_store(&table, key, arg, state, parsing->input)) return 0;
     if (!parsing->command->parse) return ARGP_ERR_UNKNOWN;
     state->input = parsing->input;
@@ -90,12 +91,19 @@ const struct argp_option *command_option(const struct command *command, int key)
     return NULL;
 }
 
+const char *command_about_sets(const struct command *command) {
+    for (const struct arg_target *t = command->targets; t && t->kind; t++)
+        if (t->kind == STORES_CAPTURES)
+            return " A folder of captures and a set file, which lists them with tags, stand for their captures.";
+    return "";
+}
+
 static char *examples_text(const struct command *command) {
     char *text = NULL;
     size_t size = 0;
     FILE *f = open_memstream(&text, &size);
     if (!f) return NULL;
-    fprintf(f, "%s\n\nExamples:\n", command->description);
+    fprintf(f, "%s%s\n\nExamples:\n", command->description, command_about_sets(command));
     for (const struct example *e = command->examples; e->line; e++) fprintf(f, "  %s\n      %s\n", e->line, e->what);
     fclose(f);
     return text;

@@ -76,6 +76,8 @@ void command_parse(const struct command *command, int argc, char **argv, void *i
 extern const struct argp_option command_common[];
 /* The option of this key, or NULL. */
 const struct argp_option *command_option(const struct command *command, int key);
+/* What follows the description of a command that takes sets of captures; "" for others. */
+const char *command_about_sets(const struct command *command);
 /* An option's help with its run-time values, malloc'd. */
 char *command_option_help(const struct command *command, const struct argp_option *option);
 

@@ -62,6 +62,7 @@ void man_print_command(const struct command *command) {
     print_text(command->arguments[0] ? command->arguments : "\\&");
     printf(".Sh DESCRIPTION\n");
     print_text(command->description);
+    print_text(command_about_sets(command));
     printf(".Pp\nThe options are:\n.Bl -tag -width Ds\n");
     for (const struct argp_option *o = command->options; !ends(o); o++)
         if (o->name) print_option(command, o);

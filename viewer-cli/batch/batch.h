@@ -16,10 +16,10 @@ struct batch_job {
     char reason[BATCH_WORD]; /* why it waits, or "" */
 };
 struct batch_shard {
-    struct batch_job job; /* the array that has it last */
-    bool begun;
-    size_t done, results; /* whole lines of its journal, and how many there will be; 0: not begun */
-    double per_second;    /* since it was started last; NAN: not known */
+    struct batch_job job;  /* the array that has it last */
+    bool begun, done;      /* whether it was ever started, and whether all its results are there */
+    size_t results, total; /* whole lines of its journal, and how many there will be, fewer where points fail */
+    double per_second;     /* since it was started last; NAN: not known, or done */
 };
 struct batch {
     const char *folder;
@@ -66,10 +66,6 @@ bool batch_write_scripts(const struct batch *batch, const struct batch_script *s
 
 /* Reads how far each shard is. */
 bool batch_read_shards(struct batch *batch, struct glint_error *err);
-/* Whether all its results are there. */
-static inline bool batch_shard_done(const struct batch_shard *shard) {
-    return shard->results > 0 && shard->done >= shard->results;
-}
 /* Whether the merged results are there. */
 bool batch_is_merged(const struct batch *batch);
 /* "1-3,7" of the shards that are chosen, malloc'd. */

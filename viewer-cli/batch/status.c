@@ -12,7 +12,7 @@
 size_t batch_choose(const struct batch *batch, bool *chosen) {
     size_t count = 0;
     for (size_t i = 0; i < batch->count; i++) {
-        chosen[i] = !batch_shard_done(&batch->shards[i]) && !batch_job_active(&batch->shards[i].job);
+        chosen[i] = !batch->shards[i].done && !batch_job_active(&batch->shards[i].job);
         count += chosen[i];
     }
     return count;
@@ -25,16 +25,18 @@ static void state_text(const struct batch_job *job, const char *otherwise, char 
 }
 
 static const char *journal_text(const struct batch_shard *shard) {
-    return batch_shard_done(shard) ? "done" : shard->begun ? "begun" : "not begun";
+    return shard->done ? "done" : shard->begun ? "begun" : "not begun";
 }
 
 static double seconds_left(const struct batch_shard *shard) {
-    return batch_shard_done(shard) ? 0 : (double)(shard->results - shard->done) / shard->per_second;
+    return shard->done                     ? 0
+           : shard->total < shard->results ? 0
+                                           : (double)(shard->total - shard->results) / shard->per_second;
 }
 
 /* Sums over all shards; those that have not begun are taken to be as large as the others. */
 struct total {
-    size_t done, results, finished, active;
+    size_t results, total, finished;
     double seconds; /* NAN: not known */
 };
 
@@ -45,15 +47,14 @@ static struct total sum(const struct batch *batch) {
     for (size_t i = 0; i < batch->count; i++) {
         const struct batch_shard *shard = &batch->shards[i];
         const bool active = batch->asked ? batch_job_active(&shard->job) && shard->begun : shard->begun;
-        total.done += shard->done;
         total.results += shard->results;
-        total.finished += batch_shard_done(shard);
-        total.active += batch_job_active(&shard->job);
+        total.total += shard->done ? shard->results : shard->total;
+        total.finished += shard->done;
         begun += shard->begun;
-        if (active && !batch_shard_done(shard) && isfinite(shard->per_second)) rate += shard->per_second;
+        if (active && !shard->done && isfinite(shard->per_second)) rate += shard->per_second;
     }
-    if (begun) total.results = total.results * batch->count / begun;
-    if (rate > 0) total.seconds = (double)(total.results - total.done) / rate;
+    if (begun) total.total = total.total * batch->count / begun;
+    if (rate > 0 && total.total >= total.results) total.seconds = (double)(total.total - total.results) / rate;
     return total;
 }
 
@@ -77,9 +78,9 @@ static json_t *shard_json(const struct batch *batch, size_t i) {
     state_text(&shard->job, journal_text(shard), state);
     if (shard->job.job[0]) snprintf(job, sizeof job, "%s_%zu", shard->job.job, i + 1);
     return json_pack("{s:I, s:s, s:o, s:o, s:b, s:I, s:o, s:o, s:o}", "shard", (json_int_t)i + 1, "state", state, "job",
-                     optional(job), "reason", optional(shard->job.reason), "done", (int)batch_shard_done(shard),
-                     "results", (json_int_t)shard->done, "of",
-                     shard->begun ? json_integer((json_int_t)shard->results) : json_null(), "per_second",
+                     optional(job), "reason", optional(shard->job.reason), "done", (int)shard->done, "results",
+                     (json_int_t)shard->results, "of",
+                     shard->begun ? json_integer((json_int_t)shard->total) : json_null(), "per_second",
                      json_number(shard->per_second), "seconds_left", json_number(seconds_left(shard)));
 }
 
@@ -101,7 +102,7 @@ json_t *batch_json(const struct batch *batch) {
     }
     json_t *json =
         json_pack("{s:s, s:b, s:I, s:I, s:o, s:o, s:o, s:o}", "command", batch->command, "slurm", (int)batch->asked,
-                  "results", (json_int_t)total.done, "shards_done", (json_int_t)total.finished, "seconds_left",
+                  "results", (json_int_t)total.results, "shards_done", (json_int_t)total.finished, "seconds_left",
                   json_number(total.seconds), "shards", shards, "missing", again, "merge", merge_json(batch));
     free(chosen);
     return json;
@@ -115,16 +116,16 @@ static void print_rows(const struct batch *batch) {
         table_create((const char *const[]){">shard", "<state", "<job", ">results", ">of", ">a second", ">left", NULL});
     for (size_t i = 0; i < batch->count; i++) {
         const struct batch_shard *shard = &batch->shards[i];
-        const bool done = batch_shard_done(shard), active = batch_job_active(&shard->job);
+        const bool active = batch_job_active(&shard->job);
         state_text(&shard->job, journal_text(shard), state);
         table_cell(table, "%zu", i + 1);
         table_cell(table, shard->job.reason[0] ? "%s (%s)" : "%s", state, shard->job.reason);
-        table_mark(table, done ? MARK_GOOD : batch->asked && !active ? MARK_FAIL : MARK_NONE);
+        table_mark(table, shard->done ? MARK_GOOD : batch->asked && !active ? MARK_FAIL : MARK_NONE);
         table_cell(table, shard->job.job[0] ? "%s_%zu" : "", shard->job.job, i + 1);
-        table_cell(table, shard->begun ? "%zu" : "", shard->done);
         table_cell(table, shard->begun ? "%zu" : "", shard->results);
+        table_cell(table, shard->begun ? "%zu" : "", shard->total);
         table_cell(table, "%s", isfinite(shard->per_second) ? number_text(shard->per_second) : "");
-        table_cell(table, "%s", done || !shard->begun ? "" : left_text(seconds_left(shard), left));
+        table_cell(table, "%s", shard->done || !shard->begun ? "" : left_text(seconds_left(shard), left));
     }
     table_print(table, stdout);
     table_destroy(&table);
@@ -155,7 +156,7 @@ void batch_print(const struct batch *batch) {
     const struct total total = sum(batch);
     char left[32];
     print_rows(batch);
-    printf("%zu results, %zu of %zu shards done%s%s\n", total.done, total.finished, batch->count,
+    printf("%zu results, %zu of %zu shards done%s%s\n", total.results, total.finished, batch->count,
            isfinite(total.seconds) ? ", about " : "", isfinite(total.seconds) ? left_text(total.seconds, left) : "");
     print_next(batch, &total);
 }

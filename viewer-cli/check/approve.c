@@ -14,6 +14,7 @@
 #include "glint/exr.h"
 #include "glint/replay.h"
 #include "inside.h"
+#include "io/copy.h"
 #include "io/memory.h"
 
 enum { PATH_SIZE = 4096 };
@@ -46,17 +47,6 @@ static json_t *files_of(const char *folder, struct glint_error *err) {
     return files;
 }
 
-static bool write_all(int file, const char *bytes, size_t size) {
-    while (size > 0) {
-        const ssize_t count = write(file, bytes, size);
-        if (count < 0 && errno == EINTR) continue;
-        if (count <= 0) return false;
-        bytes += count;
-        size -= (size_t)count;
-    }
-    return true;
-}
-
 /* The most that a file of a run may have: the bytes of its pixels, which compression never adds to, and room for headers and tables. */
 static bool find_most_bytes(const char *path, uint64_t *most, struct glint_error *err) {
     struct glint_exr *exr = glint_exr_open(path, &(struct glint_limits){.no_link = true}, err);
@@ -73,28 +63,10 @@ static bool find_most_bytes(const char *path, uint64_t *most, struct glint_error
 }
 
 static bool copy_file(const char *from, const char *to, struct glint_error *err) {
-    static const size_t size = 1 << 20;
-    uint64_t most = 1 << 22, bytes;
-    glint_file in;
+    uint64_t most = 1 << 22;
     const char *suffix = strrchr(from, '.');
     if (strcmp(suffix ? suffix : "", ".json") != 0 && !find_most_bytes(from, &most, err)) return false;
-    if (!inside_open(&in, from, most, &bytes, err)) return false;
-    const int out = open(to, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    char *block = malloc(size);
-    bool ok = block || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    if (ok && out < 0) ok = fail_at(to, err);
-    for (uint64_t done = 0; ok && done < bytes;) {
-        size_t count = bytes - done < size ? (size_t)(bytes - done) : size;
-        ok = glint_file_read(in, block, count, done, &count) || fail_at(from, err);
-        if (ok && !count) ok = glint_fail(err, GLINT_ERROR_IO, "%s: it shrinks", from);
-        ok = ok && (write_all(out, block, count) || fail_at(to, err));
-        done += count;
-    }
-    if (ok && fsync(out) != 0) ok = fail_at(to, err);
-    if (out >= 0 && close(out) != 0 && ok) ok = fail_at(to, err);
-    glint_file_close(in);
-    free(block);
-    return ok;
+    return copy_plain(from, to, most, err);
 }
 
 static bool copy_into(const char *from, const char *to, const char *name, struct glint_error *err) {

@@ -6,6 +6,7 @@
 
 #include "inside.h"
 #include "journal/journal.h"
+#include "options/capture_set.h"
 
 json_t *json_inside(const char *path, struct glint_error *err) {
     enum { MOST_BYTES = 1 << 24 };
@@ -65,7 +66,7 @@ json_t *captures_json(const struct list *captures, struct glint_error *err) {
     for (size_t i = 0; i < captures->count; i++) {
         char hash[33];
         struct glint_capture *capture = glint_capture_open(captures->items[i], NULL, err);
-        const bool ok = capture && glint_capture_hash(capture, hash, err);
+        const bool ok = capture && glint_capture_hash(capture, hash, err) && capture_set_check(captures, i, hash, err);
         if (capture) glint_capture_close(&capture);
         if (!ok) {
             json_decref(list);

@@ -10,6 +10,7 @@
 
 #include "io/console.h"
 #include "nearest.h"
+#include "options/capture_set.h"
 #include "record.h"
 
 void list_add(struct list *list, const char *item, struct argp_state *state) {
@@ -32,6 +33,7 @@ void list_split(struct list *list, char *text, struct argp_state *state) {
 
 void list_free(struct list *list) {
     free(list->items);
+    json_decref(list->set);
     *list = (struct list){0};
 }
 
@@ -79,6 +81,7 @@ bool args_store(const struct arg_table *table, int key, char *arg, struct argp_s
         *(const char **)field = arg;
         break;
     case STORES_ITEM:
+    case STORES_CAPTURES:
         list_add(field, arg, state);
         break;
     case STORES_NAMES:
@@ -92,6 +95,13 @@ bool args_store(const struct arg_table *table, int key, char *arg, struct argp_s
         break;
     }
     return true;
+}
+
+void args_expand_sets(const struct arg_table *table, struct argp_state *state, void *arguments) {
+    struct glint_error err = {0};
+    for (const struct arg_target *t = table->targets; t && t->kind; t++)
+        if (t->kind == STORES_CAPTURES && !capture_set_expand((struct list *)((char *)arguments + t->offset), &err))
+            argp_failure(state, err.code == GLINT_ERROR_USAGE ? STATUS_USAGE : STATUS_CHECK, 0, "%s", err.message);
 }
 
 /* Whether `text` names this file, alone or before the ':' of FILE:PART:LAYER. */

@@ -14,6 +14,8 @@
 struct list {
     const char **items;
     size_t count;
+    json_t *
+        set; /* of captures that a set names: {path, hash, tags} each, which own the items (options/capture_set.h); or NULL */
 };
 void list_add(struct list *list, const char *item, struct argp_state *state);
 /* Adds the items of "a,b,c". Overwrites the commas of `text`. */
@@ -32,6 +34,7 @@ struct arg_target {
         STORES_FLAG,
         STORES_TEXT,
         STORES_ITEM,
+        STORES_CAPTURES,
         STORES_NAMES,
         STORES_UINT32,
         STORES_UINT64,
@@ -43,6 +46,9 @@ struct arg_target {
 /* clang-format off */
 #define STORED(key, type, field) \
     {key, _Generic(((type *)NULL)->field, bool: STORES_FLAG, const char *: STORES_TEXT, struct list: STORES_ITEM), offsetof(type, field), 0, 0}
+/* A list of captures, which may be given as sets (options/capture_set.h). */
+#define STORED_CAPTURES(type, field) \
+    {ARGP_KEY_ARG, _Generic(((type *)NULL)->field, struct list: STORES_CAPTURES), offsetof(type, field), 0, 0}
 /* A list to which the items of "a,b,c" are added. */
 #define STORED_NAMES(key, type, field) \
     {key, _Generic(((type *)NULL)->field, struct list: STORES_NAMES), offsetof(type, field), 0, 0}
@@ -66,6 +72,8 @@ struct arg_table {
 /* Stores the argument where the targets say; false if they do not contain the key. */
 bool args_store(const struct arg_table *table, int key, char *arg, struct argp_state *state, void *arguments);
 
+/* Replaces sets by their captures when all arguments are there. */
+void args_expand_sets(const struct arg_table *table, struct argp_state *state, void *arguments);
 /* Checks the names of all outputs when everything is parsed: see output_check; and none is a file that the arguments name besides. */
 void args_check_outputs(const struct arg_table *table, struct argp_state *state, void *arguments);
 

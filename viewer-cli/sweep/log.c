@@ -54,6 +54,26 @@ bool sweep_path(const struct sweep *sweep, const char *name, char path[4096], st
     return journal_path(sweep->out, name, path, err);
 }
 
+/* A reference is traced with many rays by fine passes; a point has one look and the timed rounds. */
+bool sweep_cut(struct sweep *sweep, struct glint_error *err) {
+    const size_t count = sweep->captures.count;
+    const bool traces = !sweep->against.truth && !sweep->against.references.count;
+    const double rays = sweep->against.rays ? sweep->against.rays : GLINT_JUDGE_RAYS;
+    struct shard_cost *costs = calloc(count + 1, sizeof *costs);
+    bool ok = costs || fail_memory(err);
+    for (size_t c = 0; ok && sweep->shard.count && c < count; c++) {
+        struct glint_capture *capture = glint_capture_open(sweep->captures.items[c], NULL, err);
+        const struct glint_part_info *part = capture ? glint_capture_find(capture, GLINT_PART_GBUFFER) : NULL;
+        const double pixels = part ? (double)part->width * part->height : 0;
+        costs[c] = (struct shard_cost){traces ? rays * pixels : pixels, (1. + sweep->rounds) * pixels};
+        ok = part != NULL;
+        glint_capture_close(&capture);
+    }
+    if (ok) shard_cut(&sweep->shard, costs, count, sweep->points, &sweep->begin, &sweep->end);
+    free(costs);
+    return ok;
+}
+
 bool sweep_open(struct sweep *sweep, const char *const *axes, const char *sample, const struct list *shaders,
                 struct glint_error *err) {
     sweep->journal = (struct journal){.folder = sweep->out, .kind = "sweep", .keep = keep_sweep_line, .user = sweep};

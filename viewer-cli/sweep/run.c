@@ -154,7 +154,7 @@ static bool time_point(struct work *work, size_t point, uint32_t round, struct g
 
 static size_t count_missing(const struct sweep *sweep) {
     size_t missing = 0;
-    for (size_t i = 0; i < sweep->captures.count * sweep->points; i++) {
+    for (size_t i = sweep->begin; i < sweep->end; i++) {
         const struct sweep_row *row = &sweep->rows[i];
         missing += !row->look;
         for (uint32_t r = 0; r < sweep->rounds && !failed(row); r++) missing += !row->rounds[r];
@@ -165,6 +165,7 @@ static size_t count_missing(const struct sweep *sweep) {
 static bool misses(const struct sweep *sweep, size_t capture) {
     for (size_t p = 0; p < sweep->points; p++) {
         const struct sweep_row *row = sweep_row(sweep, capture, p);
+        if (!sweep_works_on(sweep, capture, p)) continue;
         for (uint32_t r = 0; r < sweep->rounds && !failed(row); r++)
             if (!row->rounds[r]) return true;
         if (!row->look) return true;
@@ -194,12 +195,16 @@ static bool find_answer(struct work *work, struct glint_error *err) {
 static bool take_turns(struct work *work, struct glint_error *err) {
     struct sweep *sweep = work->sweep;
     for (size_t p = 0; p < sweep->points; p++)
-        if (!sweep_row(sweep, work->capture, p)->look && !measure_point(work, p, err)) return false;
+        if (sweep_works_on(sweep, work->capture, p) && !sweep_row(sweep, work->capture, p)->look &&
+            !measure_point(work, p, err))
+            return false;
     for (uint32_t round = 0; round < sweep->rounds; round++) {
         glint_judge_next_round(work->judge);
         for (size_t p = 0; p < sweep->points; p++) {
             const struct sweep_row *row = sweep_row(sweep, work->capture, p);
-            if (!row->rounds[round] && !failed(row) && !time_point(work, p, round, err)) return false;
+            if (sweep_works_on(sweep, work->capture, p) && !row->rounds[round] && !failed(row) &&
+                !time_point(work, p, round, err))
+                return false;
         }
     }
     return true;

@@ -9,6 +9,7 @@
 #include "options/args.h"
 #include "glint/space.h"
 #include "journal/journal.h"
+#include "journal/shard.h"
 #include "io/progress.h"
 
 /* One point on one capture: lines of the log, as they were written. */
@@ -38,7 +39,9 @@ struct sweep_point {
 };
 
 struct sweep {
-    const char *out;
+    const char *out; /* of a shard its own folder */
+    struct shard shard;
+    size_t begin, end; /* the rows that are worked on: all of them, or those of the shard */
     struct list captures;
     struct glint_pipeline *base;
     struct glint_space *space;
@@ -63,12 +66,18 @@ void sweep_finish(struct sweep *sweep);
 static inline struct sweep_row *sweep_row(const struct sweep *sweep, size_t capture, size_t point) {
     return &sweep->rows[capture * sweep->points + point];
 }
+static inline bool sweep_works_on(const struct sweep *sweep, size_t capture, size_t point) {
+    const size_t row = capture * sweep->points + point;
+    return row >= sweep->begin && row < sweep->end;
+}
 /* "screen_trace.steps=16 resolve.fog=true", malloc'd; NULL when memory is short. */
 char *sweep_point_text(const struct sweep *sweep, size_t point);
 /* "OUT/name"; the path is at most 4096 long. */
 bool sweep_path(const struct sweep *sweep, const char *name, char path[4096], struct glint_error *err);
 
 /* log.c: OUT/sweep.json defines the sweep, OUT/log.jsonl has a line for each result. */
+/* Finds the shard's rows, by the sizes of the captures. */
+bool sweep_cut(struct sweep *sweep, struct glint_error *err);
 /* Begins the folder, or resumes it. A folder with another sweep is an error that names the difference. */
 bool sweep_open(struct sweep *sweep, const char *const *axes, const char *sample, const struct list *shaders,
                 struct glint_error *err);

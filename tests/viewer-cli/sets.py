@@ -1,0 +1,92 @@
+"""Sets of captures as arguments: folders and set files. sets.py GLINT. Speaks TAP."""
+import json
+import os
+import shutil
+import sys
+import tempfile
+
+import tap
+
+
+class Tests:
+    def __init__(self, folder):
+        self.folder = folder
+        os.mkdir(self.path("shot"))
+        tap.glint("sample", "room", "-o", "shot/f.exr", "--size", "16x9", "--cube-size", "4", "--frames", "3", folder=folder)
+
+    def path(self, *names):
+        return os.path.join(self.folder, *names)
+
+    def write(self, name, content):
+        with open(self.path(name), "w", encoding="utf-8") as file:
+            json.dump(content, file)
+
+    def validated(self, *arguments, status=0):
+        """The captures that were validated, in this order."""
+        run = tap.glint("validate", "--json", *arguments, folder=self.folder, status=status)
+        return [file["file"] for file in json.loads(run.stdout)["files"]]
+
+    def refused(self, name, content, *words):
+        self.write(name, content)
+        run = tap.glint("validate", name, folder=self.folder, status=1)
+        assert name in run.stderr and all(word in run.stderr for word in words), run.stderr
+
+    def test_a_folder_is_its_captures_by_name(self):
+        frames = [f"shot/f.000{i}.exr" for i in (1, 2, 3)]
+        assert os.path.exists(self.path("shot", "f.cubemaps.exr")), "which is no capture"
+        assert self.validated("shot") == frames
+        assert self.validated("shot/") == frames
+        assert self.validated("shot/f.0003.exr", "shot") == frames[2:] + frames
+
+    def test_a_broken_capture_of_a_folder_is_told_and_does_not_end_the_others(self):
+        shutil.copytree(self.path("shot"), self.path("damaged"))
+        with open(self.path("damaged", "f.0002.exr"), "wb") as file:
+            file.write(b"not an image")
+        assert len(self.validated("damaged", status=1)) == 3
+
+    def test_a_set_file_lists_captures_in_its_order(self):
+        self.write("set.json", {"format": 1, "captures": [{"path": "shot/f.0002.exr", "tags": ["rain"]}, {"path": self.path("shot", "f.0001.exr")}]})
+        expected = ["shot/f.0002.exr", self.path("shot", "f.0001.exr")]
+        assert self.validated("set.json") == expected
+        assert self.validated(self.path("set.json"))[0] == self.path("shot/f.0002.exr"), "relative to the set file"
+        shutil.copytree(self.path("shot"), self.path("labelled", "shot"))
+        shutil.copy(self.path("set.json"), self.path("labelled", "set.json"))
+        assert self.validated("labelled")[0] == "labelled/shot/f.0002.exr", "a folder with a set file is that set"
+
+    def test_a_capture_with_another_hash_is_refused_where_hashes_are_used(self):
+        self.write("hashed.json", {"format": 1, "captures": [{"path": "shot/f.0002.exr", "hash": "0" * 32}]})
+        sweep = ["sweep", "hashed.json", "-p", tap.PLAIN, "-o", "swept", "--vary", "screen_trace.steps=4,8", "--repeat", "0", "--rays", "4", "--no-pictures"]
+        said = tap.glint(*sweep, folder=self.folder, status=1).stderr
+        assert "shot/f.0002.exr: expected the hash 000" in said, said
+        found = said.rsplit("found ", 1)[1].strip()
+        self.write("hashed.json", {"format": 1, "captures": [{"path": "shot/f.0002.exr", "hash": found}]})
+        tap.glint(*sweep, folder=self.folder)
+
+    def test_set_files_that_are_none(self):
+        capture = {"path": "shot/f.0001.exr"}
+        self.refused("bad.json", {"captures": [capture]}, "format 1")
+        self.refused("bad.json", {"format": 1}, "list of captures")
+        self.refused("bad.json", {"format": 1, "captures": []}, "list of captures")
+        self.refused("bad.json", {"format": 1, "captures": [capture, {"path": 7}]}, "captures[1]", "path")
+        self.refused("bad.json", {"format": 1, "captures": [{**capture, "tag": []}]}, "captures[0]", "found tag")
+        self.refused("bad.json", {"format": 1, "captures": [{**capture, "hash": "123"}]}, "32 hexadecimal digits")
+        self.refused("bad.json", {"format": 1, "captures": [{**capture, "tags": [""]}]}, "tags")
+        self.refused("bad.json", {"format": 1, "captures": [capture, capture]}, "captures[1]", "twice")
+        with open(self.path("bad.json"), "w", encoding="utf-8") as file:
+            file.write('{"format": 1,')
+        assert "bad.json: line 1" in tap.glint("validate", "bad.json", folder=self.folder, status=1).stderr
+
+    def test_folders_without_captures(self):
+        os.mkdir(self.path("empty"))
+        assert "found none" in tap.glint("validate", "empty", folder=self.folder, status=2).stderr
+        tap.glint("replay", "shot/f.0001.exr", "-p", tap.PLAIN, "-o", "run", folder=self.folder)
+        assert "found a run" in tap.glint("compare", "run", folder=self.folder, status=2).stderr
+
+
+def main():
+    sys.argv[1] = os.path.abspath(sys.argv[1])
+    with tempfile.TemporaryDirectory(prefix="glint-sets-") as folder:
+        return tap.run(Tests(folder))
+
+
+sys.exit(main())

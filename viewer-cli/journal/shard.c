@@ -1,0 +1,80 @@
+/* Shards of a study: equal shares of its work. */
+#include "journal/shard.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "journal/journal.h"
+#include "record.h"
+
+void shard_parse(struct shard *shard, const char *text, struct argp_state *state) {
+    char rest;
+    *shard = (struct shard){0};
+    if (!strcmp(text, "whole")) return;
+    if (sscanf(text, "%7u/%7u%c", &shard->number, &shard->count, &rest) != 2 || !shard->number ||
+        shard->number > shard->count)
+        argp_error(state, "--shard %s: expected K/N, a share from 1 to N of N, such as 3/8", text);
+}
+
+bool shard_folder(const struct shard *shard, const char *out, char path[4096], struct glint_error *err) {
+    return snprintf(path, 4096, "%s/shards/%u-of-%u", out, shard->number, shard->count) < 4096 ||
+           glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", out);
+}
+
+/* The place in the order of all points at which this part of the whole cost is done. */
+static size_t place_of(double part, const struct shard_cost *captures, size_t count, size_t points) {
+    double whole = 0, before = 0;
+    for (size_t c = 0; c < count; c++) whole += captures[c].first + (double)points * captures[c].each;
+    for (size_t c = 0; c < count; c++) {
+        const double own = captures[c].first + (double)points * captures[c].each, left = part * whole - before;
+        before += own;
+        if (left >= own) continue;
+        /* Who works on the second part of a capture does its first work, too. */
+        const double point = (left - captures[c].first) / captures[c].each;
+        if (left < 0.5 * own && left < 2 * captures[c].first) return c * points;
+        if (own - left < captures[c].first) return (c + 1) * points;
+        return c * points + (size_t)fmax(0, round(point));
+    }
+    return count * points;
+}
+
+void shard_cut(const struct shard *shard, const struct shard_cost *captures, size_t count, size_t points, size_t *begin,
+               size_t *end) {
+    *begin = 0;
+    *end = count * points;
+    if (!shard->count) return;
+    if (shard->number > 1) *begin = place_of((shard->number - 1.) / shard->count, captures, count, points);
+    if (shard->number < shard->count) *end = place_of((double)shard->number / shard->count, captures, count, points);
+}
+
+static json_t *arguments_json(const struct shard_record *record) {
+    json_t *arguments = json_array();
+    bool fits = arguments != NULL;
+    for (int i = 1; fits && i < record->argc; i++)
+        fits = json_array_append_new(arguments, json_string(record->argv[i])) == 0;
+    if (fits) return arguments;
+    json_decref(arguments);
+    return NULL;
+}
+
+bool shard_write(const struct shard_record *record, bool done, struct glint_error *err) {
+    char path[4096], here[4096];
+    if (!getcwd(here, sizeof here))
+        return glint_fail(err, GLINT_ERROR_IO, "the working directory: %s", strerror(errno));
+    json_t *arguments = arguments_json(record);
+    if (!arguments) return glint_fail(err, GLINT_ERROR_USAGE, "out of memory, or an argument that is not UTF-8");
+    json_t *json = json_pack("{s:i, s:s, s:I, s:I, s:I, s:I, s:b, s:o, s:s}", "format", 1, "command", record->argv[0],
+                             "shard", (json_int_t)record->shard.number, "of", (json_int_t)record->shard.count,
+                             "results", (json_int_t)record->results, "kept", (json_int_t)record->kept, "done", done,
+                             "arguments", arguments, "folder", here);
+    char *text = json ? record_text(json, JSON_INDENT(1)) : NULL;
+    json_decref(json);
+    const bool ok = text ? journal_path(record->folder, "shard.json", path, err) && output_text(path, text, err)
+                         : glint_fail(err, GLINT_ERROR_USAGE, "%s: out of memory, or not UTF-8", here);
+    free(text);
+    return ok;
+}
