@@ -48,6 +48,7 @@ extern const struct command
     cmd_reference,
     cmd_compare,
     cmd_sweep,
+    cmd_merge,
     cmd_batch,
     cmd_blame,
     cmd_tune,

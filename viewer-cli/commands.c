@@ -20,6 +20,7 @@ const struct command *const commands[] = {
     &cmd_reference,
     &cmd_compare,
     &cmd_sweep,
+    &cmd_merge,
     &cmd_batch,
     &cmd_blame,
     &cmd_tune,

@@ -1,6 +1,6 @@
 """glint's commands are killed (SIGKILL) at any moment: what is left is whole, and running the command again gives what it gives undisturbed.
 
-kill.py GLINT LIBRARY [--all | --samples N] [--only COMMAND] [--seed N] [--where]
+kill.py GLINT LIBRARY [--all | --moments N --calls N] [--only COMMAND;COMMAND] [--seed N]
 
 A command is killed at random moments, spread evenly over its duration, and at its calls of the operating system: before the n-th call that opens, writes,
 renames, syncs, makes or removes, and in the middle of a write (by the library of fail.c). Then
@@ -27,11 +27,10 @@ import time
 
 sys.path.append(os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "viewer-cli"))
 import tap  # noqa: E402
+from timeless import without_times  # noqa: E402
 
 LIMIT_S = 300
 CALLS = ["open", "write", "rename", "sync", "make", "remove"]
-TIMES = re.compile("(_ns|_ms|ms|seconds|_bytes)$|^(ms|time|cold|min|median|max|low|high)$")
-CACHED = re.compile("^(ran|cached|reason|dispatches|work|history|executed)$")
 NUMBER = re.compile("[0-9]+([.][0-9]+)?(e-?[0-9]+)?( (ns|µs|ms|s)\\b)?|[ ─█▏▎▍▌▋▊▉–]+".encode())
 TEMPORARY = re.compile("[.]tmp-[0-9a-f]{8}$|(^|/)[.]glint-new(/|$)|[.]new~(/|$)")
 P = tap.PLAIN
@@ -68,15 +67,6 @@ def tree(folder):
             with open(path, "rb") as file:
                 found[os.path.relpath(path, folder)] = file.read()
     return found
-
-
-def without_times(value, timed=False):
-    """What does not depend on times, on what the cache held, and on whether the frame before came from a folder."""
-    if isinstance(value, dict):
-        return {k: without_times(v, timed or bool(TIMES.search(k))) for k, v in value.items() if not CACHED.search(k)}
-    if isinstance(value, list):
-        return [without_times(v, timed) for v in value]
-    return "time" if timed and not isinstance(value, str) else value
 
 
 def is_exr(data):

@@ -27,6 +27,7 @@ struct batch {
     json_t *record;           /* batch.json; NULL: something else than glint batch started the shards */
     struct batch_shard *shards;
     size_t count;
+    double changed;         /* when a shard was started or done last */
     struct batch_job merge; /* the last one */
     bool asked;             /* Slurm has been, and answered */
     struct glint_folder_lock *lock;
@@ -66,7 +67,7 @@ bool batch_write_scripts(const struct batch *batch, const struct batch_script *s
 
 /* Reads how far each shard is. */
 bool batch_read_shards(struct batch *batch, struct glint_error *err);
-/* Whether the merged results are there. */
+/* Whether the merged results of these shards are there. */
 bool batch_is_merged(const struct batch *batch);
 /* "1-3,7" of the shards that are chosen, malloc'd. */
 char *batch_list(const bool *chosen, size_t count);

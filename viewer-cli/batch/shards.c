@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "batch/batch.h"
 #include "inside.h"
@@ -65,6 +64,7 @@ static bool read_shard(struct batch *batch, size_t i, struct glint_error *err) {
     snprintf(name, sizeof name, "shards/%zu-of-%zu/shard.json", i + 1, batch->count);
     if (!batch_path(batch, name, path, err)) return false;
     if (!(shard->begun = is_there(path, &started))) return true;
+    batch->changed = fmax(batch->changed, started);
     if (!take_record(batch, shard, path, &kept, err)) return false;
     snprintf(name, sizeof name, "shards/%zu-of-%zu/log.jsonl", i + 1, batch->count);
     if (!batch_path(batch, name, path, err)) return false;
@@ -83,7 +83,10 @@ bool batch_read_shards(struct batch *batch, struct glint_error *err) {
 
 bool batch_is_merged(const struct batch *batch) {
     char path[4096];
-    return batch_path(batch, "index.html", path, NULL) && access(path, F_OK) == 0;
+    double written;
+    bool done = batch->count > 0;
+    for (size_t i = 0; i < batch->count; i++) done = done && batch->shards[i].done;
+    return done && batch_path(batch, "index.html", path, NULL) && is_there(path, &written) && written >= batch->changed;
 }
 
 char *batch_list(const bool *chosen, size_t count) {

@@ -1,15 +1,14 @@
-/* The commands that glint batch cuts into shards: one table, and one of the options of both, so that help, errors and completion know all of them. */
+/* The commands that glint batch cuts into shards: one table of the options of both, so that help, errors and completion know all of them. */
 #include "batch/studied.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-static const struct command *const studied_commands[] = {&cmd_sweep};
+#include "journal/shard.h"
 
 const struct command *batch_studied(const char *name) {
-    for (size_t i = 0; i < sizeof studied_commands / sizeof *studied_commands; i++)
-        if (!strcmp(studied_commands[i]->name, name)) return studied_commands[i];
-    return NULL;
+    const struct command *command = command_find(name);
+    return command && command_option(command, KEY_SHARD) ? command : NULL;
 }
 
 static bool ends(const struct argp_option *o) {
