@@ -80,9 +80,9 @@ class Tests:
 
     def test_job_scripts_call_the_command_with_the_same_words(self):
         hard = ["two words", "it's", 'a "quote"', "line\nbreak", "$HOME `id` $(id) \\ * ?", "\u202eabc\x1b[0m", "ünï", "--first", "-o"]
-        os.makedirs("a %j 'folder'\n", exist_ok=True)
+        os.makedirs("a 'folder'\n", exist_ok=True)
         glint("batch", "sweep", "--slurm", "--no-submit", "--shards", "5", "-o", "../out put", "--vary", "a=b c", "--repeat=0", "-p", "$HOME", "--no-pictures", "--set=x=",
-              "-j", "--", *hard, folder="a %j 'folder'\n")
+              "-j", "--", *hard, folder="a 'folder'\n")
         scripts = {}
         for name in ("shard", "merge"):
             with open(f"out put/{name}.sbatch", encoding="utf-8") as file:
@@ -91,7 +91,7 @@ class Tests:
             with open(f"{name}.sh", "w", encoding="utf-8") as file:
                 file.write(scripts[name].replace(GLINT, os.path.join(self.fakes, "words")))
             assert scripts[name].isprintable() or set(c for c in scripts[name] if not c.isprintable()) == {"\n"}, scripts[name]
-        own = os.path.join(os.getcwd(), "a %j 'folder'\n")
+        own = os.path.join(os.getcwd(), "a 'folder'\n")
         assert self.words("shard.sh", SLURM_ARRAY_TASK_ID="3") == [
             own, "sweep", "--shard=3/5", "--output=../out put", "--vary=a=b c", "--repeat=0", "--preset=$HOME", "--no-pictures", "--set=x=", "--", *hard]
         assert self.words("merge.sh") == [own, "merge", "../out put"]
@@ -115,6 +115,11 @@ class Tests:
         assert "--slurm" in glint("batch", "sweep", "a.exr", "-o", "none", status=2).stderr
         assert "no output folder" in glint("batch", "sweep", "a.exr", "--slurm", status=2).stderr
         assert not os.path.exists("none")
+        os.makedirs("100%", exist_ok=True)
+        os.symlink("100%", "link")
+        for name, folder in (("none 50%", "."), ("none\\b", "."), ("none", "100%"), ("link", ".")):
+            assert "in its path" in glint("batch", "sweep", "../a.exr", "-o", name, "--slurm", folder=folder, status=2).stderr
+            assert folder == "." and name == "link" or not os.path.exists(os.path.join(folder, name))
 
     # ---- Submitting ----
 

@@ -115,12 +115,13 @@ class Tests:
 
     def test_a_cancelled_batch_goes_on(self):
         """Names are hard, and scripts are changed before they are submitted."""
-        os.mkdir("odd %j 'x' \\n")
+        odd = "odd 'x' \"y\" $z\n"
+        os.mkdir(odd)
         first, second = sorted(name for name in os.listdir("shot") if name.startswith("room.0"))[:2]
-        shutil.copytree("shot", "odd %j 'x' \\n/a b")
-        out = "odd %j 'x' \\n/out \"%a\""
-        glint("batch", "sweep", f"a b/{first}", f"a b/{second}", "-o", 'out "%a"', *SWEEP, "--slurm", "--no-submit", "--shards=2", '--sbatch=--comment=say "a\\b" #1',
-              folder="odd %j 'x' \\n")
+        shutil.copytree("shot", f"{odd}/%j \\n")
+        out = f"{odd}/out #1"
+        glint("batch", "sweep", f"%j \\n/{first}", f"%j \\n/{second}", "-o", "out #1", *SWEEP, "--slurm", "--no-submit", "--shards=2", '--sbatch=--comment=say "a\\b" #1',
+              folder=odd)
         with open(f"{out}/shard.sbatch", "r+", encoding="utf-8") as file:
             text = file.read().replace("#SBATCH --ntasks=1", "#SBATCH --ntasks=1\n#SBATCH --hold")
             file.seek(0)

@@ -32,12 +32,25 @@ static bool make_shards(struct batch *batch, size_t count, struct glint_error *e
     return batch->shards || fail_memory(err);
 }
 
+/* Slurm replaces %x in the whole path of a log, and a backslash keeps it from doing so. */
+static bool check_name(const char *folder, struct glint_error *err) {
+    char *here = realpath(".", NULL), *whole = realpath(folder, NULL); /* which need not be there yet */
+    const bool ok =
+        !strpbrk(whole ? whole : folder, "%\\") && (whole || folder[0] == '/' || !here || !strpbrk(here, "%\\"));
+    free(here);
+    free(whole);
+    return ok || glint_fail(err, GLINT_ERROR_USAGE,
+                            "%s: Slurm does not write logs into a folder with %% or \\ in its path", folder);
+}
+
 bool batch_create(struct batch *batch, const char *folder, const char *command, size_t shards,
                   struct glint_error *err) {
     char path[4096];
     *batch = (struct batch){.folder = folder};
     snprintf(batch->command, sizeof batch->command, "%s", command);
-    if (!lock(batch, err) || !batch_path(batch, RECORD, path, err) || !make_shards(batch, shards, err)) return false;
+    if (!check_name(folder, err) || !lock(batch, err) || !batch_path(batch, RECORD, path, err) ||
+        !make_shards(batch, shards, err))
+        return false;
     if (access(path, F_OK) == 0)
         return glint_fail(err, GLINT_ERROR_USAGE,
                           "%s: there is a batch in this folder already, which glint batch resubmit continues; choose "
