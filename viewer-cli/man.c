@@ -4,6 +4,7 @@
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Prints text in mdoc: control characters are escaped, and each sentence begins a new line. */
 static void print_text(const char *text) {
@@ -62,7 +63,8 @@ void man_print_command(const struct command *command) {
     print_text(command->arguments[0] ? command->arguments : "\\&");
     printf(".Sh DESCRIPTION\n");
     print_text(command->description);
-    print_text(command_about_sets(command));
+    const char *sets = command_about_sets(command);
+    if (*sets) print_text(sets + strspn(sets, " ")); /* a page has no blank lines */
     printf(".Pp\nThe options are:\n.Bl -tag -width Ds\n");
     for (const struct argp_option *o = command->options; !ends(o); o++)
         if (o->name) print_option(command, o);

@@ -191,6 +191,21 @@ class Tests:
             ["3", "node", "fail", "(NodeDown)", "101_3", "30", "100", "3", "23", "s"]], text
         assert f"glint batch resubmit {out}" in text and "job 102, is pending" in text, text
 
+    def test_status_says_why_shards_failed(self):
+        out = self.batch(shards=6)
+        for name, text in (("1-101", "fine\n"), ("2-100", "an older one\n"), ("2-101", "shard 2\nglint sweep: a.exr: \x1b[0m\n\n"), ("3-101", ""), ("4-101", "x" * 1000), ("5-101", "5"),
+                           ("6-101", "not shown")):
+            with open(f"{out}/logs/shard-{name}.txt", "w", encoding="utf-8") as file:
+                file.write(text)
+        self.shard(out, 1, 6, results=2, total=2, done=True)
+        self.fake("squeue.says", "".join(f"101|{i}|FAILED|NonZeroExitCode\n" for i in range(2, 7)))
+        said = glint("batch", "status", out).stdout.splitlines()
+        at = said.index("2: glint sweep: a.exr: \\x1b[0m")
+        assert said[at + 1] == f"4: {'x' * 255}" and said[at + 2] == "5: 5" and said[at + 3].startswith("2-6: not done"), said
+        os.unlink(f"{out}/logs/shard-2-101.txt")
+        os.symlink("shard-2-100.txt", f"{out}/logs/shard-2-101.txt")
+        assert "older" not in glint("batch", "status", out).stdout
+
     def test_jobs_that_have_left_the_queue_are_known_to_the_accounts(self):
         out = self.batch()
         self.fake("squeue.fails", "slurm_load_jobs error: Invalid job id specified\n")

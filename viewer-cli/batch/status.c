@@ -6,6 +6,8 @@
 #include <string.h>
 
 #include "batch/batch.h"
+#include "inside.h"
+#include "io/console.h"
 #include "io/shell.h"
 #include "io/table.h"
 
@@ -131,6 +133,33 @@ static void print_rows(const struct batch *batch) {
     table_destroy(&table);
 }
 
+/* The last line that the shard's job printed, "" if there is none. */
+static void last_line(const struct batch *batch, size_t i, char line[256]) {
+    enum { MOST = 1 << 26 };
+    char name[128], path[4096], *text = NULL;
+    line[0] = '\0';
+    snprintf(name, sizeof name, BATCH_LOGS "/shard-%zu-%s.txt", i + 1, batch->shards[i].job.job);
+    if (batch_path(batch, name, path, NULL)) text = inside_text(path, MOST, NULL);
+    if (!text) return;
+    size_t end = strlen(text);
+    while (end && isspace((unsigned char)text[end - 1])) text[--end] = '\0';
+    const char *last = strrchr(text, '\n');
+    snprintf(line, 256, "%s", last ? last + 1 : text);
+    free(text);
+}
+
+/* Why shards failed, of the first of them. */
+static void print_reasons(const struct batch *batch, const bool *chosen) {
+    enum { MOST_SHOWN = 3 };
+    char line[256];
+    for (size_t i = 0, shown = 0; i < batch->count && shown < MOST_SHOWN; i++) {
+        if (!chosen[i] || !batch->shards[i].job.job[0]) continue;
+        last_line(batch, i, line);
+        if (line[0]) printf("%zu: %s\n", i + 1, name_text(line));
+        shown += line[0] != '\0';
+    }
+}
+
 static void print_command(const char *shards, const char *text, const char *folder) {
     printf("%s%s", shards, text);
     shell_path(stdout, folder);
@@ -144,6 +173,7 @@ static void print_next(const struct batch *batch, const struct total *total) {
     char *list = chosen ? batch_list(chosen, batch->count) : NULL, state[BATCH_WORD];
     const bool merged = batch_is_merged(batch), all = total->finished == batch->count;
     state_text(&batch->merge, "", state);
+    if (missing) print_reasons(batch, chosen);
     if (missing && list) print_command(list, ": not done, and not in the queue: glint batch resubmit ", batch->folder);
     if (merged) print_command("", "merged: ", batch->folder);
     else if (batch->merge.state[0]) printf("the merge, job %s, is %s\n", batch->merge.job, state);
