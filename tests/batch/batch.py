@@ -9,7 +9,7 @@ sys.path.append(os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__f
 import tap  # noqa: E402
 from tap import glint  # noqa: E402
 
-GLINT = os.path.abspath(sys.argv[1])
+GLINT = sys.argv[1] = os.path.abspath(sys.argv[1])
 # Each call becomes a line: the program, its folder, its words. What it prints and how it ends is in files: sbatch counts jobs up.
 FAKE = """#!/bin/sh
 name=${0##*/}

@@ -10,6 +10,7 @@ import tap  # noqa: E402
 from tap import glint, programs  # noqa: E402
 import timeless  # noqa: E402
 
+GLINT = sys.argv[1] = os.path.abspath(sys.argv[1])
 PAGE = os.path.abspath(sys.argv[2])
 
 
@@ -21,7 +22,7 @@ class Tests:
         assert sorted(self.recipes) == ["sh", "yaml"] and all(text.count("\n") <= 10 for text in self.recipes.values())
         self.folder = folder
         os.mkdir(os.path.join(folder, "bin"))
-        os.symlink(os.path.abspath(sys.argv[1]), os.path.join(folder, "bin/glint"))
+        os.symlink(GLINT, os.path.join(folder, "bin/glint"))
         os.environ["PATH"] = os.path.join(folder, "bin") + ":" + os.environ["PATH"]
         os.environ["HOME"] = folder  # where parallel keeps its settings
         os.makedirs(os.path.join(folder, "whole/shots"))

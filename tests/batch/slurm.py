@@ -13,7 +13,7 @@ import tap
 from tap import glint
 import timeless
 
-GLINT = os.path.abspath(sys.argv[1])
+GLINT = sys.argv[1] = os.path.abspath(sys.argv[1])
 CAPTURES, POINTS, SHARDS = 60, 20, 8
 SWEEP = ["-p", tap.PLAIN, "--reference", "truth", "--repeat", "0", "--vary", f"cubemap_trace.steps_hq=1..{POINTS}"]
 # What glint batch adds to what one process writes.

@@ -26,6 +26,13 @@ static void state_text(const struct batch_job *job, const char *otherwise, char 
     for (char *p = text; *p; p++) *p = *p == '_' ? ' ' : (char)tolower((unsigned char)*p);
 }
 
+enum { TASK_TEXT = BATCH_WORD + 24 };
+/* "12_3", "" if it was never submitted. */
+static const char *task_text(const struct batch_job *job, size_t shard, char text[TASK_TEXT]) {
+    snprintf(text, TASK_TEXT, job->job[0] ? "%s_%zu" : "%s", job->job, shard + 1);
+    return text;
+}
+
 static const char *journal_text(const struct batch_shard *shard) {
     return shard->done ? "done" : shard->begun ? "begun" : "not begun";
 }
@@ -76,12 +83,11 @@ static json_t *optional(const char *text) {
 
 static json_t *shard_json(const struct batch *batch, size_t i) {
     const struct batch_shard *shard = &batch->shards[i];
-    char state[BATCH_WORD], job[BATCH_WORD + 24] = "";
+    char state[BATCH_WORD], job[TASK_TEXT];
     state_text(&shard->job, journal_text(shard), state);
-    if (shard->job.job[0]) snprintf(job, sizeof job, "%s_%zu", shard->job.job, i + 1);
     return json_pack("{s:I, s:s, s:o, s:o, s:b, s:I, s:o, s:o, s:o}", "shard", (json_int_t)i + 1, "state", state, "job",
-                     optional(job), "reason", optional(shard->job.reason), "done", (int)shard->done, "results",
-                     (json_int_t)shard->results, "of",
+                     optional(task_text(&shard->job, i, job)), "reason", optional(shard->job.reason), "done",
+                     (int)shard->done, "results", (json_int_t)shard->results, "of",
                      shard->begun ? json_integer((json_int_t)shard->total) : json_null(), "per_second",
                      json_number(shard->per_second), "seconds_left", json_number(seconds_left(shard)));
 }
@@ -112,8 +118,14 @@ json_t *batch_json(const struct batch *batch) {
 
 /* ---- The table ---- */
 
+static void count_cell(struct table *table, bool known, size_t count) {
+    char text[32] = "";
+    if (known) snprintf(text, sizeof text, "%zu", count);
+    table_cell(table, "%s", text);
+}
+
 static void print_rows(const struct batch *batch) {
-    char state[BATCH_WORD], left[32];
+    char state[BATCH_WORD], left[32], job[TASK_TEXT];
     struct table *table =
         table_create((const char *const[]){">shard", "<state", "<job", ">results", ">of", ">a second", ">left", NULL});
     for (size_t i = 0; i < batch->count; i++) {
@@ -123,9 +135,9 @@ static void print_rows(const struct batch *batch) {
         table_cell(table, "%zu", i + 1);
         table_cell(table, shard->job.reason[0] ? "%s (%s)" : "%s", state, shard->job.reason);
         table_mark(table, shard->done ? MARK_GOOD : batch->asked && !active ? MARK_FAIL : MARK_NONE);
-        table_cell(table, shard->job.job[0] ? "%s_%zu" : "", shard->job.job, i + 1);
-        table_cell(table, shard->begun ? "%zu" : "", shard->results);
-        table_cell(table, shard->begun ? "%zu" : "", shard->total);
+        table_cell(table, "%s", task_text(&shard->job, i, job));
+        count_cell(table, shard->begun, shard->results);
+        count_cell(table, shard->begun, shard->total);
         table_cell(table, "%s", isfinite(shard->per_second) ? number_text(shard->per_second) : "");
         table_cell(table, "%s", shard->done || !shard->begun ? "" : left_text(seconds_left(shard), left));
     }
