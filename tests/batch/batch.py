@@ -103,11 +103,11 @@ class Tests:
             return file.read().split("\0")[:-1]
 
     def test_options_of_sbatch_are_lines_of_both_scripts(self):
-        out = self.batch("--gpus-per-task=2", "--partition=fast", "--sbatch=--time=1:00:00", '--sbatch=--comment=say "a\\b" #1', shards=7)
+        out = self.batch("--gpus-per-task=2", "--partition=fast", "--sbatch=--time=1:00:00", '--sbatch=--comment=say "a\\b" #1', "--sbatch=--wckey=a#b", shards=7)
         for name, own in (("shard", "--array=1-7\n#SBATCH --output=logs/shard-%a-%A.txt"), ("merge", "--output=logs/merge-%j.txt")):
             with open(f"{out}/{name}.sbatch", encoding="utf-8") as file:
                 text = file.read()
-            expected = "\n#SBATCH ".join([own, "--ntasks=1", "--gpus-per-task=2", "--partition=fast", "--time=1:00:00", '--comment="say \\"a\\\\b\\" #1"\n'])
+            expected = "\n#SBATCH ".join([own, "--ntasks=1", "--gpus-per-task=2", "--partition=fast", "--time=1:00:00", '--comment="say \\"a\\\\b\\" #1"', '--wckey="a#b"\n'])
             assert text.startswith("#!/bin/bash\n") and f"\n#SBATCH {expected}\ncd " in text, text
         for bad, said in (("--sbatch=time", "expected an option"), ("--sbatch=--comment=a\nb", "no line breaks"), ("--partition=a\nb", "no line breaks"),
                           ("--shard=1/2", "from its script"), ("--shards=0", "from 1 to"), ("-", "stdin"), ("--gpus-per-task=-1", "from 1 to")):
@@ -268,6 +268,12 @@ class Tests:
             pass
         assert "merged" in glint("batch", "resubmit", out).stdout and self.calls()[-1][0] != "sbatch"
         assert "merged: " in glint("batch", "status", out).stdout and self.status(out)["merge"]["done"]
+        os.utime(f"{out}/index.html", (999, 999))
+        assert not self.status(out)["merge"]["done"], "it is of an earlier sweep"
+        os.utime(f"{out}/index.html", (2000, 2000))
+        assert self.status(out)["merge"]["done"]
+        self.shard(out, 2, 2, results=2, total=3)
+        assert not self.status(out)["merge"]["done"], "it is of an earlier sweep"
 
     def test_resubmit_stops_where_slurm_does_not_answer(self):
         out = self.batch()
@@ -281,7 +287,8 @@ class Tests:
         out = self.batch(shards=3)
         self.shard(out, 1, 3, results=2, total=2, done=True)
         self.fake("squeue.says", "101|1|COMPLETED|None\n101|2|FAILED|None\n101|3|RUNNING|None\n102|N/A|PENDING|Dependency\n")
-        glint("batch", "resubmit", out)
+        found = json.loads(glint("batch", "resubmit", out, "--json").stdout)
+        assert [(s["job"], s["state"]) for s in found["shards"]] == [("101_1", "completed"), ("103_2", "not begun"), ("101_3", "running")] and found["merge"]["job"] == "104", found
         self.fake("squeue.says", "101|1|COMPLETED|None\n101|3|RUNNING|None\n103|2|PENDING|None\n104|N/A|PENDING|Dependency\n")
         self.calls()
         assert "101" in glint("batch", "cancel", out).stdout
