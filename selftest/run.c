@@ -13,20 +13,23 @@
 #include "internal.h"
 #include "threads.h"
 
-static bool make_folder(char path[256], struct glint_error *err) {
+/* The folder is open, so that it can be emptied without memory. */
+static DIR *make_folder(char path[256], struct glint_error *err) {
     const char *parent = getenv("TMPDIR");
-    if (snprintf(path, 256, "%s/glint-selftest-XXXXXX", parent ? parent : "/tmp") < 256 && mkdtemp(path)) return true;
+    const bool made = snprintf(path, 256, "%s/glint-selftest-XXXXXX", parent ? parent : "/tmp") < 256 && mkdtemp(path);
+    DIR *folder = made ? opendir(path) : NULL;
+    if (folder) return folder;
     glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
-    path[0] = '\0';
-    return false;
+    if (made) rmdir(path);
+    return NULL;
 }
 
-static void remove_folder(const char *folder) {
-    DIR *dir = folder[0] ? opendir(folder) : NULL;
-    for (const struct dirent *entry; dir && (entry = readdir(dir));)
-        if (entry->d_name[0] != '.') unlinkat(dirfd(dir), entry->d_name, 0);
-    if (dir) closedir(dir);
-    if (folder[0]) rmdir(folder);
+static void remove_folder(DIR *folder, const char *path) {
+    rewinddir(folder);
+    for (const struct dirent *entry; (entry = readdir(folder));)
+        if (entry->d_name[0] != '.') unlinkat(dirfd(folder), entry->d_name, 0);
+    closedir(folder);
+    rmdir(path);
 }
 
 /* Each worker has its own device and folder. A worker whose device has not enough memory beside the others leaves its group to the
@@ -83,15 +86,16 @@ static bool run_group(struct work *work, struct glint_device *device, struct sel
                       struct glint_error *err) {
     struct group_progress progress = {work, s};
     struct timespec start;
-    char folder[256] = "";
+    char path[256] = "";
     double filter_step = NAN;
-    const struct case_context context = {device,   folder, work->options->quick, &filter_step, report_group_progress,
+    const struct case_context context = {device,   path, work->options->quick, &filter_step, report_group_progress,
                                          &progress};
     clock_gettime(CLOCK_MONOTONIC, &start);
     s->public.seconds = 0;
     memset(s->findings, 0, s->group->count() * sizeof *s->findings); /* of a worker that left, or of an earlier run */
-    const bool ok = make_folder(folder, err) && s->group->run(&context, s->selected, s->findings, err);
-    remove_folder(folder);
+    DIR *folder = make_folder(path, err);
+    const bool ok = folder && s->group->run(&context, s->selected, s->findings, err);
+    if (folder) remove_folder(folder, path);
     if (!ok) return false;
     s->public.seconds = seconds_since(&start);
     publish_findings(s);

@@ -110,7 +110,9 @@ static error_t cmd_sweep_parse(int key, char *arg, struct argp_state *state) {
 
 /* The order in which the slots run. */
 static bool sort_points(struct sweep *sweep, struct glint_error *err) {
-    struct glint_capture *capture = glint_capture_open(sweep->captures.items[0], NULL, err);
+    struct glint_capture *capture = NULL;
+    for (size_t c = 0; c < sweep->captures.count && !capture; c++)
+        capture = glint_capture_open(sweep->captures.items[c], NULL, err);
     struct glint_replay *replay = capture ? glint_replay_create(NULL, err) : NULL;
     const struct glint_plan_entry *entries;
     size_t count = 0;
@@ -162,7 +164,13 @@ static bool write_tables(const struct sweep *sweep, struct glint_error *err) {
 /* Points that failed, and figures that are none. */
 static enum status report_failures(const struct sweep *sweep) {
     enum status status = STATUS_DONE;
+    for (size_t c = 0; c < sweep->captures.count; c++) {
+        if (!sweep_broken(sweep, c)) continue;
+        command_note(&cmd_sweep, "left out: %s", sweep_broken(sweep, c));
+        status = STATUS_CHECK;
+    }
     for (size_t i = 0; i < sweep->captures.count * sweep->points; i++) {
+        if (sweep_broken(sweep, i / sweep->points)) continue;
         const char *failed = json_string_value(json_object_get(sweep->rows[i].look, "failed"));
         const double invalid = sweep_figure(&sweep->rows[i], "invalid");
         if (!failed && !(invalid > 0)) continue;

@@ -3,6 +3,7 @@
 #define _GNU_SOURCE /* pipe2 */
 #include "clamp.h"
 #include "compile.h"
+#include "start.h"
 #include "words.h"
 
 #include <errno.h>
@@ -234,20 +235,17 @@ static bool compile_apart(struct compiled_text *out, const char *path, const cha
    finds it. */
 static pthread_mutex_t one_at_a_time = PTHREAD_MUTEX_INITIALIZER;
 
-static bool start_compiler(bool *started, struct glint_error *err) {
-    struct compiled_text empty = {0};
+static bool start_compiler(bool *started, const char *path, struct glint_error *err) {
+    static bool broken;
     if (*started) return true;
-    if (!(*started = glslang_initialize_process() != 0))
-        return glint_fail(err, GLINT_ERROR_UNSUPPORTED, "glslang cannot start");
-    const bool ok = compile_text(&empty, "an empty shader", "#version 460\nvoid main() {}\n", err);
-    free(empty.words);
-    return ok;
+    if (!broken) broken = !(*started = start_glslang());
+    return *started || glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory: glslang cannot start", path);
 }
 
 bool compile_glsl(struct compiled_text *out, bool *started, const char *path, const char *code, bool clamp,
                   struct glint_error *err) {
     pthread_mutex_lock(&one_at_a_time);
-    const bool ok = start_compiler(started, err) && compile_apart(out, path, code, clamp, err);
+    const bool ok = start_compiler(started, path, err) && compile_apart(out, path, code, clamp, err);
     pthread_mutex_unlock(&one_at_a_time);
     return ok;
 }

@@ -40,8 +40,10 @@ NUMBER = re.compile("[0-9]+([.][0-9]+)?(e-?[0-9]+)?( (ns|µs|ms|s)\\b)?|[ ─█
 # Without memory Jansson 2.14 reads something else than the text has, or writes past the end of a string: that is not glint's to mend, and the
 # program glint has a reserve for it.
 JANSSON_READS = "json_load"
-# What OpenEXRCore 3.1 (exr_add_part) and Duktape 2.7 forget a block or two of when they lack memory, and the functions of glint that it is allocated for.
-FORGETFUL = (("libOpenEXRCore", "glint_exr_memory_take"), ("libduktape", "evaluate_script"))
+# What OpenEXRCore 3.1 (exr_add_part) forgets a block or two of when it lacks memory, and the function of glint that it is allocated for.
+FORGETFUL = (("libOpenEXRCore", "glint_exr_memory_take"),)
+# glslang throws where it lacks memory while it starts, and cannot be ended then, in which state everything that it has allocated stays.
+UNENDED = "glslang cannot start"
 # What a command that goes on where it was interrupted may keep, whole as it is without the fault, and uses then.
 GROWS = {"replay --against", "sweep", "tune", "blame", "reference", "library reference"}  # by errors, pages, logs and rays
 KEEPS = {"live", "replay SHOT", "replay PART", "explain", "compare", "stability", *GROWS}
@@ -93,7 +95,7 @@ class Command:
 
     def leaked(self, outcome, kind):
         """What is left at the end and was not left without the fault."""
-        if not re.search("^calls ", outcome.report, re.M):
+        if not re.search("^calls ", outcome.report, re.M) or UNENDED in outcome.err:
             return []
         left = sorted((collections.Counter(outcome.left()) - collections.Counter(self.count(kind)[0].left())).elements())
         return [] if len(left) < 3 and any(self.forgets(outcome, line, *names) for line in left for names in FORGETFUL) else left

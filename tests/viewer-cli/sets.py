@@ -61,6 +61,32 @@ class Tests:
         found = said.rsplit("found ", 1)[1].strip()
         self.write("hashed.json", {"format": 1, "captures": [{"path": "shot/f.0002.exr", "hash": found}]})
         tap.glint(*sweep, folder=self.folder)
+        wrong = {"path": "shot/f.0001.exr", "hash": "1" * 32}  # of several captures, this one alone is left out
+        self.write("hashed.json", {"format": 1, "captures": [{"path": "shot/f.0002.exr", "hash": found}, wrong]})
+        run = tap.glint(*[word.replace("swept", "two") for word in sweep], folder=self.folder, status=1)
+        assert "left out: shot/f.0001.exr: expected the hash 111" in run.stderr and "mean of 1 of 2" in run.stdout, run
+
+    def test_a_sweep_has_figures_by_tag_and_goes_on_without_broken_captures(self):
+        tap.glint("sample", "room", "-o", "true.exr", "--size", "16x9", "--cube-size", "4", "--truth", "1", folder=self.folder)
+        tap.glint("sample", "street", "-o", "other.exr", "--size", "16x9", "--cube-size", "4", "--truth", "1", folder=self.folder)
+        with open(self.path("bad.exr"), "wb") as file:
+            file.write(b"not an image")
+        paths = {"true.exr": ["in", "dry"], "bad.exr": ["in"], "other.exr": ["dry"], "shot/f.0001.exr": ["dry"], "gone.exr": []}  # the fourth has no truth
+        self.write("tagged.json", {"format": 1, "captures": [{"path": path, "tags": tags} for path, tags in paths.items()]})
+        words = ["-p", tap.PLAIN, "--vary", "screen_trace.steps=4,8", "--repeat", "0", "--reference", "truth", "--no-pictures"]
+        run = tap.glint("sweep", "tagged.json", "-o", "by-tag", *words, folder=self.folder, status=1)
+        assert "mean of 2 of 5 captures" in run.stdout
+        assert all(f"left out: {path}" in run.stderr for path in ("bad.exr", "gone.exr")) and "shot/f.0001.exr: part truth.reflection" in run.stderr, run.stderr
+        with open(self.path("by-tag", "points.json"), encoding="utf-8") as file:
+            points = json.load(file)["points"]
+        for point in points:
+            errors = [capture.get("errors", {"truth": {"all": {"rmse": None}}})["truth"]["all"]["rmse"] for capture in point["captures"]]
+            assert [error is None for error in errors] == [False, True, False, True, True], errors
+            assert abs(point["error"]["mean"] - (errors[0] + errors[2]) / 2) < 1e-12
+            assert point["tags"]["in"]["captures"] == 1 and point["tags"]["in"]["error"] == {"mean": errors[0], "worst": errors[0]}
+            assert point["tags"]["dry"]["captures"] == 2 and point["tags"]["dry"]["error"] == point["error"]
+        run = tap.glint("sweep", "bad.exr", "gone.exr", "-o", "none", *words, folder=self.folder, status=1)
+        assert "gone.exr: No such file" in run.stderr, run.stderr
 
     def test_set_files_that_are_none(self):
         capture = {"path": "shot/f.0001.exr"}

@@ -261,7 +261,7 @@ static bool keep_blame_line(void *user, json_t *line) {
 /* Everything that results in the log depend on. The number of permutations does not belong to it, because permutations share coalitions. */
 static json_t *define(const struct blame *blame, const struct list *shaders, struct glint_error *err) {
     const struct glint_device_info *device = glint_device_get_info(blame->device);
-    json_t *captures = captures_json(&blame->captures, err), *before = captures_json(&blame->before, err),
+    json_t *captures = captures_json(&blame->captures, false, err), *before = captures_json(&blame->before, false, err),
            *sources = captures && before ? shaders_json(shaders, err) : NULL, *players = json_array();
     for (size_t p = 0; p < blame->count; p++)
         json_array_append_new(players, json_string(glint_player_change(blame->players, p)));

@@ -39,8 +39,9 @@ json_t *strings_json(const char *const *items);
 json_t *pipeline_json(const struct glint_pipeline *pipeline);
 /* Hashes of the users' shaders: a changed shader is a different study. NULL with an error. */
 json_t *shaders_json(const struct list *shaders, struct glint_error *err);
-/* The hash of each capture. NULL with an error. */
-json_t *captures_json(const struct list *captures, struct glint_error *err);
+/* The hash of each capture. NULL with an error; with `lenient`, {"failed": message} stands for a capture that cannot be
+   read, and a hash that a set file says is taken from there: whoever reads the capture checks it. */
+json_t *captures_json(const struct list *captures, bool lenient, struct glint_error *err);
 /* {CLASS: {"pixels": N, METRIC: value, …}} */
 json_t *errors_json(const struct glint_metric_table *table, uint32_t metrics);
 /* {"round", "frame_ms", "cubemaps_ms", "passes": {SLOT: ms}} */

@@ -61,18 +61,23 @@ json_t *shaders_json(const struct list *shaders, struct glint_error *err) {
     return object;
 }
 
-json_t *captures_json(const struct list *captures, struct glint_error *err) {
+json_t *captures_json(const struct list *captures, bool lenient, struct glint_error *err) {
     json_t *list = json_array();
     for (size_t i = 0; i < captures->count; i++) {
         char hash[33];
+        *err = (struct glint_error){0};
+        if (lenient && capture_set_hash(captures, i)) {
+            json_array_append_new(list, json_string(capture_set_hash(captures, i)));
+            continue;
+        }
         struct glint_capture *capture = glint_capture_open(captures->items[i], NULL, err);
         const bool ok = capture && glint_capture_hash(capture, hash, err) && capture_set_check(captures, i, hash, err);
         if (capture) glint_capture_close(&capture);
-        if (!ok) {
+        if (!ok && (!lenient || err->code == GLINT_ERROR_MEMORY)) {
             json_decref(list);
             return NULL;
         }
-        json_array_append_new(list, json_string(hash));
+        json_array_append_new(list, ok ? json_string(hash) : json_pack("{s:s}", "failed", err->message));
     }
     return list;
 }

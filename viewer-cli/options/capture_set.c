@@ -203,8 +203,34 @@ const json_t *capture_set_tags(const struct list *captures, size_t i) {
     return json_object_get(json_array_get(captures->set, i), "tags");
 }
 
+static bool is_among(const json_t *tags, const char *tag) {
+    for (size_t k = 0; k < json_array_size(tags); k++)
+        if (!strcmp(json_string_value(json_array_get(tags, k)), tag)) return true;
+    return false;
+}
+
+bool capture_set_has_tag(const struct list *captures, size_t i, const char *tag) {
+    return is_among(capture_set_tags(captures, i), tag);
+}
+
+json_t *capture_set_all_tags(const struct list *captures) {
+    json_t *all = json_array(), *tag;
+    for (size_t i = 0; i < captures->count; i++) {
+        json_t *tags = (json_t *)capture_set_tags(captures, i);
+        size_t k;
+        json_array_foreach(tags, k, tag) {
+            if (!is_among(all, json_string_value(tag))) json_array_append(all, tag);
+        }
+    }
+    return all;
+}
+
+const char *capture_set_hash(const struct list *captures, size_t i) {
+    return json_string_value(json_object_get(json_array_get(captures->set, i), "hash"));
+}
+
 bool capture_set_check(const struct list *captures, size_t i, const char *hash, struct glint_error *err) {
-    const char *expected = json_string_value(json_object_get(json_array_get(captures->set, i), "hash"));
+    const char *expected = capture_set_hash(captures, i);
     return !expected || !strcmp(expected, hash) ||
            glint_fail(err, GLINT_ERROR_FORMAT, "%s: expected the hash %s, as its set says, found %s",
                       captures->items[i], expected, hash);

@@ -9,6 +9,11 @@
 bool capture_set_expand(struct list *captures, struct glint_error *err);
 /* The tags of a capture, a JSON array; NULL for one without. */
 const json_t *capture_set_tags(const struct list *captures, size_t i);
+bool capture_set_has_tag(const struct list *captures, size_t i, const char *tag);
+/* All tags of the captures, each once, in the order in which they come; a new JSON array. */
+json_t *capture_set_all_tags(const struct list *captures);
+/* The hash that the set file says; NULL if it says none. */
+const char *capture_set_hash(const struct list *captures, size_t i);
 /* Whether the capture has the hash that its set file says; true if that says none. */
 bool capture_set_check(const struct list *captures, size_t i, const char *hash, struct glint_error *err);
 

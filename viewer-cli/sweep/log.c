@@ -8,7 +8,8 @@
 static json_t *define(const struct sweep *sweep, const char *const *axes, const char *sample,
                       const struct list *shaders, struct glint_error *err) {
     const struct glint_device_info *device = glint_device_get_info(sweep->device);
-    json_t *captures = captures_json(&sweep->captures, err), *sources = captures ? shaders_json(shaders, err) : NULL;
+    json_t *captures = captures_json(&sweep->captures, sweep->captures.count > 1, err),
+           *sources = captures ? shaders_json(shaders, err) : NULL;
     if (!sources) {
         json_decref(captures);
         return NULL;
@@ -64,9 +65,9 @@ bool sweep_cut(struct sweep *sweep, struct glint_error *err) {
     for (size_t c = 0; ok && sweep->shard.count && c < count; c++) {
         struct glint_capture *capture = glint_capture_open(sweep->captures.items[c], NULL, err);
         const struct glint_part_info *part = capture ? glint_capture_find(capture, GLINT_PART_GBUFFER) : NULL;
-        const double pixels = part ? (double)part->width * part->height : 0;
+        const double pixels = part ? (double)part->width * part->height : 1; /* what cannot be read takes no time */
         costs[c] = (struct shard_cost){traces ? rays * pixels : pixels, (1. + sweep->rounds) * pixels};
-        ok = part != NULL;
+        ok = part || err->code != GLINT_ERROR_MEMORY;
         glint_capture_close(&capture);
     }
     if (ok) shard_cut(&sweep->shard, costs, count, sweep->points, &sweep->begin, &sweep->end);

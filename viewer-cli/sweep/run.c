@@ -1,4 +1,5 @@
 /* Evaluates and times every point, unless the results are in the log already. */
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -7,6 +8,7 @@
 #include "draw/view/pixels.h"
 #include "draw/view/png_file.h"
 #include "journal/again.h"
+#include "options/capture_set.h"
 #include "sweep/sweep.h"
 
 /* State of the work on one capture. */
@@ -15,6 +17,7 @@ struct work {
     size_t capture;
     struct glint_judge *judge;
     struct again again;
+    bool begun;         /* the capture is read, and what errors are measured against is there */
     size_t done, total; /* number of results in this call, over all captures */
     char label[64];
 };
@@ -212,6 +215,13 @@ static bool take_turns(struct work *work, struct glint_error *err) {
 
 typedef bool (*task)(struct work *work, struct glint_error *err);
 
+/* Reading a large capture for its hash takes long: of a set of many, a shard reads those that it works on. */
+static bool check_hash(const struct sweep *sweep, size_t c, struct glint_capture *capture, struct glint_error *err) {
+    char hash[33];
+    return !capture_set_hash(&sweep->captures, c) ||
+           (glint_capture_hash(capture, hash, err) && capture_set_check(&sweep->captures, c, hash, err));
+}
+
 static bool on_capture(struct work *work, size_t c, task task, struct glint_error *err) {
     struct sweep *sweep = work->sweep;
     struct glint_judge_options options = answer_args_judge(&sweep->against, sweep->out, c);
@@ -221,10 +231,34 @@ static bool on_capture(struct work *work, size_t c, task task, struct glint_erro
     struct glint_capture *capture = glint_capture_open(sweep->captures.items[c], NULL, err);
     work->capture = c;
     work->again = (struct again){&cmd_sweep, sweep->device, &work->judge, 1, 0, false};
-    bool ok = capture && (work->judge = glint_judge_create(sweep->device, &options, err)) &&
-              glint_judge_load(work->judge, capture, err) && find_answer(work, err) && task(work, err);
+    bool ok = capture && check_hash(sweep, c, capture, err) &&
+              (work->judge = glint_judge_create(sweep->device, &options, err)) &&
+              glint_judge_load(work->judge, capture, err) && find_answer(work, err);
+    work->begun = ok;
+    ok = ok && task(work, err);
     if (work->judge) glint_judge_destroy(&work->judge);
     if (capture) glint_capture_close(&capture);
+    return ok;
+}
+
+/* Whether a capture fails by itself, whatever the point: not for lack of memory, space or a device, which may be there the next time. */
+static bool fails_alone(const struct work *work, const struct glint_error *own) {
+    const char *path = work->sweep->captures.items[work->capture];
+    const bool gone = own->code == GLINT_ERROR_IO && access(path, F_OK) != 0 && errno == ENOENT;
+    return gone || own->code == GLINT_ERROR_FORMAT || own->code == GLINT_ERROR_LIMIT ||
+           own->code == GLINT_ERROR_UNSUPPORTED;
+}
+
+static bool sweep_capture(struct work *work, size_t c, struct glint_error *err) {
+    struct sweep *sweep = work->sweep;
+    struct glint_error own = {0};
+    work->begun = false;
+    if (on_capture(work, c, take_turns, &own)) return true;
+    bool ok = sweep->captures.count > 1 && !work->begun && fails_alone(work, &own);
+    if (!ok) *err = own;
+    for (size_t p = 0; ok && p < sweep->points; p++)
+        if (sweep_works_on(sweep, c, p))
+            ok = place_line(work, p, json_pack("{s:s, s:b}", "failed", own.message, "broken", true), err);
     return ok;
 }
 
@@ -233,7 +267,7 @@ bool sweep_run(struct sweep *sweep, struct glint_error *err) {
     char path[4096];
     if (!sweep_path(sweep, "pictures", path, err) || !glint_make_folder(path, err)) return false;
     for (size_t c = 0; c < sweep->captures.count; c++)
-        if (misses(sweep, c) && !on_capture(&work, c, take_turns, err)) return false;
+        if (misses(sweep, c) && !sweep_capture(&work, c, err)) return false;
     return true;
 }
 
@@ -308,6 +342,6 @@ bool sweep_draw_fronts(struct sweep *sweep, struct glint_error *err) {
     struct work work = {.sweep = sweep};
     for (size_t p = 0; p < sweep->points; p++) work.total += on_front(sweep, p) * sweep->captures.count;
     for (size_t c = 0; c < sweep->captures.count && work.total && sweep->pictures; c++)
-        if (!on_capture(&work, c, draw_front, err)) return false;
+        if (!sweep_broken(sweep, c) && !on_capture(&work, c, draw_front, err)) return false;
     return true;
 }

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "glint/sort.h"
+#include "options/capture_set.h"
 #include "sweep/sweep.h"
 
 static double number(const json_t *object, const char *key) {
@@ -36,6 +37,11 @@ double sweep_time(const struct sweep *sweep, const struct sweep_row *row, const 
     return median;
 }
 
+const char *sweep_broken(const struct sweep *sweep, size_t capture) {
+    const json_t *look = sweep->points ? sweep_row(sweep, capture, 0)->look : NULL;
+    return json_is_true(json_object_get(look, "broken")) ? json_string_value(json_object_get(look, "failed")) : NULL;
+}
+
 static void add_value(struct sweep_sum *sum, double value, double captures) {
     sum->mean += value / captures;
     if (isnan(value) || value > sum->worst) sum->worst = value; /* NAN is kept */
@@ -46,14 +52,25 @@ static double badness(const struct sweep *sweep, double error) {
     return glint_metric(sweep->metric)->higher_is_better ? -error : error;
 }
 
-static struct sweep_point sum_point(const struct sweep *sweep, size_t p) {
-    const double captures = (double)sweep->captures.count;
+static bool counts(const struct sweep *sweep, size_t c, const char *tag) {
+    return !sweep_broken(sweep, c) && (!tag || capture_set_has_tag(&sweep->captures, c, tag));
+}
+
+size_t sweep_count(const struct sweep *sweep, const char *tag) {
+    size_t count = 0;
+    for (size_t c = 0; c < sweep->captures.count; c++) count += counts(sweep, c, tag);
+    return count;
+}
+
+struct sweep_point sweep_sum(const struct sweep *sweep, size_t p, const char *tag) {
+    const double captures = (double)sweep_count(sweep, tag);
     const struct sweep_sum zero = {0, -INFINITY};
     struct sweep_point point = {
         .valid = true, .error = zero, .frame_ms = zero, .cubemaps_ms = zero, .steps_px = zero, .fetches_px = zero};
     for (size_t c = 0; c < sweep->captures.count; c++) {
         const struct sweep_row *row = sweep_row(sweep, c, p);
         double low, high;
+        if (!counts(sweep, c, tag)) continue;
         const double error = sweep_error(row, sweep->against.truth ? "truth" : "reference", "all", sweep->metric);
         point.valid = point.valid && isfinite(error) && sweep_figure(row, "invalid") == 0;
         add_value(&point.error, badness(sweep, error), captures);
@@ -110,9 +127,12 @@ bool sweep_sum_up(struct sweep *sweep, struct glint_error *err) {
         {.name = "fetches_worst", .title = "fetches per pixel, worst capture", .worst = true}};
     sweep->sums = calloc(sweep->points + 1, sizeof *sweep->sums);
     if (!sweep->sums) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    for (size_t p = 0; p < sweep->points; p++) sweep->sums[p] = sum_point(sweep, p);
+    sweep->whole_captures = sweep_count(sweep, NULL);
+    if (!sweep->whole_captures)
+        return glint_fail(err, GLINT_ERROR_FORMAT, "no capture can be swept: %.900s", sweep_broken(sweep, 0));
+    for (size_t p = 0; p < sweep->points; p++) sweep->sums[p] = sweep_sum(sweep, p, NULL);
     for (int k = 0; k < SWEEP_FRONTS; k++) {
-        if ((kinds[k].time && !sweep->rounds) || (kinds[k].worst && sweep->captures.count < 2)) continue;
+        if ((kinds[k].time && !sweep->rounds) || (kinds[k].worst && sweep->whole_captures < 2)) continue;
         sweep->fronts[sweep->front_count] = kinds[k];
         if (!find_front(sweep, &sweep->fronts[sweep->front_count++], err)) return false;
     }

@@ -59,6 +59,7 @@ struct sweep {
     struct journal journal;
     json_t *definition;
     struct sweep_point *sums;
+    size_t whole_captures; /* those that have results */
     struct sweep_front fronts[SWEEP_FRONTS];
     size_t front_count;
 };
@@ -92,7 +93,12 @@ void sweep_picture_name(const char *what, size_t capture, size_t point, char nam
 void sweep_change_name(size_t capture, size_t from, size_t to, char name[96]);
 
 /* sum.c */
+/* Why a capture has no results, which one of several may not have; NULL for one that has. It is left out of the figures of all. */
+const char *sweep_broken(const struct sweep *sweep, size_t capture);
 bool sweep_sum_up(struct sweep *sweep, struct glint_error *err);
+/* The captures that have results, and a point's figures over them: all, or those with a tag. */
+size_t sweep_count(const struct sweep *sweep, const char *tag);
+struct sweep_point sweep_sum(const struct sweep *sweep, size_t point, const char *tag);
 /* Figures of one row; NAN when it has none. */
 double sweep_figure(const struct sweep_row *row, const char *key);
 /* "all", then the classes of the effect's pixels; NULL past the last. */

@@ -4,6 +4,7 @@
 
 #include "sweep/sweep.h"
 #include "io/table.h"
+#include "options/capture_set.h"
 
 static void value_or_dash_cell(struct table *table, double value) {
     if (isfinite(value)) table_cell(table, "%s", number_text(value));
@@ -78,7 +79,10 @@ void sweep_print(const struct sweep *sweep) {
     }
     printf("errors of the %s, against the %s", sweep->against.effect->noun,
            sweep->against.truth ? "truth in the capture" : "reference");
-    if (sweep->captures.count > 1) printf(", mean of %zu captures", sweep->captures.count);
+    if (sweep->captures.count > 1) {
+        if (sweep->whole_captures == sweep->captures.count) printf(", mean of %zu captures", sweep->captures.count);
+        else printf(", mean of %zu of %zu captures", sweep->whole_captures, sweep->captures.count);
+    }
     if (sweep->rounds)
         printf("; times: median of %u alternating rounds on %s%s", sweep->rounds, device->name,
                device->is_cpu ? " (a CPU device: times do not represent a GPU)" : "");
@@ -123,6 +127,26 @@ static json_t *sum_json(struct sweep_sum sum) {
     return json_pack("{s:o, s:o}", "mean", json_number(sum.mean), "worst", json_number(sum.worst));
 }
 
+/* {TAG: figures of the captures that have it} */
+static json_t *tags_json(const struct sweep *sweep, size_t p) {
+    json_t *all = capture_set_all_tags(&sweep->captures), *json = json_object(), *tag;
+    size_t i;
+    json_array_foreach(all, i, tag) {
+        const char *name = json_string_value(tag);
+        const size_t count = sweep_count(sweep, name);
+        const struct sweep_point sum = sweep_sum(sweep, p, name);
+        json_t *figures = json_pack("{s:I}", "captures", (json_int_t)count);
+        if (count) {
+            json_object_set_new(figures, "error", sum_json(sum.error));
+            json_object_set_new(figures, "frame_ms", sum_json(sum.frame_ms));
+            json_object_set_new(figures, "fetches_px", sum_json(sum.fetches_px));
+        }
+        json_object_set_new(json, name, figures);
+    }
+    json_decref(all);
+    return json;
+}
+
 static json_t *point_json(const struct sweep *sweep, size_t p) {
     const struct sweep_point *s = &sweep->sums[p];
     json_t *values = json_object(), *captures = json_array(), *fronts = json_array();
@@ -133,10 +157,12 @@ static json_t *point_json(const struct sweep *sweep, size_t p) {
     for (size_t c = 0; c < sweep->captures.count; c++) json_array_append_new(captures, row_json(sweep, c, p));
     for (size_t f = 0; f < sweep->front_count; f++)
         if (sweep->fronts[f].on[p]) json_array_append_new(fronts, json_string(sweep->fronts[f].name));
-    return json_pack("{s:I, s:o, s:b, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "point", (json_int_t)p, "values", values,
-                     "valid", s->valid, "front", fronts, "error", sum_json(s->error), "frame_ms", sum_json(s->frame_ms),
-                     "cubemaps_ms", sum_json(s->cubemaps_ms), "steps_px", sum_json(s->steps_px), "fetches_px",
-                     sum_json(s->fetches_px), "captures", captures);
+    json_t *json = json_pack("{s:I, s:o, s:b, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "point", (json_int_t)p, "values",
+                             values, "valid", s->valid, "front", fronts, "error", sum_json(s->error), "frame_ms",
+                             sum_json(s->frame_ms), "cubemaps_ms", sum_json(s->cubemaps_ms), "steps_px",
+                             sum_json(s->steps_px), "fetches_px", sum_json(s->fetches_px), "captures", captures);
+    if (sweep->captures.set) json_object_set_new(json, "tags", tags_json(sweep, p));
+    return json;
 }
 
 /* Wall-clock time of the results, over all calls. */

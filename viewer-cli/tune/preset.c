@@ -21,7 +21,7 @@ static json_t *captures_list(const struct tune *tune, struct glint_error *err) {
     json_t *list = json_array(), *hashes;
     for (int held_out = 0; held_out < 2; held_out++) {
         const struct list *captures = held_out ? &tune->held_out : &tune->captures;
-        if (!(hashes = captures_json(captures, err))) return json_decref(list), NULL;
+        if (!(hashes = captures_json(captures, false, err))) return json_decref(list), NULL;
         for (size_t i = 0; i < captures->count; i++)
             json_array_append_new(list, json_pack("{s:s, s:O, s:b}", "path", captures->items[i], "xxh3_128",
                                                   json_array_get(hashes, i), "held_out", held_out));

@@ -43,7 +43,7 @@ static bool keep_tune_line(void *user, json_t *line) {
 /* Everything that results depend on. Budget and seed do not belong to it, so that another search reuses the results. */
 bool tune_open(struct tune *tune, struct glint_error *err) {
     const struct glint_device_info *device = glint_device_get_info(tune->device);
-    json_t *captures = captures_json(&tune->captures, err),
+    json_t *captures = captures_json(&tune->captures, false, err),
            *sources = captures ? shaders_json(tune->shaders, err) : NULL;
     if (!sources) {
         json_decref(captures);

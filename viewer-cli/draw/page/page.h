@@ -67,6 +67,7 @@ char *page_live(struct glint_error *err);
 /* The script that draws charts, loaded by the first one in about 0.4 s. Zero-initialised. */
 struct page_charts {
     struct duk_hthread *js;
+    struct script_heap *heap;
 };
 /* Writes a CHART as SVG. */
 bool page_chart_write(struct page_charts *charts, const char *path, const json_t *chart, struct glint_error *err);

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "draw/blobs.h"
+#include "draw/page/script_heap.h"
 #include "io/output.h"
 #include "record.h"
 
@@ -64,23 +65,32 @@ static duk_ret_t draw_chart(duk_context *js, void *user) {
     return 0;
 }
 
-static bool call(struct page_charts *charts, duk_safe_call_function function, struct drawing *drawing, const char *path,
+static bool call(duk_context *js, duk_safe_call_function function, struct drawing *drawing, const char *path,
                  struct glint_error *err) {
-    const bool ok = duk_safe_call(charts->js, function, drawing, 0, 1) == DUK_EXEC_SUCCESS;
-    if (!ok)
-        glint_fail(err, GLINT_ERROR_FORMAT, "%s: cannot draw the chart: %s", path, duk_safe_to_string(charts->js, -1));
-    duk_pop(charts->js);
+    const bool ok = duk_safe_call(js, function, drawing, 0, 1) == DUK_EXEC_SUCCESS;
+    if (!ok) glint_fail(err, GLINT_ERROR_FORMAT, "%s: cannot draw the chart: %s", path, duk_safe_to_string(js, -1));
+    duk_pop(js);
     return ok;
 }
 
-static bool draw(struct page_charts *charts, struct drawing *drawing, const char *path, struct glint_error *err) {
+static bool draw_with_scripts(struct page_charts *charts, struct drawing *drawing, const char *path,
+                              struct glint_error *err) {
     if (!charts->js) {
-        charts->js = duk_create_heap_default();
+        charts->js = duk_create_heap(script_alloc, script_realloc, script_free, charts->heap, NULL);
         if (!charts->js) return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
-        if (!call(charts, load_scripts, NULL, path, err)) return page_charts_finish(charts), false;
+        if (!call(charts->js, load_scripts, NULL, path, err)) return page_charts_finish(charts), false;
     }
-    return call(charts, draw_chart, drawing, path, err) &&
+    return call(charts->js, draw_chart, drawing, path, err) &&
            (drawing->svg || glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path));
+}
+
+static bool draw(struct page_charts *charts, struct drawing *drawing, const char *path, struct glint_error *err) {
+    if (!charts->heap && !(charts->heap = calloc(1, sizeof *charts->heap)))
+        return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
+    if (setjmp(charts->heap->out) == 0) return draw_with_scripts(charts, drawing, path, err);
+    charts->js = NULL;
+    page_charts_finish(charts);
+    return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", path);
 }
 
 bool page_chart_write(struct page_charts *charts, const char *path, const json_t *chart, struct glint_error *err) {
@@ -94,6 +104,10 @@ bool page_chart_write(struct page_charts *charts, const char *path, const json_t
 }
 
 void page_charts_finish(struct page_charts *charts) {
-    if (charts->js) duk_destroy_heap(charts->js);
+    if (charts->js) {
+        if (setjmp(charts->heap->out) == 0) duk_destroy_heap(charts->js);
+    }
+    if (charts->heap) script_heap_free(charts->heap);
+    free(charts->heap);
     *charts = (struct page_charts){0};
 }
