@@ -1,4 +1,5 @@
 """glint batch with a real Slurm of one node: slurm.py GLINT. Speaks TAP. Half an hour on two cores, most of it for processes of two sweeps of 1,200 results."""
+import functools
 import json
 import os
 import shutil
@@ -46,11 +47,20 @@ class Tests:
         self.slurm = slurm
         os.environ.update(slurm.environment)
         os.chdir(folder)
+
+    @functools.cached_property
+    def shot(self):
         os.mkdir("shot")
         glint("sample", "room", "-o", "shot/room.exr", f"--frames={CAPTURES}", "--size=16x9", "--cube-size=8", "--truth=1")
-        glint("sweep", "shot", "-o", "whole", *SWEEP)
-        self.whole = timeless.contents("whole")
-        assert len(self.whole["log.jsonl"]) == CAPTURES * POINTS
+        return "shot"
+
+    @functools.cached_property
+    def whole(self):
+        """What one process makes."""
+        glint("sweep", self.shot, "-o", "whole", *SWEEP)
+        found = timeless.contents("whole")
+        assert len(found["log.jsonl"]) == CAPTURES * POINTS
+        return found
 
     def status(self, out):
         return json.loads(glint("batch", "status", out, "--json").stdout)
@@ -82,7 +92,7 @@ class Tests:
         return text
 
     def test_merged_shards_are_what_one_process_makes(self):
-        glint("batch", "sweep", "shot", "-o", "straight", *SWEEP, "--slurm", f"--shards={SHARDS}", "--partition=all", "--sbatch=--time=1:00:00")
+        glint("batch", "sweep", self.shot, "-o", "straight", *SWEEP, "--slurm", f"--shards={SHARDS}", "--partition=all", "--sbatch=--time=1:00:00")
         found = self.wait("straight")
         assert found["merge"]["done"] and found["merge"]["state"] == "completed", (found, self.logs("straight"))
         assert {s["state"] for s in found["shards"]} == {"completed"} and found["results"] == CAPTURES * POINTS and not found["missing"], found
@@ -91,14 +101,16 @@ class Tests:
 
     def test_a_killed_shard_and_a_drained_node(self):
         """A shard is killed in the middle. The node is drained: what runs ends, what waits waits. Then only the killed one is submitted again."""
-        glint("batch", "sweep", "shot", "-o", "killed", *SWEEP, "--slurm", f"--shards={SHARDS}")
+        glint("batch", "sweep", self.shot, "-o", "killed", *SWEEP, "--slurm", f"--shards={SHARDS}")
         log = f"killed/shards/2-of-{SHARDS}/log.jsonl"
         until("some results", lambda: len(lines(log)) >= 3)
-        os.kill(process_of("killed", 2), signal.SIGKILL)
+        process = process_of("killed", 2)
+        os.kill(process, signal.SIGSTOP)  # so that it is in the middle, however long the node takes to be told
+        self.control("drain")
+        os.kill(process, signal.SIGKILL)
         until("the end of the killed one", lambda: self.status("killed")["shards"][1]["state"] == "failed")
         before = lines(log)
         assert 3 <= len(before) < self.status("killed")["shards"][1]["of"], "it was killed in the middle"
-        self.control("drain")
         until("a drained node", lambda: self.slurm.says("sinfo", "-h", "-o", "%T").startswith("drained"))
         found = self.status("killed")
         waiting = [s["shard"] for s in found["shards"] if s["state"] == "pending"]
@@ -117,8 +129,8 @@ class Tests:
         """Names are hard, and scripts are changed before they are submitted."""
         odd = "odd 'x' \"y\" $z\n"
         os.mkdir(odd)
-        first, second = sorted(name for name in os.listdir("shot") if name.startswith("room.0"))[:2]
-        shutil.copytree("shot", f"{odd}/%j \\n")
+        first, second = sorted(name for name in os.listdir(self.shot) if name.startswith("room.0"))[:2]
+        shutil.copytree(self.shot, f"{odd}/%j \\n")
         out = f"{odd}/out #1"
         glint("batch", "sweep", f"%j \\n/{first}", f"%j \\n/{second}", "-o", "out #1", *SWEEP, "--slurm", "--no-submit", "--shards=2", '--sbatch=--comment=say "a\\b" #1',
               folder=odd)
