@@ -144,6 +144,8 @@ class Tests:
         self.fake("sbatch.fails", "sbatch: error: Batch job submission failed:\nInvalid partition name specified\n")
         said = glint("batch", "sweep", "a.exr", "-o", "refused", "--slurm", "--shards=2", status=1).stderr
         assert "submission failed: Invalid partition name" in said, said
+        assert self.status("refused")["shards"][1]["state"] == "not begun"
+        glint("batch", "sweep", "a.exr", "-o", "refused", "--slurm", "--shards=3", status=1)  # nothing was submitted, so that the same folder can be tried again
         self.fake("sbatch.fails")
         os.environ["PATH"] = "/usr/bin:/bin"
         try:
@@ -152,7 +154,7 @@ class Tests:
         finally:
             os.environ["PATH"] = f"{self.fakes}:/usr/bin:/bin"
         glint("batch", "resubmit", "refused")
-        assert self.calls()[-2][-2:] == ["--array=1-2", "shard.sbatch"]
+        assert self.calls()[-2][-2:] == ["--array=1-3", "shard.sbatch"]
         self.fake("sbatch.says", "no number\n")
         assert "number of a job" in glint("batch", "sweep", "a.exr", "-o", "odd", "--slurm", status=1).stderr
 

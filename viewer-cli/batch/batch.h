@@ -35,7 +35,7 @@ struct batch {
 
 /* ---- record.c ---- */
 
-/* A new one: makes the folder and keeps others from submitting. A folder that has a batch already is an error. */
+/* A new one: makes the folder and keeps others from submitting. A folder from which a batch was submitted is an error. */
 bool batch_create(struct batch *batch, const char *folder, const char *command, size_t shards, struct glint_error *err);
 /* The one in the folder, or only its shards. `lock` keeps others from submitting. */
 bool batch_open(struct batch *batch, const char *folder, bool lock, struct glint_error *err);

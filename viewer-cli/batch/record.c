@@ -43,6 +43,16 @@ static bool check_name(const char *folder, struct glint_error *err) {
                             "%s: Slurm does not write logs into a folder with %% or \\ in its path", folder);
 }
 
+/* Whether there is a record of jobs, or one that cannot be read. */
+static bool was_submitted(const char *path) {
+    if (access(path, F_OK) != 0) return false;
+    json_t *record = json_inside(path, NULL);
+    const json_t *jobs = json_object_get(record, "jobs");
+    const bool none = json_is_array(jobs) && json_array_size(jobs) == 0;
+    json_decref(record);
+    return !none;
+}
+
 bool batch_create(struct batch *batch, const char *folder, const char *command, size_t shards,
                   struct glint_error *err) {
     char path[4096];
@@ -51,7 +61,7 @@ bool batch_create(struct batch *batch, const char *folder, const char *command, 
     if (!check_name(folder, err) || !lock(batch, err) || !batch_path(batch, RECORD, path, err) ||
         !make_shards(batch, shards, err))
         return false;
-    if (access(path, F_OK) == 0)
+    if (was_submitted(path))
         return glint_fail(err, GLINT_ERROR_USAGE,
                           "%s: there is a batch in this folder already, which glint batch resubmit continues; choose "
                           "another folder",
