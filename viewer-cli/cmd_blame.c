@@ -34,7 +34,7 @@ static const struct argp_option options[] = {
     EFFECT_OPTION,
     {"reference", KEY_REFERENCE, "RUN|truth",     0, "Errors are measured against this: the run of glint reference (once for each capture), or the truth in the capture "
         "(default: a reference is traced once and kept in the folder; the error against the truth is reported too)", 0},
-    {"rays",      KEY_RAYS,      "N",             0, "Rays per pixel of the reference that is traced (default 64)", 0},
+    TRACED_OPTIONS,
     {"player-rays", KEY_PLAYER_RAYS, "N",         0, "Rays per pixel in pipelines in which the ray count is replaced by that of the reference (default: that of the preset "
         "reference)", 0},
     {"shot",      KEY_SHOT,      NULL,            0, "The captures are consecutive frames: the error of the last one is attributed, and every pipeline runs the others first, "

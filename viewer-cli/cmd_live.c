@@ -18,7 +18,7 @@ struct arguments {
     uint32_t port;
 };
 
-enum { KEY_PORT = 256, KEY_REFERENCE, KEY_LISTEN, KEY_TOKEN_FILE, KEY_CACHE };
+enum { KEY_PORT = 256, KEY_REFERENCE, KEY_LISTEN, KEY_TOKEN_FILE };
 
 /* clang-format off */
 static const struct argp_option options[] = {
@@ -30,7 +30,7 @@ static const struct argp_option options[] = {
     {"port",       KEY_PORT,       "N",    0, "Port of the server (default: a free one)", 0},
     {"listen",     KEY_LISTEN,     "ADDRESS", 0, "Address to listen at instead of 127.0.0.1, for browsers on other machines. Needs --token-file; nothing is encrypted", 0},
     {"token-file", KEY_TOKEN_FILE, "FILE", 0, "File with the token that requests have to show, of 16 characters or more, which only you may read (default: a new token each time)", 0},
-    {"cache",      KEY_CACHE,      "DIR",  0, "Folder in which results for cube maps are kept for later calls; none disables it (default: as for glint replay)", 0},
+    CACHE_OPTION("results for cube maps", ""),
     {0},
 };
 /* clang-format on */

@@ -11,7 +11,7 @@
 
 struct arguments {
     struct pipeline_args pipeline;
-    const char *capture, *out, *like, *effect;
+    const char *capture, *out, *like, *effect, *cache;
     uint32_t rays, sensitivity;
     double noise;
     bool overwrite, json, progress;
@@ -33,6 +33,7 @@ static const struct argp_option options[] = {
     USE_OPTION,
     {"set",         KEY_SET,         "SLOT.PARAM=VALUE", 0, "Set a parameter, such as pipeline.fog=false to compare with the truth, which has no fog", 0},
     ALL_OPTION,
+    CACHE_OPTION("references with -o and without --noise", ""),
     {"overwrite",   KEY_OVERWRITE,   NULL,   0, "Delete an existing reference in the folder first", 0},
     DEVICE_OPTION,
     LIMIT_OPTION,
@@ -56,6 +57,7 @@ static const struct arg_target targets[] = {
     STORED('j', struct arguments, json),
     STORED_NUMBER(KEY_RAYS, struct arguments, rays, 1, GLINT_REFERENCE_RAYS_MAX),
     STORED(KEY_EFFECT, struct arguments, effect),
+    STORED(KEY_CACHE, struct arguments, cache),
     STORED(KEY_LIKE, struct arguments, like),
     STORED(KEY_PROGRESS, struct arguments, progress),
     STORED(KEY_OVERWRITE, struct arguments, overwrite),
@@ -261,8 +263,11 @@ static enum status trace_reference(const struct arguments *a, const struct glint
     struct glint_replay *replay = opened->replay;
     struct glint_capture *capture = opened->capture;
     const struct glint_pipeline *pipeline = opened->pipeline;
-    const struct glint_reference_options options = {
-        .effect = effect, .folder = a->out, .overwrite = a->overwrite, .all = a->pipeline.replay.all};
+    const struct glint_reference_options options = {.effect = effect,
+                                                    .folder = a->out,
+                                                    .cache = a->cache,
+                                                    .overwrite = a->overwrite,
+                                                    .all = a->pipeline.replay.all};
     struct glint_reference_sensitivity sensitivity = {0};
     struct missing missing = {0};
     struct progress progress;
@@ -303,6 +308,8 @@ static struct glint_pipeline *create_pipeline(struct arguments *a, struct glint_
 static enum status cmd_reference_run(int argc, char **argv) {
     struct arguments a = {0};
     command_parse(&cmd_reference, argc, argv, &a);
+    char *cache = a.out ? pipeline_args_cache(a.cache) : NULL;
+    a.cache = cache;
     struct glint_error err = {0};
     struct opened opened = {.pipeline = create_pipeline(&a, &err)};
     const struct glint_effect *effect =
@@ -311,6 +318,7 @@ static enum status cmd_reference_run(int argc, char **argv) {
     const enum status status = ok ? trace_reference(&a, effect, &opened, &err) : command_fail(&cmd_reference, &err);
     opened_finish(&opened);
     pipeline_args_finish(&a.pipeline);
+    free(cache);
     return status;
 }
 

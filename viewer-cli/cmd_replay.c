@@ -21,7 +21,7 @@ struct arguments {
     struct against against;
 };
 
-enum { KEY_REPEAT = 256, KEY_WARMUP, KEY_PRECISION, KEY_DIAGNOSTICS, KEY_NO_CACHE, KEY_CACHE, KEY_AGAINST, KEY_WATCH };
+enum { KEY_REPEAT = 256, KEY_WARMUP, KEY_PRECISION, KEY_DIAGNOSTICS, KEY_NO_CACHE, KEY_AGAINST, KEY_WATCH };
 
 /* clang-format off */
 static const struct argp_option options[] = {
@@ -34,8 +34,7 @@ static const struct argp_option options[] = {
     {"precision",   KEY_PRECISION,   "half|float", 0, "Format of images that are declared as half: half (default) or float", 0},
     {"diagnostics", KEY_DIAGNOSTICS, NULL,   0, "Also write the end reason, steps and fetches of each ray for all passes that run. All other images keep their bits", 0},
     {"no-cache",    KEY_NO_CACHE,    NULL,   0, "Run every pass even if nothing changed, and every frame even if it is complete", 0},
-    {"cache",       KEY_CACHE,       "DIR",  0, "Folder in which results for cube maps are kept for later calls, up to 4 GiB; none disables it. Not used with --no-cache "
-        "and --repeat (default: $GLINT_CACHE, else $XDG_CACHE_HOME/glint, else ~/.cache/glint)", 0},
+    CACHE_OPTION("results for cube maps", ". Not used with --no-cache and --repeat"),
     {"against",     KEY_AGAINST,     "truth|reference|both", 0, "Compare with a better solution. truth: the path-traced result of each effect in the capture (truth.*), for reflections mirror rays, too; turns on "
         "--diagnostics; use downsample.jitter=false to compare rays. reference: the preset reference on the same capture; "
         "reference=RUN: a run of glint reference. both (or both=RUN): both, and the difference between truth and reference. The "

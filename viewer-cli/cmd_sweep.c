@@ -36,7 +36,7 @@ static const struct argp_option options[] = {
     EFFECT_OPTION,
     {"reference", KEY_REFERENCE, "RUN|truth",     0, "Errors are measured against this: the run of glint reference (once for each capture), or the truth in the capture "
         "(default: a reference is traced once and kept in the folder)", 0},
-    {"rays",      KEY_RAYS,      "N",             0, "Rays per pixel of the reference that is traced (default 64)", 0},
+    TRACED_OPTIONS,
     {"metric",    KEY_METRIC,    "NAME",          0, "Error metric of the Pareto fronts (default rmse), one of ", 0},
     {"no-pictures", KEY_NO_PICTURES, NULL,        0, "Do not write pictures", 0},
     WHOLE_PIPELINE_OPTIONS("The pipeline that is varied"),

@@ -65,7 +65,7 @@ static const struct argp_option options[] = {
     EFFECT_OPTION,
     {"reference", KEY_REFERENCE, "RUN|truth",    0, "Errors are measured against this: the run of glint reference (once for each capture, including the held-out ones), or "
         "the truth in the capture (default: a reference is traced once and kept in the folder)", 0},
-    {"rays",      KEY_RAYS,      "N",            0, "Rays per pixel of the reference that is traced (default 64)", 0},
+    TRACED_OPTIONS,
     {"metric",    KEY_METRIC,    "NAME",         0, "Error metric, averaged over the captures (default rmse), one of ", 0},
     WHOLE_PIPELINE_OPTIONS("Preset to start from"),
     {"json",      'j',           NULL,           0, "Print JSON", 0},
@@ -244,8 +244,8 @@ void tune_finish(struct tune *tune) {
     free(tune->left);
     if (tune->base) glint_pipeline_destroy(&tune->base);
     if (tune->device) glint_device_destroy(&tune->device);
-    struct list *const lists[] = {&tune->captures, &tune->held_out, &tune->against.references, &tune->vary,
-                                  &tune->slots};
+    answer_args_finish(&tune->against);
+    struct list *const lists[] = {&tune->captures, &tune->held_out, &tune->vary, &tune->slots};
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) list_free(lists[i]);
 }
 

@@ -4,7 +4,6 @@
 #include <ctype.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* Prints text in mdoc: control characters are escaped, and each sentence begins a new line. */
 static void print_text(const char *text) {
@@ -63,8 +62,7 @@ void man_print_command(const struct command *command) {
     print_text(command->arguments[0] ? command->arguments : "\\&");
     printf(".Sh DESCRIPTION\n");
     print_text(command->description);
-    const char *sets = command_about_sets(command);
-    if (*sets) print_text(sets + strspn(sets, " ")); /* a page has no blank lines */
+    if (command_about_sets(command)[0]) print_text(command_about_sets(command));
     printf(".Pp\nThe options are:\n.Bl -tag -width Ds\n");
     for (const struct argp_option *o = command->options; !ends(o); o++)
         if (o->name) print_option(command, o);
@@ -98,7 +96,9 @@ void man_print_program(void) {
     }
     printf(".El\n"
            ".Sh ENVIRONMENT\n.Bl -tag -width GLINT_DISPATCH_LIMIT\n"
-           ".It Ev GLINT_CACHE\nThe folder in which results for cube maps are kept; none disables it.\n"
+           ".It Ev GLINT_CACHE\nThe folder in which results for cube maps and traced references are kept; none "
+           "disables it.\n"
+           ".It Ev GLINT_CACHE_GIB\nHow much it may hold, in GiB (default 4).\n"
            ".It Ev GLINT_DEVICE\nThe device to use: its index or a part of its name.\n"
            ".It Ev GLINT_DISPATCH_LIMIT\nThe seconds that the device may take for a pass.\n"
            ".It Ev GLINT_PASSES\nA folder whose shaders replace the built-in ones, such as a source tree's\n.Pa "

@@ -6,7 +6,7 @@
 
 #include <xxhash.h>
 
-#include "cache.h"
+#include "glint/cache.h"
 #include "glint/exr.h"
 #include "timing.h"
 
@@ -15,7 +15,7 @@ static void add_text(XXH3_state_t *state, const char *text) {
 }
 
 /* The key covers everything that the file depends on: the step's key (inputs, shader, values), the device, and the metadata of the images. */
-static bool find_cache_key(const struct run *run, const struct step *step, char key[CACHE_KEY_SIZE]) {
+static bool find_cache_key(const struct run *run, const struct step *step, char key[GLINT_CACHE_KEY_SIZE]) {
     const struct glint_pass *pass = step->pass->pass;
     const struct glint_device_info *device = &run->gpu->info;
     XXH3_state_t *state = XXH3_createState();
@@ -24,6 +24,8 @@ static bool find_cache_key(const struct run *run, const struct step *step, char 
         return false;
     }
     XXH3_128bits_update(state, &step->key, sizeof step->key);
+    const uint64_t processor = device->is_cpu ? glint_cache_processor() : 0;
+    XXH3_128bits_update(state, &processor, sizeof processor);
     const char *const texts[] = {GLINT_VERSION,          device->name, device->driver,
                                  device->driver_version, pass->slot,   pass->variant};
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) add_text(state, texts[i]);
@@ -36,7 +38,8 @@ static bool find_cache_key(const struct run *run, const struct step *step, char 
         for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) add_text(state, words[i]);
     }
     const XXH128_hash_t hash = XXH3_128bits_digest(state);
-    snprintf(key, CACHE_KEY_SIZE, "%016llx%016llx", (unsigned long long)hash.high64, (unsigned long long)hash.low64);
+    snprintf(key, GLINT_CACHE_KEY_SIZE, "%016llx%016llx", (unsigned long long)hash.high64,
+             (unsigned long long)hash.low64);
     XXH3_freeState(state);
     return true;
 }
@@ -75,7 +78,7 @@ bool run_restore(struct run *run, struct step *step) {
     const bool keeps = step->pass->cached_work && step->pass->rank != RANK_RAY && run->plan->content[0];
     if (!keeps || !find_cache_key(run, step, step->cache_key) || !step->execute) return false;
     if (options->no_cache || options->repeat) return false; /* execution is to be measured */
-    if (!cache_find(options->cache, step->cache_key, path, sizeof path)) return false;
+    if (!glint_cache_find(options->cache, step->cache_key, path, sizeof path)) return false;
     const double start = glint_now_seconds();
     struct glint_exr *exr = glint_exr_open(path, &(struct glint_limits){.no_link = true}, &ignored);
     bool ok = exr != NULL;

@@ -2,7 +2,7 @@
 #ifndef GLINT_REPLAY_RUN_H
 #define GLINT_REPLAY_RUN_H
 
-#include "cache.h"
+#include "glint/cache.h"
 #include "device.h"
 #include "frame_plan.h"
 #include "glint/probe.h"
@@ -46,7 +46,7 @@ struct step {
     size_t dispatch_count;
     uint64_t texels; /* total texels of its dispatches; those of lists are added by run_count_lists */
     uint64_t key;
-    char cache_key[CACHE_KEY_SIZE]; /* key of its file in the cache folder; "": none */
+    char cache_key[GLINT_CACHE_KEY_SIZE]; /* key of its file in the cache folder; "": none */
     bool execute;
     bool quick;        /* a dispatch has a generic program */
     bool from_quick;   /* it executed, and its images come from such programs, its own or those of passes before it */

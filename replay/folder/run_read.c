@@ -194,7 +194,10 @@ bool glint_run_read(struct glint_run *run, const struct glint_run_image *image, 
         if (part->width != image->width || part->height != image->height)
             return glint_fail(err, GLINT_ERROR_FORMAT, "%s/%s: part %s: expected %u x %u, found %u x %u", run->folder,
                               stored->file, part->name, image->width, image->height, part->width, part->height);
-        return glint_exr_read(run->exr, p, names.list, names.count, type, out, 0, err);
+        struct glint_error own = {0};
+        if (glint_exr_read(run->exr, p, names.list, names.count, type, out, 0, &own)) return true;
+        /* What does not fit the record is the file's fault, not the caller's. */
+        return glint_fail(err, own.code == GLINT_ERROR_USAGE ? GLINT_ERROR_FORMAT : own.code, "%s", own.message);
     }
     return glint_fail(err, GLINT_ERROR_FORMAT, "%s/%s: part %s: missing", run->folder, stored->file, stored->part);
 }

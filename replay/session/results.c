@@ -45,7 +45,7 @@ static void store_pass(const struct run *run, size_t p, struct results *results)
     result->from_quick = step->execute ? step->from_quick : makes_quick(run, p);
     result->key = step->key;
     if (!run->options->outputs) /* only a file with all images of the pass is cached */
-        memcpy(results->cache_keys[p], step->cache_key, CACHE_KEY_SIZE);
+        memcpy(results->cache_keys[p], step->cache_key, GLINT_CACHE_KEY_SIZE);
     result->time = glint_time_statistics(step->ns, step->timed);
     result->time.cold = result->time.n && !run->options->repeat;
 }

@@ -195,7 +195,7 @@ static bool write_pass(struct glint_replay *replay, size_t p, const char *folder
                                                encoding_of(job->pass, job->parameters, job->parts[i].info->row->name))))
             return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", job->path);
     if (result->cached && replay->results.cache_keys[p][0] &&
-        cache_copy(replay->results.cache, replay->results.cache_keys[p], job->path))
+        glint_cache_copy(replay->results.cache, replay->results.cache_keys[p], job->path))
         return true;
     bool read = pool_readback(&replay->pool, job->parts, job->count, &job->buffer, job->offsets, err);
     if (!job_finish(before, replay, read ? err : NULL) || !read) return false;
@@ -209,7 +209,7 @@ static void cache_pass(const struct glint_replay *replay, size_t p, const char *
     const struct glint_pass_result *result = &replay->results.passes[p];
     if (result->cached || result->from_quick || !replay->results.cache_keys[p][0]) return;
     if (file_of_pass(replay, p, folder, path))
-        cache_store(replay->results.cache, replay->results.cache_keys[p], path, CACHE_BYTES_MAX);
+        glint_cache_store(replay->results.cache, replay->results.cache_keys[p], path, 0);
 }
 
 static bool record_bad_values(struct glint_replay *replay, json_t *root, struct glint_error *err) {

@@ -9,9 +9,9 @@ struct results {
     struct glint_pass_result *passes;
     size_t count;
     struct glint_cube_faces faces;
-    char *cache;                        /* the run's cache folder, or NULL */
-    char (*cache_keys)[CACHE_KEY_SIZE]; /* for each pass; "": its file is not cached */
-    struct glint_bad_values *bad;       /* first those of the capture, bad_captured of them */
+    char *cache;                              /* the run's cache folder, or NULL */
+    char (*cache_keys)[GLINT_CACHE_KEY_SIZE]; /* for each pass; "": its file is not cached */
+    struct glint_bad_values *bad;             /* first those of the capture, bad_captured of them */
     size_t bad_count, bad_captured;
     json_t *record; /* run.json without files; NULL before the first run */
 };

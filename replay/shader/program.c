@@ -283,13 +283,22 @@ static struct program *find_program(struct programs *programs, struct gpu *gpu, 
     return NULL;
 }
 
+/* The most uses of a program, so that all of them together have few enough: those that are used more than the others go first. */
+static uint32_t most_uses(const struct programs *programs) {
+    enum { ONE = 128, ALL = 1024 };
+    uint32_t sum = 0, count = 0;
+    for (const struct program *program = programs->first; program; program = program->next)
+        sum += program->uses, count++;
+    return sum > ALL && sum / count < ONE ? sum / count : ONE;
+}
+
 /* Lavapipe 22.3 keeps a copy of the shader for each dispatch whose uniform values differ from those of the one before, until the pipeline is
-   destroyed: a megabyte or more a frame. */
+   destroyed: 100 to 500 KB a use, megabytes a frame. */
 void programs_begin_run(struct programs *programs, struct gpu *gpu) {
-    enum { USES = 128 };
     if (!gpu->info.is_cpu) return;
+    const uint32_t most = most_uses(programs);
     for (struct program **at = &programs->first, *old; (old = *at);) {
-        if (old->uses < USES) {
+        if (old->uses < most) {
             at = &old->next;
             continue;
         }

@@ -58,6 +58,7 @@ static bool trace_reference(const struct target_request *request, const char *fo
                             struct glint_error *err) {
     const struct glint_reference_options options = {.effect = request->options->effect,
                                                     .folder = folder,
+                                                    .cache = request->options->cache,
                                                     .all = request->options->all,
                                                     .keep_bytes = request->options->keep_bytes};
     const uint32_t rays = request->options->reference_rays ? request->options->reference_rays : GLINT_JUDGE_RAYS;

@@ -51,7 +51,9 @@ struct glint_reference *glint_reference_create(struct glint_replay *replay, stru
                         reference->effect->noun);
     if (ok && options && options->folder) {
         reference->folder = strdup(options->folder);
-        ok = (reference->folder || glint_fail(err, GLINT_ERROR_MEMORY, "reference: out of memory")) &&
+        reference->cache = options->cache ? strdup(options->cache) : NULL;
+        ok = ((reference->folder && (reference->cache || !options->cache)) ||
+              glint_fail(err, GLINT_ERROR_MEMORY, "reference: out of memory")) &&
              reference_settings(reference, err) && reference_resume(reference, options->overwrite, err);
     }
     if (reference->folder) reference->state.kept = reference->state.rays + reference->state.begun;
@@ -75,6 +77,7 @@ void glint_reference_destroy(struct glint_reference **pointer) {
     glint_folder_unlock(&reference->lock);
     free(reference->labels);
     free(reference->folder);
+    free(reference->cache);
     free(reference);
 }
 
@@ -134,25 +137,36 @@ bool glint_reference_trace(struct glint_reference *reference, uint32_t rays, dou
                            void *user, struct glint_error *err) {
     struct glint_reference_state *state = &reference->state;
     struct glint_progress_part part = {.progress = progress, .user = user};
-    const uint32_t first = count_rays(state);
+    const uint32_t first = count_rays(state),
+                   target = (rays + GLINT_REFERENCE_ROUND - 1) / GLINT_REFERENCE_ROUND * GLINT_REFERENCE_ROUND;
+    /* How many rays a limit of noise takes depends on where tracing began. */
+    const bool cached = reference->cache && !(noise > 0);
     uint32_t complete = state->rays;
     double saved = glint_now_seconds();
-    bool unsaved = false;
+    bool unsaved = false, finished = false, look = cached;
     bool ok = rays <= GLINT_REFERENCE_RAYS_MAX ||
               glint_fail(err, GLINT_ERROR_USAGE, "rays: expected at most %d, found %u", GLINT_REFERENCE_RAYS_MAX, rays);
     while (ok && !is_reached(state, rays, noise)) {
+        if (look && reference_find_cached(reference, target)) {
+            unsaved = true;
+            break;
+        }
         const uint32_t before = count_rays(state);
         describe_part(&part, state, first, rays_expected(state, rays, noise));
         ok = trace_part(reference, &part, err);
         unsaved = unsaved || (reference->folder && count_rays(state) != before);
+        finished = ok && is_reached(state, rays, noise);
+        look = false;
         if (!ok || !unsaved || glint_now_seconds() - saved < SAVE_SECONDS) continue;
         ok = save_reference(reference, &complete, err);
         saved = glint_now_seconds();
         unsaved = !ok;
+        look = cached; /* another process may have finished it meanwhile */
     }
-    if (!unsaved) return ok;
     /* What interrupted it is the error; state->kept says what was saved nevertheless. */
-    return save_reference(reference, &complete, ok ? err : NULL) && ok;
+    if (unsaved) ok = save_reference(reference, &complete, ok ? err : NULL) && ok;
+    if (ok && finished && cached) reference_store_cached(reference);
+    return ok;
 }
 
 const struct glint_reference_state *glint_reference_state(const struct glint_reference *reference) {

@@ -4,6 +4,7 @@
 
 #include <jansson.h>
 
+#include "glint/exr.h"
 #include "glint/reference.h"
 #include "values.h"
 
@@ -33,7 +34,7 @@ struct glint_reference {
     struct glint_replay *replay;
     struct glint_capture *capture;
     struct glint_pipeline *pipeline;
-    char *folder;
+    char *folder, *cache; /* cache: NULL without a folder */
     struct glint_folder_lock *lock;
     bool all;
     uint64_t keep_bytes;
@@ -42,6 +43,7 @@ struct glint_reference {
     struct halves halves;
     struct glint_reference_state state;
     json_t *settings;    /* everything that its rays depend on; NULL without a folder */
+    uint64_t made_of[2]; /* hash of the settings with all digits, the driver and a CPU device's processor */
     json_t *sensitivity; /* NULL before it is measured */
     json_t *record;      /* run.json; NULL before the first round */
 };
@@ -67,10 +69,19 @@ bool reference_resume(struct glint_reference *reference, bool overwrite, struct 
 bool reference_note(struct glint_reference *reference, struct glint_error *err);
 bool reference_save(struct glint_reference *reference, struct glint_error *err);
 
+/* reference_cache.c */
+/* Takes the reference with this number of rays from the cache; nothing changes if there is none. */
+bool reference_find_cached(struct glint_reference *reference, uint32_t rays);
+/* Stores the finished reference that the folder holds. */
+void reference_store_cached(const struct glint_reference *reference);
+
 /* reference_round.c: the unfinished round, which the folder's unfinished.exr stores. */
 bool reference_save_round(struct glint_reference *reference, struct glint_error *err);
 /* Does nothing if there is none, or if it is older than the reference. */
 bool reference_resume_round(struct glint_reference *reference, struct glint_error *err);
 void reference_remove_round(const struct glint_reference *reference);
+/* Reads a part of a file, whose channels and size have to be the result's. */
+bool reference_read_part(const struct glint_reference *reference, struct glint_exr *exr, size_t i, const char *path,
+                         struct glint_pixels *pixels, struct glint_error *err);
 
 #endif

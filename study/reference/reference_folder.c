@@ -8,7 +8,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "glint/exr.h"
 #include "no_memory.h"
 #include "record.h"
 #include "values.h"

@@ -4,7 +4,11 @@
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
+#include <xxhash.h>
+
+#include "glint/cache.h"
 #include "no_memory.h"
 #include "record.h"
 
@@ -31,6 +35,14 @@ static json_t *pass_settings(const struct glint_reference *reference, const stru
                      shader);
 }
 
+static void hash_settings(const char *settings, const struct glint_device_info *device, uint64_t hash[2]) {
+    const uint64_t processor = device->is_cpu ? glint_cache_processor() : 0,
+                   driver = XXH3_64bits_withSeed(device->driver, strlen(device->driver), processor);
+    const XXH128_hash_t all = XXH3_128bits_withSeed(settings, strlen(settings), driver);
+    hash[0] = all.high64;
+    hash[1] = all.low64;
+}
+
 bool reference_settings(struct glint_reference *reference, struct glint_error *err) {
     const struct glint_device_info *device = glint_device_get_info(glint_replay_device(reference->replay));
     char hash[33];
@@ -45,8 +57,11 @@ bool reference_settings(struct glint_reference *reference, struct glint_error *e
         json_pack("{ss ss ss ss ss sb so}", "effect", reference->effect->name, "capture", hash, "device", device->name,
                   "driver", device->driver_version, "tool", GLINT_VERSION, "all", reference->all, "passes", passes);
     /* Written and read once, so that numbers are rounded as in a file. */
-    char *text = record_text(all, JSON_REAL_PRECISION(REFERENCE_DIGITS));
-    reference->settings = text ? json_loads(text, 0, NULL) : NULL;
+    char *text = record_text(all, JSON_REAL_PRECISION(REFERENCE_DIGITS)),
+         *exact = record_text(all, JSON_REAL_PRECISION(17) | JSON_SORT_KEYS);
+    if (exact) hash_settings(exact, device, reference->made_of);
+    reference->settings = text && exact ? json_loads(text, 0, NULL) : NULL;
+    free(exact);
     free(text);
     json_decref(all);
     if (reference->settings) return true;

@@ -8,7 +8,6 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "glint/exr.h"
 #include "no_memory.h"
 #include "record.h"
 
@@ -86,8 +85,8 @@ static bool same_settings(const struct glint_reference *reference, const struct 
            glint_fail(err, GLINT_ERROR_USAGE, "%s: holds another reference: %s", reference->folder, differs.message);
 }
 
-static bool read_batch(const struct glint_reference *reference, struct glint_exr *exr, size_t i, const char *path,
-                       struct glint_pixels *pixels, struct glint_error *err) {
+bool reference_read_part(const struct glint_reference *reference, struct glint_exr *exr, size_t i, const char *path,
+                         struct glint_pixels *pixels, struct glint_error *err) {
     const struct glint_part_info *gbuffer = glint_capture_find(reference->capture, GLINT_PART_GBUFFER);
     const struct study_channel_list *channels = &reference->channels;
     const struct glint_exr_part_info *part = glint_exr_part(exr, i);
@@ -113,7 +112,7 @@ static bool read_round(struct glint_reference *reference, struct glint_exr *exr,
             (i == 0 && count == 2 && rays != GLINT_REFERENCE_BATCH) || (i == 1 && rays == GLINT_REFERENCE_BATCH))
             return glint_fail(err, GLINT_ERROR_FORMAT, "%s: part %s: expected a part of a round, found %g rays", path,
                               part->name, rays);
-        if (!read_batch(reference, exr, i, path, &halves->batch[i], err)) return false;
+        if (!reference_read_part(reference, exr, i, path, &halves->batch[i], err)) return false;
         halves->batched[i] = (uint32_t)rays;
         reference->state.seconds = fmax(reference->state.seconds, number_of(part, "seconds"));
     }

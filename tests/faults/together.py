@@ -2,7 +2,8 @@
 
 together.py GLINT [--minutes M | --rounds N] [--processes N] [--seed N]
 
-In each round half of the processes replay one of three presets into the same run folder, the others into folders of their own, all with the same cache.
+In each round half of the processes replay one of three presets into the same run folder, the others into folders of their own, all with the same cache. One more
+of eight sweeps, with a reference that is traced or found in that cache: it has to have the bits that it has without a cache.
 In some rounds one of them is killed at a random moment, and in some the files of the cache are damaged before: bits flipped, cut, replaced by another key's
 contents, by nothing, a folder, a pipe or a link. After each round each run folder has to hold one of the runs that a single process makes of these presets,
 bit for bit but for times, at least one process has to have written the shared folder, and nothing else may be there. The same processes also approve baselines.
@@ -23,7 +24,8 @@ import tap  # noqa: E402
 
 PRESETS = [tap.PLAIN, "kf2", "mafia3"]
 LOCKED = re.compile("(process [0-9]+|another process) is using this folder")
-ENTRY = re.compile("[0-9a-f]{32}-[0-9a-f]{32}[.]exr$")
+ENTRY = re.compile("[0-9a-f]{32}-[0-9a-f]{32}[.](exr|json)$")
+SWEEP = ["sweep", "tiny.exr", "-p", tap.PLAIN, "--vary", "screen_trace.steps=4,8", "--repeat", "0", "--rays", "16", "--no-pictures"]
 LIMIT_S = 600
 
 
@@ -39,6 +41,16 @@ def contents(folder):
             found[name] = file.read()
     if "run.json" in found:
         found["run.json"] = re.findall(b'"preset": "[^"]*"|"file": "[^"]*"', found["run.json"])
+    return found
+
+
+def study(folder):
+    """What a sweep found: the image of its reference, and its table."""
+    reference, = [name for name in os.listdir(folder) if name.startswith("reflection-")]
+    found = {}
+    for name in (os.path.join(reference, "reference-16.exr"), "points.csv"):
+        with open(os.path.join(folder, name), "rb") as file:
+            found[name] = file.read()
     return found
 
 
@@ -84,6 +96,10 @@ class Rounds:
         for i, preset in enumerate(PRESETS):
             tap.glint("replay", "tiny.exr", "-p", preset, "-o", f"alone{i}", folder=folder)
             self.expected.append(contents(self.path(f"alone{i}")))
+        self.studies = options.processes // 8
+        if self.studies:
+            tap.glint(*SWEEP, "--cache", "none", "-o", "alone", folder=folder)
+            self.expected_study = study(self.path("alone"))
 
     def path(self, name):
         return os.path.join(self.folder, name)
@@ -107,20 +123,24 @@ class Rounds:
     def one(self, number):
         """A round."""
         os.makedirs(self.path("tmp"), exist_ok=True)
-        if number % 3 == 2:
+        damaged = number % 3 == 1
+        if damaged:
             self.damage_cache()
         started = []
         for i in range(self.options.processes):
             preset = self.chance.randrange(len(PRESETS))
             folder = "run" if i % 2 == 0 else f"own{i}"
             started.append((folder, preset, self.start(["replay", "tiny.exr", "-p", PRESETS[preset], "--cache", "cache", "-o", folder])))
+        for i in range(self.studies):
+            shutil.rmtree(self.path(f"study{i}"), ignore_errors=True)
+            started.append((f"study{i}", None, self.start([*SWEEP, "--cache", "cache", "-o", f"study{i}"])))
         approving = [self.start(["check", f"alone{k}", "--baseline", "base", "--approve"]) for k in range(2)]
         killed = self.chance.choice(started)[2] if number % 2 else None
         if killed:
             time.sleep(self.chance.random() * self.options.kill_within)
             killed.kill()
         wrote = set()
-        for folder, preset, process in started:
+        for folder, _, process in started:
             said = process.communicate(timeout=LIMIT_S)[1]
             self.judge_end(folder, process, said, process is killed)
             if process.returncode == 0:
@@ -130,7 +150,7 @@ class Rounds:
             self.judge_end("base", process, process.communicate(timeout=LIMIT_S)[1], False)
         if "run" not in wrote and not killed:
             self.fail("nobody wrote the run folder")
-        self.look(wrote, killed)
+        self.look(wrote, killed, stored=damaged or number == 0)
 
     def judge_end(self, folder, process, said, killed):
         if process.returncode == 0 or killed:
@@ -140,9 +160,12 @@ class Rounds:
         else:
             self.fail(f"{folder}: exit {process.returncode}: {said.strip()[-300:]}")
 
-    def look(self, wrote, killed):
+    def look(self, wrote, killed, stored):
         for name in sorted(os.listdir(self.folder)):
-            if name.startswith("own") or name in ("run", "base", "base~"):
+            if name.startswith("study"):
+                if name in wrote and study(self.path(name)) != self.expected_study:
+                    self.fail(f"{name} holds another study")
+            elif name.startswith("own") or name in ("run", "base", "base~"):
                 if killed and name not in wrote and not self.readable(name):
                     continue
                 found = contents(self.path(name))
@@ -150,12 +173,12 @@ class Rounds:
                     found = {k: v for k, v in found.items() if k != ".glint-new"}
                 if not self.is_expected(found):
                     self.fail(f"{name} holds {sorted(found)}")
-            elif not re.fullmatch("alone[0-9]|tiny[.]exr|cache|tmp", name) and not (killed and name == "base.new~"):
+            elif not re.fullmatch("alone[0-9]?|tiny[.]exr|cache|tmp", name) and not (killed and name == "base.new~"):
                 self.fail(f"{name} is left")
         if os.listdir(self.path("tmp")):
             self.fail(f"left in TMPDIR: {os.listdir(self.path('tmp'))}")
         odd = [os.path.basename(path) for path in self.entries() if not ENTRY.match(os.path.basename(path))]
-        if odd and not killed:
+        if odd and stored and not killed:  # who stores removes what a killed process left
             self.fail(f"left in the cache: {odd}")
         if self.entries() and os.stat(self.path("cache")).st_mode & 0o77:
             self.fail("others can look into the cache")

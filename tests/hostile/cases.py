@@ -91,6 +91,15 @@ class Tests:
         self.record(lambda run: [image.update(width=65536, height=65536) for p in run["passes"] for image in p.get("images", [])])
         assert "texels" in glint("check", "run", "--baseline", "good", status=4, folder=self.folder)
 
+    def test_an_image_of_another_type_is_no_error_of_usage(self):
+        path, begin = os.path.join(self.fresh(), "05-cubemap_trace.exr"), b"channels\0chlist\0"
+        data = bytearray(read(path))
+        at = data.index(b"\0", data.index(begin) + len(begin) + 4) + 1  # behind the first channel's name: its type
+        assert struct.unpack_from("<i", data, at)[0] == 2, "float, which takes as many bytes as uint"
+        struct.pack_into("<i", data, at, 0)
+        write(path, bytes(data))
+        assert "found uint" in glint("check", "run", "--baseline", "good", status=4, folder=self.folder)
+
     def test_records_of_millions_of_values_are_not_parsed(self):
         self.fresh()
         write(self.path("run", "run.json"), b'{"format": 1, "passes": [' + b"{}," * 3000000 + b"{}]}")

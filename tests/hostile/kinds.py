@@ -273,23 +273,24 @@ class Cache(Kind):
     slow = True
     environment = {"GLINT_CACHE": "cache"}
     timeout_s = 60
-    commands = [("replay tiny.exr -p mafia3 -o out", None)]
+    commands = [("replay tiny.exr -p mafia3 -o out", None), ("reference tiny.exr --rays 16 -o out", None)]
 
     def make(self, folder):
         small_capture(folder)
         os.environ["GLINT_CACHE"] = os.path.join(folder, "cache")
         tap.glint("replay", "tiny.exr", "-p", "mafia3", "-o", "run", folder=folder)
+        tap.glint("reference", "tiny.exr", "--rays", "16", "-o", "traced", folder=folder)
         os.environ["GLINT_CACHE"] = "none"
 
     def targets(self, folder):
-        return below(os.path.join(folder, "cache"), ".exr")
+        return below(os.path.join(folder, "cache"), ".exr", ".json")
 
 
 class Environment(Kind):
     name = "environment"
     commands = [("info run", None), ("view run -o out.png", None), ("passes", None), ("plan tiny.exr -p kf2", None), ("lint tiny.exr", None), ("report run -o out.html", None),
                 ("--help", None), ("devices", None)]
-    variables = ["GLINT_CACHE", "GLINT_PRESETS", "GLINT_PASSES", "GLINT_DEVICE", "GLINT_VALIDATION", "OCIO", "TMPDIR", "HOME", "XDG_CACHE_HOME", "XDG_RUNTIME_DIR", "NO_COLOR", "COLUMNS",
+    variables = ["GLINT_CACHE", "GLINT_CACHE_GIB", "GLINT_PRESETS", "GLINT_PASSES", "GLINT_DEVICE", "GLINT_VALIDATION", "OCIO", "TMPDIR", "HOME", "XDG_CACHE_HOME", "XDG_RUNTIME_DIR", "NO_COLOR", "COLUMNS",
                  "LINES", "TERM", "LANG", "LC_ALL", "LC_NUMERIC", "COLORTERM", "VK_ICD_FILENAMES", "VK_LAYER_PATH", "ARGP_HELP_FMT", "POSIXLY_CORRECT"]
 
     def make(self, folder):

@@ -143,6 +143,19 @@ const json_t *named(const json_t *list, const char *key, const char *name) {
     return NULL;
 }
 
+double reference_seconds(const char *pattern) {
+    char *command = NULL;
+    assert_true(asprintf(&command, "cat %s/run.json", in_folder(pattern)) > 0);
+    struct outcome record = run_program("sh", "-c", command, NULL);
+    assert_int_equal(record.status, 0);
+    json_t *json = parse_json(record.out);
+    const double seconds = number(json_object_get(json, "reference"), "seconds");
+    json_decref(json);
+    outcome_free(&record);
+    free(command);
+    return seconds;
+}
+
 double number(const json_t *object, const char *key) {
     const json_t *value = json_object_get(object, key);
     assert_true(json_is_number(value));

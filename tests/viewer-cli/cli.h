@@ -38,6 +38,8 @@ int count_lines(const char *name);
 /* The object in a list whose member `key` is `name`, and the number of a member; fails the test if there is none. */
 const struct json_t *named(const struct json_t *list, const char *key, const char *name);
 double number(const struct json_t *object, const char *key);
+/* How long it took to trace the reference in a folder, whose name may be a pattern of the shell: two tracings differ in it. */
+double reference_seconds(const char *folder);
 
 /* Creates a folder; in_folder returns the path of a file in it, in static storage for a few calls. */
 int make_folder(void **state);

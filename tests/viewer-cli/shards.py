@@ -1,4 +1,5 @@
 """Studies in shards: glint merge makes of them what one process makes, and refuses what is not whole. shards.py GLINT. Speaks TAP."""
+import glob
 import json
 import os
 import shutil
@@ -13,6 +14,7 @@ from timeless import contents
 
 SCENES = ["street", "room", "still_life"]
 ARGUMENTS = ["-p", tap.PLAIN, "--vary", "screen_trace.steps=4,8,16", "--rays", "4", "--repeat", "0"]
+CACHE = ("--cache", "cache")
 
 
 class Tests:
@@ -25,7 +27,7 @@ class Tests:
         self.glint("sweep", "set", "-o", "whole", *ARGUMENTS)
         self.whole = contents(self.path("whole"))
         assert len(self.whole["log.jsonl"]) == 9 and len([name for name in self.whole if name.startswith("pictures/")]) > 9
-        self.sweep("cut", 2)
+        self.sweep("cut", 2, more=CACHE)
 
     def path(self, *names):
         return os.path.join(self.folder, *names)
@@ -33,9 +35,9 @@ class Tests:
     def glint(self, *words, status=0):
         return tap.glint(*words, folder=self.folder, status=status)
 
-    def sweep(self, out, count, numbers=None):
+    def sweep(self, out, count, numbers=None, more=()):
         for number in numbers or range(1, count + 1):
-            self.glint("sweep", "set", "-o", out, *ARGUMENTS, "--shard", f"{number}/{count}")
+            self.glint("sweep", "set", "-o", out, *ARGUMENTS, *more, "--shard", f"{number}/{count}")
 
     def check_same(self, found):
         assert found.keys() == self.whole.keys(), found.keys() ^ self.whole.keys()
@@ -75,8 +77,19 @@ class Tests:
         run = self.glint("sweep", "uneven", "-o", "uneven-cut", *ARGUMENTS, "--shard", "1/2", "--json", "--no-pictures")
         assert json.loads(run.stdout)["points"] == 3, run.stdout
 
+    def traced(self, out):
+        """{REFERENCE: how long it took to trace it}"""
+        found = {}
+        for path in glob.glob(self.path(out, "shards", "*", "reflection-*", "run.json")):
+            with open(path, encoding="utf-8") as file:
+                found[path.split(os.sep)[-2]] = json.load(file)["reference"]["seconds"]
+        return found
+
     def test_more_shards_than_captures(self):
-        self.sweep("many", 4)
+        """They find the references that other shards traced in the cache."""
+        self.sweep("many", 4, more=CACHE)
+        cut, many = self.traced("cut"), self.traced("many")
+        assert len(cut) == 3 and cut == many, (cut, many)
         self.refused(["shard.json"], "many/shards", "-o", "of-many")  # which is none
         shards = sorted(os.listdir(self.path("many", "shards")), reverse=True)
         self.glint("merge", *(f"many/shards/{name}" for name in shards), "-o", "of-many")

@@ -36,9 +36,9 @@ static void assert_sums(const json_t *sum, size_t answers) {
 }
 
 /* The errors of pipelines by `glint sweep`, which is independent of players. */
-static void sweep_upscale(double errors[2]) {
+static void sweep_upscale(const char *cache, double errors[2]) {
     free(glint_ok("sweep", in_folder("room.exr"), "-o", in_folder("swept"), PLAIN, "--rays=4", "--repeat=0",
-                  "--no-pictures", "--set=resolve.fog=false", "--vary=upscale=best_match,bilinear"));
+                  "--no-pictures", "--vary=upscale=best_match,bilinear", cache));
     json_t *json = load_json("swept/points.json");
     for (size_t i = 0; i < 2; i++) {
         const json_t *row =
@@ -73,8 +73,10 @@ static double logged_ms(const char *name, int coalition) {
 static void shares_add_up_to_the_error(UNUSED void **state) {
     free(glint_ok("sample", "room", "--light=4", "-o", in_folder("room.exr"), "--size=32x18", "--cube-size=8",
                   "--truth=1"));
+    char *cache = NULL;
+    assert_true(asprintf(&cache, "--cache=%s", in_folder("cache")) > 0);
     char *text = glint_ok("blame", in_folder("room.exr"), "-o", in_folder("blame"), SMALL, "--use=upscale=best_match",
-                          "--repeat=2");
+                          "--repeat=2", cache);
     assert_contains(text, "against the reference");
     assert_contains(text, "against the truth");
     assert_contains(text, "exact, from all");
@@ -94,7 +96,9 @@ static void shares_add_up_to_the_error(UNUSED void **state) {
     /* one evaluation of each, and two rounds of both ends and of single replacements of either */
     assert_int_equal(count_lines("blame/log.jsonl"), (1 << count) + 2 * (2 * count + 2));
     double errors[2];
-    sweep_upscale(errors);
+    sweep_upscale(cache, errors);
+    free(cache);
+    assert_true(reference_seconds("swept/reflection-*") == reference_seconds("blame/reflection-*"));
     assert_true(fabs(number(all, "preset") - errors[0]) < 1e-9);
     assert_true(fabs(number(all, "preset") -
                      number(json_object_get(json_object_get(all, "players"), "upscale"), "removed") - errors[1]) <

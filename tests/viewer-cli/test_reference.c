@@ -130,11 +130,28 @@ static void what_cannot_be_is_said(UNUSED void **state) {
                   "--set=resolve.fog=false"));
 }
 
+/* Catches: an option that does not reach the reference. */
+static void the_cache_serves_other_commands(UNUSED void **state) {
+    char *cache = NULL;
+    assert_true(asprintf(&cache, "--cache=%s", in_folder("cache")) > 0);
+    free(glint_ok("reference", in_folder("room.exr"), "--like", GLINT_TEST_PRESET, "--rays=16", "-o", in_folder("like"),
+                  cache));
+    free(glint_ok("sweep", in_folder("room.exr"), PLAIN, "--rays=16", "--repeat=0", "--no-pictures", "-o",
+                  in_folder("swept"), cache, "--vary=screen_trace.steps=4"));
+    free(glint_ok("tune", in_folder("room.exr"), PLAIN, "--rays=16", "--repeat=0", "-o", in_folder("tuned.json"), cache,
+                  "--budget-fetches=100%", "--tries=1", "--vary=cubemap_trace.secant"));
+    const double seconds = reference_seconds("like");
+    assert_true(seconds > 0);
+    assert_true(reference_seconds("swept/reflection-*") == seconds);
+    assert_true(reference_seconds("tuned.tune/reflection-*") == seconds);
+    free(cache);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(it_is_kept_and_goes_on),    cmocka_unit_test(progress_is_printed_on_request),
         cmocka_unit_test(runs_are_compared_with_it), cmocka_unit_test(another_captures_reference_is_told),
-        cmocka_unit_test(what_cannot_be_is_said),
+        cmocka_unit_test(what_cannot_be_is_said),    cmocka_unit_test(the_cache_serves_other_commands),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

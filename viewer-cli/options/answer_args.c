@@ -1,6 +1,7 @@
 /* The options of sweep, blame and tune that choose the effect, and the reference or truth for its errors. */
 #include "options/answer_args.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 error_t answer_args_parse(int key, char *arg, struct argp_state *state, struct answer_args *args) {
@@ -11,6 +12,9 @@ error_t answer_args_parse(int key, char *arg, struct argp_state *state, struct a
     case KEY_REFERENCE:
         if (!strcmp(arg, "truth")) args->truth = true;
         else list_add(&args->references, arg, state);
+        return 0;
+    case KEY_CACHE:
+        args->cache_asked = arg;
         return 0;
     case KEY_RAYS:
         args->rays = arg_uint("rays", arg, 1, 1 << 20, state);
@@ -29,12 +33,15 @@ void answer_args_check(const struct answer_args *args, size_t captures, struct a
 bool answer_args_effect(struct answer_args *args, const struct command *command, const struct glint_pipeline *pipeline,
                         const struct list *captures, struct glint_error *err) {
     const bool traced = !args->truth && !args->references.count;
+    if (traced) args->cache = pipeline_args_cache(args->cache_asked);
     args->effect = effect_find(command, args->effect_name, pipeline, traced, args->truth ? captures : NULL, err);
     return args->effect != NULL;
 }
 
 void answer_args_finish(struct answer_args *args) {
     list_free(&args->references);
+    free(args->cache);
+    args->cache = NULL;
 }
 
 struct glint_judge_options answer_args_judge(const struct answer_args *args, const char *folder, size_t capture) {
@@ -44,6 +51,7 @@ struct glint_judge_options answer_args_judge(const struct answer_args *args, con
                                         .reference_run =
                                             args->references.count ? args->references.items[capture] : NULL,
                                         .reference_folder = folder,
+                                        .cache = args->cache,
                                         .reference_rays = args->rays};
 }
 

@@ -4,6 +4,7 @@
 
 #include "options/args.h"
 #include "options/effect_args.h"
+#include "options/pipeline_args.h"
 #include "glint/judge.h"
 
 struct answer_args {
@@ -12,15 +13,22 @@ struct answer_args {
     const struct glint_effect *effect; /* whose errors are measured */
     bool truth;                        /* uses the truth in the captures */
     uint32_t rays;                     /* of a traced reference; 0: the judge's default */
+    const char *cache_asked;           /* --cache, or NULL */
+    char *cache;                       /* the folder in which traced references are found, or NULL */
 };
 
 enum { KEY_REFERENCE = 768, KEY_RAYS };
 
-/* Reads --effect, --reference and --rays; ARGP_ERR_UNKNOWN for any other key. */
+/* The options --rays and --cache of a reference that is traced. */
+#define TRACED_OPTIONS                                                                                                 \
+    {"rays", KEY_RAYS, "N", 0, "Rays per pixel of the reference that is traced (default 64)", 0},                      \
+        CACHE_OPTION("traced references", "")
+
+/* Reads --effect, --reference, --rays and --cache; ARGP_ERR_UNKNOWN for any other key. */
 error_t answer_args_parse(int key, char *arg, struct argp_state *state, struct answer_args *args);
 /* Call after all arguments are parsed. */
 void answer_args_check(const struct answer_args *args, size_t captures, struct argp_state *state);
-/* Finds the effect for a pipeline, by its captures if their truth is used. */
+/* Finds the effect for a pipeline, by its captures if their truth is used, and the cache folder for references that are traced. */
 bool answer_args_effect(struct answer_args *args, const struct command *command, const struct glint_pipeline *pipeline,
                         const struct list *captures, struct glint_error *err);
 void answer_args_finish(struct answer_args *args);

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "glint/cache.h"
 #include "glint/capture.h"
 #include "command.h"
 #include "io/console.h"

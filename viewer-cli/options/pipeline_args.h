@@ -28,7 +28,8 @@ enum {
     KEY_SKIP,
     KEY_FORCE,
     KEY_ALL,
-    KEY_DISPATCH_LIMIT
+    KEY_DISPATCH_LIMIT,
+    KEY_CACHE
 };
 
 /* clang-format off */
@@ -36,6 +37,10 @@ enum {
     {"device",  'd',         "INDEX|NAME",     0, "Vulkan device to use; glint devices lists them (default: $GLINT_DEVICE, else the first usable one in that list)", 0}
 #define LIMIT_OPTION \
     {"dispatch-limit", KEY_DISPATCH_LIMIT, "SECONDS", 0, "Give up when the device takes longer than this for a pass (default: $GLINT_DISPATCH_LIMIT, else 60, or 600 on a CPU)", 0}
+/* What is kept there, and where the option has no effect. */
+#define CACHE_OPTION(what, unused) \
+    {"cache",   KEY_CACHE,   "DIR",            0, "Folder in which " what " are kept for later calls and other machines, up to $GLINT_CACHE_GIB (default 4 GiB); " \
+        "none disables it" unused " (default: $GLINT_CACHE, else $XDG_CACHE_HOME/glint, else ~/.cache/glint)", 0}
 #define USE_OPTION \
     {"use",     KEY_USE,     "SLOT=VARIANT",   0, "Use this variant of a slot; the variant none removes the slot", 0}
 #define ALL_OPTION \

@@ -200,9 +200,6 @@ bool glint_survey_capture(struct glint_capture *capture, struct glint_survey *su
 
 /* ---- Replay ---- */
 
-/* Why a folder is not used as a cache, or NULL: a folder that is there has to belong to the user, and nobody else may write to it. */
-const char *glint_cache_refusal(const char *folder);
-
 struct glint_replay_options {
     const char *const *passes; /* slots to run, NULL-terminated; NULL: all that the plan keeps */
     /* Images that the caller will read or write, NULL-terminated; NULL: all. Other images then share memory, so that every run
@@ -245,7 +242,7 @@ struct glint_replay_options {
     uint64_t keep_bytes;
     uint32_t
         lineage; /* history is taken from the last run with the same number, so that pipelines run in turns keep their own */
-    /* A cache folder, or NULL. Writing a run also stores there the files of passes that depend on cube maps alone, at most 4 GiB,
+    /* A cache folder (glint/cache.h), or NULL. Writing a run also stores there the files of passes that depend on cube maps alone,
        and later processes load them instead of executing the passes, unless no_cache or repeat ask for execution. A folder that
        glint_cache_refusal refuses is not used. */
     const char *cache;

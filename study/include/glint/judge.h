@@ -25,6 +25,7 @@ struct glint_judge_options {
        combination of the parameters that define it among the pipelines. */
     const char *reference_run;
     const char *reference_folder; /* NULL, or an existing folder that stores traced references for later calls */
+    const char *cache;            /* NULL, or a cache folder for these, too (glint/reference.h) */
     uint32_t reference_rays;      /* rays a pixel; 0: GLINT_JUDGE_RAYS */
     double reference_noise;       /* relative noise at which tracing stops early; 0: never */
     bool all;                     /* as in struct glint_replay_options */

@@ -36,7 +36,10 @@ struct glint_reference_state {
 struct glint_reference;
 struct glint_reference_options {
     const struct glint_effect *effect; /* NULL: the first of glint_effects() */
-    const char *folder;  /* the run folder that stores the reference and from which tracing resumes; NULL: not stored */
+    const char *folder; /* the run folder that stores the reference and from which tracing resumes; NULL: not stored */
+    /* A cache folder (glint/cache.h), or NULL. A reference with a folder that was traced up to its last ray is also stored there, and one that another
+       process stored there is taken over instead of being traced: it has the same bits. References with a limit of noise are traced. */
+    const char *cache;
     bool overwrite;      /* removes what the folder holds, instead of resuming or failing */
     bool all;            /* as in struct glint_replay_options */
     uint64_t keep_bytes; /* as in struct glint_replay_options, for a replay that also runs other pipelines */
