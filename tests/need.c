@@ -12,9 +12,11 @@
 static const char *const programs[][2] = {
 #define PROGRAM(name, package) {name, package},
 #define MODULE(name, package)
+#define LONG(name, package) {name, package},
 #include "programs.h"
 #undef PROGRAM
 #undef MODULE
+#undef LONG
 };
 
 static bool found(const char *name) {

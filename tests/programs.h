@@ -1,5 +1,5 @@
 /* Programs that tests run beside glint, modules that their Python imports, and the Debian package that each comes in. Read by need.c, by programs.py and by ./dev,
-   which installs the packages before it tests. What every Debian has (sh, awk, cmp) needs no row. */
+   which installs the packages before it tests. What every Debian has (sh, awk, cmp) needs no row. LONG rows are of long tests alone, for which ./dev test --all installs them. */
 PROGRAM("chromium-headless-shell", "chromium-headless-shell")
 PROGRAM("exrheader", "openexr")
 PROGRAM("exrinfo", "openexr")
@@ -12,3 +12,8 @@ PROGRAM("oiiotool", "openimageio-tools")
 PROGRAM("readelf", "binutils")
 PROGRAM("zsh", "zsh")
 MODULE("matplotlib", "python3-matplotlib")
+LONG("munged", "munge")
+LONG("parallel", "parallel")
+LONG("slurmctld", "slurm-wlm")
+LONG("slurmd", "slurm-wlm")
+LONG("yaml", "python3-yaml")

@@ -5,7 +5,7 @@ import re
 import shutil
 
 with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "programs.h"), encoding="utf-8") as file:
-    PACKAGES = dict(re.findall(r'^(?:PROGRAM|MODULE)\("(.*)", "(.*)"\)', file.read(), re.M))
+    PACKAGES = dict(re.findall(r'^(?:PROGRAM|MODULE|LONG)\("(.*)", "(.*)"\)', file.read(), re.M))
 
 
 # Meson fills memory that is freed with a pattern, which finds faults of ours; other programs only become slower, oiiotool tenfold.

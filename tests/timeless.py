@@ -1,4 +1,6 @@
 """What of glint's JSON does not depend on times, on what a cache held, and on what the process had done before."""
+import json
+import os
 import re
 
 TIMES = re.compile("(_ns|_ms|ms|seconds|_bytes)$|^(ms|time|cold|min|median|max|low|high)$")
@@ -12,3 +14,22 @@ def without_times(value, timed=False):
     if isinstance(value, list):
         return [without_times(v, timed) for v in value]
     return "time" if timed and not isinstance(value, str) else value
+
+
+def contents(folder, *left_out):
+    """{PATH: contents} of a folder, without times, and without these files and folders of its own."""
+    found = {}
+    for root, folders, files in os.walk(folder):
+        if root == folder:
+            folders[:] = [name for name in folders if name not in left_out]
+            files = [name for name in files if name not in left_out]
+        for name in files:
+            path = os.path.join(root, name)
+            with open(path, "rb") as file:
+                data = file.read()
+            if name.endswith(".json"):
+                data = without_times(json.loads(data))
+            elif name.endswith(".jsonl"):
+                data = [without_times(json.loads(line)) for line in data.splitlines()]
+            found[os.path.relpath(path, folder)] = data
+    return found

@@ -49,6 +49,7 @@ extern const struct command
     cmd_compare,
     cmd_sweep,
     cmd_merge,
+    cmd_batch,
     cmd_blame,
     cmd_tune,
     cmd_stability,

@@ -21,6 +21,7 @@ const struct command *const commands[] = {
     &cmd_compare,
     &cmd_sweep,
     &cmd_merge,
+    &cmd_batch,
     &cmd_blame,
     &cmd_tune,
     &cmd_stability,

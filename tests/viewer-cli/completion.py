@@ -35,6 +35,8 @@ CASES = [
     ("replay s.exr --inputs=ru", "--inputs=run"),
     ("live s.exr --token-f", "--token-file="),
     ("live s.exr --use=screen_trace=dd", "--use=screen_trace=dda"),
+    ("batch resub", "resubmit"),
+    ("batch sweep s.exr --vary screen_tr", "screen_trace."),
     ("sample deser", "desert_night"),
     ("sample room --normal=octa", "--normal=octahedral"),
     ("passes screen_trace/hi", "screen_trace/hiz"),

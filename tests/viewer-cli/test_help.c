@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *const names[] = {"sample",  "info", "validate", "plan",   "replay",  "reference",
-                                    "compare", "view", "export",   "passes", "devices", "selftest"};
+static const char *const names[] = {"sample", "info", "validate", "plan",   "replay",  "reference", "compare",
+                                    "batch",  "view", "export",   "passes", "devices", "selftest"};
 enum { COUNT = sizeof names / sizeof *names };
 
 static void help_lists_every_command(UNUSED void **state) {

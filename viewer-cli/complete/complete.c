@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "batch/studied.h"
 #include "io/console.h"
 #include "shown.h"
 
@@ -125,12 +126,24 @@ static void complete_of_command(struct completion *c, const struct command *comm
     else complete_argument(c, command);
 }
 
+/* The command that is cut into shards has options, too. */
+static void complete_batch(struct completion *c) {
+    const struct command *studied = c->count > 1 ? batch_studied(c->words[1]) : NULL;
+    struct command whole;
+    if (!studied) complete_of_command(c, &cmd_batch);
+    else if (batch_widen(&cmd_batch, studied, &whole)) {
+        complete_of_command(c, &whole);
+        free((struct argp_option *)whole.options);
+    }
+}
+
 void complete_print(int count, char *const words[]) {
     if (count < 1) return;
     console_plain(true); /* tabs separate */
     struct completion c = {.words = (const char *const *)words, .count = (size_t)count - 1, .typed = words[count - 1]};
     const struct command *command = c.count ? command_find(c.words[0]) : NULL;
     if (!c.count || (c.count == 1 && !strcmp(c.words[0], "help"))) complete_command(&c);
+    else if (command == &cmd_batch) complete_batch(&c);
     else if (command) complete_of_command(&c, command);
     for (size_t i = 0; i < c.offered_count; i++) free(c.offered[i]);
     free(c.offered);

@@ -67,10 +67,10 @@ bool shard_write(const struct shard_record *record, bool done, struct glint_erro
         return glint_fail(err, GLINT_ERROR_IO, "the working directory: %s", strerror(errno));
     json_t *arguments = arguments_json(record);
     if (!arguments) return glint_fail(err, GLINT_ERROR_USAGE, "out of memory, or an argument that is not UTF-8");
-    json_t *json =
-        json_pack("{s:i, s:s, s:I, s:I, s:I, s:b, s:o, s:s}", "format", 1, "command", record->argv[0], "shard",
-                  (json_int_t)record->shard.number, "of", (json_int_t)record->shard.count, "results",
-                  (json_int_t)record->results, "done", done, "arguments", arguments, "folder", here);
+    json_t *json = json_pack("{s:i, s:s, s:I, s:I, s:I, s:I, s:b, s:o, s:s}", "format", 1, "command", record->argv[0],
+                             "shard", (json_int_t)record->shard.number, "of", (json_int_t)record->shard.count,
+                             "results", (json_int_t)record->results, "kept", (json_int_t)record->kept, "done", done,
+                             "arguments", arguments, "folder", here);
     char *text = json ? record_text(json, JSON_INDENT(1)) : NULL;
     json_decref(json);
     const bool ok = text ? journal_path(record->folder, "shard.json", path, err) && output_text(path, text, err)

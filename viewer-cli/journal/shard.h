@@ -29,12 +29,12 @@ struct shard_cost {
 void shard_cut(const struct shard *shard, const struct shard_cost *captures, size_t count, size_t points, size_t *begin,
                size_t *end);
 
-/* What FOLDER/shard.json says: the share, the number of results that its journal will have (fewer where points fail), whether all are there, and the
-   command line that made it. */
+/* What FOLDER/shard.json says: the share, the number of results that its journal will have (fewer where points fail), how many it had when the command was started,
+   when the file is written first, whether all are there, and the command line that made it. */
 struct shard_record {
     struct shard shard;
     const char *folder;
-    size_t results;
+    size_t results, kept;
     int argc; /* of the command, whose name is argv[0] */
     char *const *argv;
 };

@@ -1,0 +1,106 @@
+/* How far the shards are, by what they leave in their folders (the code of shards is journal/'s). */
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#include "batch/batch.h"
+#include "inside.h"
+#include "io/output.h"
+#include "journal/journal.h"
+
+/* Whether there is such a file, and when it was written last. */
+static bool is_there(const char *path, double *written) {
+    struct stat info;
+    if (lstat(path, &info) != 0) return false;
+    *written = (double)info.st_mtim.tv_sec + (double)info.st_mtim.tv_nsec * 1e-9;
+    return true;
+}
+
+/* Whole lines of a file that may be cut in its last one. */
+static bool count_lines(const char *path, size_t *lines, struct glint_error *err) {
+    enum { PIECE = 1 << 16 };
+    char piece[PIECE];
+    glint_file file;
+    uint64_t bytes;
+    size_t got = 0;
+    if (!inside_open(&file, path, UINT64_MAX, &bytes, err)) return false;
+    bool ok = true;
+    for (uint64_t at = 0; ok && at < bytes; at += got) {
+        ok = glint_file_read(file, piece, PIECE, at, &got) && got > 0;
+        for (size_t i = 0; ok && i < got; i++) *lines += piece[i] == '\n';
+    }
+    const int reason = errno;
+    glint_file_close(file);
+    return ok || glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, got ? strerror(reason) : "cut while it was read");
+}
+
+/* Takes over what shard.json says, which is written when the shard is started, and when it is done. */
+static bool take_record(struct batch *batch, struct batch_shard *shard, const char *path, size_t *kept,
+                        struct glint_error *err) {
+    json_t *json = json_inside(path, err);
+    if (!json) return false;
+    const json_t *total = json_object_get(json, "results");
+    const json_int_t before = json_integer_value(json_object_get(json, "kept"));
+    const char *command = json_string_value(json_object_get(json, "command"));
+    const bool ok = json_is_integer(total) && json_integer_value(total) >= 0 && before >= 0;
+    shard->total = ok ? (size_t)json_integer_value(total) : 0;
+    shard->done = json_is_true(json_object_get(json, "done"));
+    *kept = ok ? (size_t)before : 0;
+    if (!batch->command[0] && command) snprintf(batch->command, sizeof batch->command, "%s", command);
+    json_decref(json);
+    return ok || glint_fail(err, GLINT_ERROR_FORMAT,
+                            "%s: expected numbers of \"results\" and of those that were \"kept\"", path);
+}
+
+static bool read_shard(struct batch *batch, size_t i, struct glint_error *err) {
+    struct batch_shard *shard = &batch->shards[i];
+    char name[64], path[4096];
+    double started, written;
+    size_t kept;
+    shard->per_second = NAN;
+    snprintf(name, sizeof name, "shards/%zu-of-%zu/shard.json", i + 1, batch->count);
+    if (!batch_path(batch, name, path, err)) return false;
+    if (!(shard->begun = is_there(path, &started))) return true;
+    batch->changed = fmax(batch->changed, started);
+    if (!take_record(batch, shard, path, &kept, err)) return false;
+    snprintf(name, sizeof name, "shards/%zu-of-%zu/log.jsonl", i + 1, batch->count);
+    if (!batch_path(batch, name, path, err)) return false;
+    if (!is_there(path, &written)) return true;
+    if (!count_lines(path, &shard->results, err)) return false;
+    if (!shard->done && written > started && shard->results > kept)
+        shard->per_second = (double)(shard->results - kept) / (written - started);
+    return true;
+}
+
+bool batch_read_shards(struct batch *batch, struct glint_error *err) {
+    for (size_t i = 0; i < batch->count; i++)
+        if (!read_shard(batch, i, err)) return false;
+    return true;
+}
+
+bool batch_is_merged(const struct batch *batch) {
+    char path[4096];
+    double written;
+    bool done = batch->count > 0;
+    for (size_t i = 0; i < batch->count; i++) done = done && batch->shards[i].done;
+    return done && batch_path(batch, "index.html", path, NULL) && is_there(path, &written) && written >= batch->changed;
+}
+
+char *batch_list(const bool *chosen, size_t count) {
+    char *text = NULL;
+    size_t size = 0;
+    FILE *out = open_memstream(&text, &size);
+    for (size_t i = 0; out && i < count; i++) {
+        size_t end = i;
+        if (!chosen[i]) continue;
+        while (end + 1 < count && chosen[end + 1]) end++;
+        fprintf(out, "%s%zu", ftell(out) > 0 ? "," : "", i + 1);
+        if (end > i) fprintf(out, "-%zu", end + 1);
+        i = end;
+    }
+    if (out) fclose(out);
+    return text;
+}
