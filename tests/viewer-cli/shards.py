@@ -12,7 +12,7 @@ import time
 import tap
 from timeless import contents
 
-SCENES = ["street", "room", "still_life"]
+SCENES = ["room", "still_life"]
 ARGUMENTS = ["-p", tap.PLAIN, "--vary", "screen_trace.steps=4,8,16", "--rays", "4", "--repeat", "0"]
 CACHE = ("--cache", "cache")
 
@@ -26,7 +26,7 @@ class Tests:
             tap.glint("sample", scene, "-o", f"set/{scene}.exr", "--size", "16x9", "--cube-size", "4", folder=folder)
         self.glint("sweep", "set", "-o", "whole", *ARGUMENTS)
         self.whole = contents(self.path("whole"))
-        assert len(self.whole["log.jsonl"]) == 9 and len([name for name in self.whole if name.startswith("pictures/")]) > 9
+        assert len(self.whole["log.jsonl"]) == 6 and len([name for name in self.whole if name.startswith("pictures/")]) > 6
         self.sweep("cut", 2, more=CACHE)
 
     def path(self, *names):
@@ -65,11 +65,11 @@ class Tests:
         for number in (1, 2):
             with open(self.path("cut", "shards", f"{number}-of-2", "log.jsonl"), encoding="utf-8") as file:
                 logs.append({(line["capture"], line["point"]) for line in map(json.loads, file)})
-        assert not logs[0] & logs[1] and len(logs[0] | logs[1]) == 9 and min(map(len, logs)) >= 3, logs
+        assert not logs[0] & logs[1] and len(logs[0] | logs[1]) == 6 and min(map(len, logs)) == 3, logs
 
     def test_shards_are_cut_by_their_cost(self):
         """A capture of many pixels takes the share of many small ones, and is not cut in its last part, whose reference would be traced twice."""
-        tap.glint("sample", "street", "-o", "uneven/a.exr", "--size", "64x36", "--cube-size", "4", folder=self.folder)
+        tap.glint("sample", "street", "-o", "uneven/a.exr", "--size", "48x27", "--cube-size", "4", folder=self.folder)
         for i in range(4):
             shutil.copy(self.path("set", "room.exr"), self.path("uneven", f"b{i}.exr"))
         run = self.glint("sweep", "uneven", "-o", "uneven-cut", *ARGUMENTS, "--shard", "2/2", "--json", "--no-pictures")
@@ -89,7 +89,7 @@ class Tests:
         """They find the references that other shards traced in the cache."""
         self.sweep("many", 4, more=CACHE)
         cut, many = self.traced("cut"), self.traced("many")
-        assert len(cut) == 3 and cut == many, (cut, many)
+        assert len(cut) == len(SCENES) and cut == many, (cut, many)
         self.refused(["shard.json"], "many/shards", "-o", "of-many")  # which is none
         shards = sorted(os.listdir(self.path("many", "shards")), reverse=True)
         self.glint("merge", *(f"many/shards/{name}" for name in shards), "-o", "of-many")

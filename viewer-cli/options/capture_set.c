@@ -88,18 +88,21 @@ static bool check_named_once(const json_t *set, const char *file, struct glint_e
     return ok;
 }
 
+#define NO_SET                                                                                                         \
+    "expected a set of captures of format 1, found a JSON file; glint pack makes a capture of a manifest, and "        \
+    "--preset reads presets"
+
 /* Adds the captures of a set file to `into`. */
 static bool read_set(json_t *into, const char *file, struct glint_error *err) {
     char *real = realpath(file, NULL); /* the user may name a link */
-    json_t *set = real ? json_inside(real, err) : NULL, *own = json_array();
+    struct glint_error why = {0};
+    json_t *set = real ? json_inside(real, &why) : NULL, *own = json_array();
     const json_t *captures = json_object_get(set, "captures");
     if (!real) glint_fail(err, GLINT_ERROR_IO, "%s: %s", file, strerror(errno));
+    else if (!set) glint_fail(err, why.code, "%s; " NO_SET, why.message);
     bool ok = set && (own || fail_memory(err));
     if (ok && json_integer_value(json_object_get(set, "format")) != 1)
-        ok = glint_fail(err, GLINT_ERROR_FORMAT,
-                        "%s: expected a set of captures of format 1; presets are for --preset, and glint pack makes a "
-                        "capture of a manifest",
-                        file);
+        ok = glint_fail(err, GLINT_ERROR_FORMAT, "%s: " NO_SET, file);
     if (ok && !json_array_size(captures))
         ok = glint_fail(err, GLINT_ERROR_FORMAT, "%s: expected a list of captures", file);
     for (size_t i = 0; ok && i < json_array_size(captures); i++)

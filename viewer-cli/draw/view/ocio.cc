@@ -48,11 +48,14 @@ bool is_known(unsigned major, unsigned minor) {
 
 // Throws if the configuration was made for a newer library, with what works here.
 void check_version(const std::string &path) {
-    std::ifstream file(path);
-    std::string line;
+    std::ifstream file(path, std::ios::binary);
+    std::string line, head(1 << 16, '\0'); // a line may have no end
+    file.read(&head[0], std::streamsize(head.size()));
+    head.resize(size_t(file.gcount()));
+    std::istringstream begin(head);
     unsigned major = 0, minor = 0;
     bool archive = false;
-    for (int lines = 0; lines < 100 && std::getline(file, line); lines++) {
+    for (int lines = 0; lines < 100 && std::getline(begin, line); lines++) {
         archive |= lines == 0 && line.compare(0, 2, "PK") == 0;
         if (std::sscanf(line.c_str(), "ocio_profile_version: %u.%u", &major, &minor) > 0) break;
     }
@@ -135,9 +138,14 @@ void check_all_files(const OCIO::ConstConfigRcPtr &config) {
     }
 }
 
-OCIO::ConstConfigRcPtr open_config(const char *path) {
+// The file of the configuration: that of the option, else $OCIO; NULL for the one that glint has.
+const char *config_file(const char *path) {
     if (!path) path = std::getenv("OCIO");
-    if (path && *path) {
+    return path && *path ? path : nullptr;
+}
+
+OCIO::ConstConfigRcPtr open_config(const char *path) {
+    if ((path = config_file(path))) {
         check_version(path);
         check_size(path);
         OCIO::ConstConfigRcPtr config = OCIO::Config::CreateFromFile(path);
@@ -214,7 +222,8 @@ struct ocio_conversion *ocio_prepare(const struct ocio_options *options, struct 
         transform->setView(view.c_str());
         return new ocio_conversion{config->getProcessor(transform)->getDefaultCPUProcessor()};
     } catch (const std::invalid_argument &e) {
-        glint_fail(err, GLINT_ERROR_USAGE, "%s", e.what());
+        const char *file = config_file(options->config);
+        glint_fail(err, GLINT_ERROR_USAGE, "%s%s%s", file ? file : "", file ? ": " : "", e.what());
     } catch (const std::exception &e) {
         fail_with(e, err);
     }
