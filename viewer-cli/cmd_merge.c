@@ -43,14 +43,6 @@ static const struct arg_target targets[] = {
     {0},
 };
 
-static error_t cmd_merge_parse(int key, char *arg, struct argp_state *state) {
-    const struct arguments *a = state->input;
-    (void)arg;
-    if (key != ARGP_KEY_END) return ARGP_ERR_UNKNOWN;
-    if (a->folders.count > 1 && !a->out) argp_error(state, "several shards: -o FOLDER says where their result goes");
-    return 0;
-}
-
 /* ---- The shards of a folder ---- */
 
 static bool is_folder(const char *folder, const char *name, char path[4096]) {
@@ -63,11 +55,9 @@ static bool find_shards(const char *shards, struct list *found, json_t *made, st
     DIR *entries = opendir(shards);
     if (!entries) return glint_fail(err, GLINT_ERROR_IO, "%s: %s", shards, strerror(errno));
     for (const struct dirent *entry; (entry = readdir(entries));) {
-        char path[4096], rest;
-        unsigned number, count;
-        if (sscanf(entry->d_name, "%7u-of-%7u%c", &number, &count, &rest) != 2 ||
-            !is_folder(shards, entry->d_name, path))
-            continue;
+        char path[4096];
+        struct shard shard;
+        if (!shard_of_name(entry->d_name, &shard) || !is_folder(shards, entry->d_name, path)) continue;
         json_t *kept = json_string(path);
         json_array_append_new(made, kept);
         if (kept) list_add(found, json_string_value(kept), NULL);
@@ -145,7 +135,7 @@ static enum status cmd_merge_run(int argc, char **argv) {
     json_t *made = json_array();
     command_parse(&cmd_merge, argc, argv, &a);
     bool ok = made ? expand(&a, made, &err) : fail_memory(&err);
-    if (ok && !a.out) ok = glint_fail(&err, GLINT_ERROR_USAGE, "no folder for the result: -o FOLDER");
+    if (ok && !a.out) ok = glint_fail(&err, GLINT_ERROR_USAGE, "no folder for the result of these shards: -o FOLDER");
     const enum status status = ok ? merge_shards(&a, &merge, &err) : command_fail(&cmd_merge, &err);
     merge_close(&merge);
     list_free(&a.folders);
@@ -167,7 +157,6 @@ const struct command cmd_merge = {
     .options = options,
     .targets = targets,
     .operand = "folder",
-    .parse = cmd_merge_parse,
     .examples = examples,
     .run = cmd_merge_run,
 };

@@ -44,18 +44,22 @@ static bool fail_with_log(const char *path, bool names_file, const char *log, st
                       used ? text : "does not compile");
 }
 
+static glslang_input_t input_of(const char *code) {
+    return (glslang_input_t){.language = GLSLANG_SOURCE_GLSL,
+                             .stage = GLSLANG_STAGE_COMPUTE,
+                             .client = GLSLANG_CLIENT_VULKAN,
+                             .client_version = GLSLANG_TARGET_VULKAN_1_3,
+                             .target_language = GLSLANG_TARGET_SPV,
+                             .target_language_version = GLSLANG_TARGET_SPV_1_6,
+                             .code = code,
+                             .default_version = 460,
+                             .default_profile = GLSLANG_CORE_PROFILE,
+                             .messages = GLSLANG_MSG_SPV_RULES_BIT | GLSLANG_MSG_VULKAN_RULES_BIT,
+                             .resource = glslang_default_resource()};
+}
+
 static bool compile_text(struct compiled_text *out, const char *path, const char *code, struct glint_error *err) {
-    const glslang_input_t input = {.language = GLSLANG_SOURCE_GLSL,
-                                   .stage = GLSLANG_STAGE_COMPUTE,
-                                   .client = GLSLANG_CLIENT_VULKAN,
-                                   .client_version = GLSLANG_TARGET_VULKAN_1_3,
-                                   .target_language = GLSLANG_TARGET_SPV,
-                                   .target_language_version = GLSLANG_TARGET_SPV_1_6,
-                                   .code = code,
-                                   .default_version = 460,
-                                   .default_profile = GLSLANG_CORE_PROFILE,
-                                   .messages = GLSLANG_MSG_SPV_RULES_BIT | GLSLANG_MSG_VULKAN_RULES_BIT,
-                                   .resource = glslang_default_resource()};
+    const glslang_input_t input = input_of(code);
     glslang_shader_t *shader = glslang_shader_create(&input);
     glslang_program_t *program = glslang_program_create();
     bool ok = false;
@@ -238,7 +242,8 @@ static pthread_mutex_t one_at_a_time = PTHREAD_MUTEX_INITIALIZER;
 static bool start_compiler(bool *started, const char *path, struct glint_error *err) {
     static bool broken;
     if (*started) return true;
-    if (!broken) broken = !(*started = start_glslang());
+    const glslang_input_t empty = input_of("#version 460\nvoid main() {}\n");
+    if (!broken) broken = !(*started = start_glslang(&empty));
     return *started || glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory: glslang cannot start", path);
 }
 

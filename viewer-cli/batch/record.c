@@ -11,6 +11,7 @@
 #include "glint/replay.h"
 #include "io/output.h"
 #include "journal/journal.h"
+#include "journal/shard.h"
 #include "record.h"
 
 #define RECORD "batch.json"
@@ -151,18 +152,19 @@ static bool read_record(struct batch *batch, const char *path, struct glint_erro
 
 /* The number of shards that the names of their folders, K-of-N, say. */
 static bool count_folders(struct batch *batch, struct glint_error *err) {
-    char path[4096], rest;
-    unsigned found = 0, k, n;
+    char path[4096];
+    unsigned found = 0;
+    struct shard shard;
     if (!batch_path(batch, "shards", path, err)) return false;
     DIR *dir = opendir(path);
     bool same = true;
     for (const struct dirent *entry; dir && same && (entry = readdir(dir)) != NULL;) {
-        if (sscanf(entry->d_name, "%9u-of-%9u%c", &k, &n, &rest) != 2 || n < 1 || n > BATCH_MOST_SHARDS) continue;
-        same = !found || found == n;
-        if (same) found = n;
+        if (!shard_of_name(entry->d_name, &shard) || shard.count > BATCH_MOST_SHARDS) continue;
+        same = !found || found == shard.count;
+        if (same) found = shard.count;
         else
-            glint_fail(err, GLINT_ERROR_FORMAT, "%s: has shards of %u and shards of %u; expected one set", path, n,
-                       found);
+            glint_fail(err, GLINT_ERROR_FORMAT, "%s: has shards of %u and shards of %u; expected one set", path,
+                       shard.count, found);
     }
     if (dir) closedir(dir);
     if (!found)

@@ -10,6 +10,7 @@
 #include "inside.h"
 #include "io/output.h"
 #include "journal/journal.h"
+#include "journal/shard.h"
 
 /* Whether there is such a file, and when it was written last. */
 static bool is_there(const char *path, double *written) {
@@ -57,17 +58,17 @@ static bool take_record(struct batch *batch, struct batch_shard *shard, const ch
 
 static bool read_shard(struct batch *batch, size_t i, struct glint_error *err) {
     struct batch_shard *shard = &batch->shards[i];
-    char name[64], path[4096];
+    char folder[4096], path[4096];
+    const struct shard share = {(uint32_t)i + 1, (uint32_t)batch->count};
     double started, written;
     size_t kept;
     shard->per_second = NAN;
-    snprintf(name, sizeof name, "shards/%zu-of-%zu/shard.json", i + 1, batch->count);
-    if (!batch_path(batch, name, path, err)) return false;
+    if (!shard_folder(&share, batch->folder, folder, err) || !journal_path(folder, "shard.json", path, err))
+        return false;
     if (!(shard->begun = is_there(path, &started))) return true;
     batch->changed = fmax(batch->changed, started);
     if (!take_record(batch, shard, path, &kept, err)) return false;
-    snprintf(name, sizeof name, "shards/%zu-of-%zu/log.jsonl", i + 1, batch->count);
-    if (!batch_path(batch, name, path, err)) return false;
+    if (!journal_path(folder, "log.jsonl", path, err)) return false;
     if (!is_there(path, &written)) return true;
     if (!count_lines(path, &shard->results, err)) return false;
     if (!shard->done && written > started && shard->results > kept)

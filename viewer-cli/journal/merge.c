@@ -93,21 +93,19 @@ static void definition_name(const struct merge *merge, char name[64]) {
     snprintf(name, 64, "%.50s.json", merge->command);
 }
 
-static bool check_definitions(const struct merge *merge, struct glint_error *err) {
+static bool read_definition(struct merge *merge, struct glint_error *err) {
     char name[64];
     definition_name(merge, name);
-    json_t *first = read_json(merge->parts[0].folder, name, err);
-    bool ok = first != NULL;
+    bool ok = (merge->definition = read_json(merge->parts[0].folder, name, err)) != NULL;
     for (size_t i = 1; ok && i < merge->count; i++) {
         json_t *other = read_json(merge->parts[i].folder, name, err);
         ok = other != NULL;
-        if (ok && !json_equal(first, other))
+        if (ok && !json_equal(merge->definition, other))
             ok = glint_fail(err, GLINT_ERROR_USAGE,
                             "%s/%s: differs from that of %s: these are shards of different studies",
                             merge->parts[i].folder, name, merge->parts[0].folder);
         json_decref(other);
     }
-    json_decref(first);
     return ok;
 }
 
@@ -124,7 +122,7 @@ bool merge_open(struct merge *merge, const struct list *folders, struct glint_er
     merge->command = text_of(&merge->parts[0], "command");
     merge->folder = text_of(&merge->parts[0], "folder");
     merge->arguments = json_object_get(merge->parts[0].record, "arguments");
-    return check_whole(merge, err) && check_definitions(merge, err);
+    return check_whole(merge, err) && read_definition(merge, err);
 }
 
 void merge_close(struct merge *merge) {
@@ -134,6 +132,7 @@ void merge_close(struct merge *merge) {
         if (merge->parts[i].log) fclose(merge->parts[i].log);
     }
     free(merge->parts);
+    json_decref(merge->definition);
     *merge = (struct merge){0};
 }
 
@@ -268,12 +267,9 @@ static bool take_folders(const struct merge_part *part, const char *out, struct 
 static bool write_definition(const struct merge *merge, const char *out, struct glint_error *err) {
     char name[64], path[4096];
     definition_name(merge, name);
-    json_t *definition = read_json(merge->parts[0].folder, name, err);
-    char *text = definition ? record_text(definition, JSON_INDENT(1)) : NULL;
-    const bool ok =
-        definition && (text || fail_memory(err)) && journal_path(out, name, path, err) && output_text(path, text, err);
+    char *text = record_text(merge->definition, JSON_INDENT(1));
+    const bool ok = (text || fail_memory(err)) && journal_path(out, name, path, err) && output_text(path, text, err);
     free(text);
-    json_decref(definition);
     return ok;
 }
 

@@ -10,7 +10,8 @@
 struct merge {
     struct merge_part *parts;
     size_t count;
-    const char *command;     /* "sweep"; owned by the parts, as are the next three */
+    json_t *definition;      /* of the study */
+    const char *command;     /* "sweep"; owned by the parts, as are the next two */
     const json_t *arguments; /* of its command line, a list of texts */
     const char *folder;      /* in which it was run */
     size_t results;          /* lines of the merged journal */

@@ -11,12 +11,23 @@
 #include "journal/journal.h"
 #include "record.h"
 
+/* "K", `between`, "N", and nothing else. */
+static bool read_share(const char *text, const char *between, struct shard *shard) {
+    int used = 0;
+    if (sscanf(text, "%7u%n", &shard->number, &used) != 1 || strncmp(text + used, between, strlen(between)) != 0)
+        return false;
+    text += (size_t)used + strlen(between);
+    return sscanf(text, "%7u%n", &shard->count, &used) == 1 && !text[used] && shard->number &&
+           shard->number <= shard->count;
+}
+
+bool shard_of_name(const char *name, struct shard *shard) {
+    return read_share(name, "-of-", shard);
+}
+
 void shard_parse(struct shard *shard, const char *text, struct argp_state *state) {
-    char rest;
     *shard = (struct shard){0};
-    if (!strcmp(text, "whole")) return;
-    if (sscanf(text, "%7u/%7u%c", &shard->number, &shard->count, &rest) != 2 || !shard->number ||
-        shard->number > shard->count)
+    if (strcmp(text, "whole") != 0 && !read_share(text, "/", shard))
         argp_error(state, "--shard %s: expected K/N, a share from 1 to N of N, such as 3/8", text);
 }
 

@@ -19,13 +19,15 @@ enum { KEY_SHARD = 896 };
 void shard_parse(struct shard *shard, const char *text, struct argp_state *state);
 /* "OUT/shards/K-of-N". */
 bool shard_folder(const struct shard *shard, const char *out, char path[4096], struct glint_error *err);
+/* Whether the name of a folder is "K-of-N". */
+bool shard_of_name(const char *name, struct shard *shard);
 
 /* The work on a capture: what any of its points costs before the first, such as its reference, and each point. */
 struct shard_cost {
     double first, each;
 };
 /* The share's part of the points of all captures, in the order capture · points + point: from *begin on, before *end. All shares cost about the
-   same, and a capture is cut only where that costs less than what both parts then do. */
+   same. A capture is divided between two of them only where that evens out more work than its first work, which both then do. */
 void shard_cut(const struct shard *shard, const struct shard_cost *captures, size_t count, size_t points, size_t *begin,
                size_t *end);
 

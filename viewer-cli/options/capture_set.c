@@ -166,23 +166,23 @@ static bool read_folder(json_t *into, const char *folder, struct glint_error *er
 
 /* ---- Lists ---- */
 
-static bool is_set(const char *path) {
+enum kind { CAPTURE, FOLDER, SET_FILE };
+static enum kind kind_of(const char *path) {
     struct stat info;
-    return strcmp(path, "-") != 0 && stat(path, &info) == 0 && (S_ISDIR(info.st_mode) || ends_with(path, ".json"));
+    if (!strcmp(path, "-") || stat(path, &info) != 0) return CAPTURE;
+    return S_ISDIR(info.st_mode) ? FOLDER : ends_with(path, ".json") ? SET_FILE : CAPTURE;
 }
 
 static bool expand_one(json_t *into, const char *path, struct glint_error *err) {
-    struct stat info;
-    if (is_set(path))
-        return stat(path, &info) == 0 && S_ISDIR(info.st_mode) ? read_folder(into, path, err)
-                                                               : read_set(into, path, err);
+    const enum kind kind = kind_of(path);
+    if (kind != CAPTURE) return kind == FOLDER ? read_folder(into, path, err) : read_set(into, path, err);
     json_t *name = json_stringn_nocheck(path, strlen(path)), *entry = name ? json_pack("{s:o}", "path", name) : NULL;
     return (entry && json_array_append_new(into, entry) == 0) || fail_memory(err);
 }
 
 bool capture_set_expand(struct list *captures, struct glint_error *err) {
     bool any = false;
-    for (size_t i = 0; i < captures->count; i++) any |= is_set(captures->items[i]);
+    for (size_t i = 0; i < captures->count; i++) any |= kind_of(captures->items[i]) != CAPTURE;
     if (!any) return true;
     json_t *set = json_array();
     bool ok = set || fail_memory(err);

@@ -127,12 +127,12 @@ bool sweep_sum_up(struct sweep *sweep, struct glint_error *err) {
         {.name = "fetches_worst", .title = "fetches per pixel, worst capture", .worst = true}};
     sweep->sums = calloc(sweep->points + 1, sizeof *sweep->sums);
     if (!sweep->sums) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    sweep->whole_captures = sweep_count(sweep, NULL);
-    if (!sweep->whole_captures)
+    const size_t captures = sweep_count(sweep, NULL);
+    if (!captures)
         return glint_fail(err, GLINT_ERROR_FORMAT, "no capture can be swept: %.900s", sweep_broken(sweep, 0));
     for (size_t p = 0; p < sweep->points; p++) sweep->sums[p] = sweep_sum(sweep, p, NULL);
     for (int k = 0; k < SWEEP_FRONTS; k++) {
-        if ((kinds[k].time && !sweep->rounds) || (kinds[k].worst && sweep->whole_captures < 2)) continue;
+        if ((kinds[k].time && !sweep->rounds) || (kinds[k].worst && captures < 2)) continue;
         sweep->fronts[sweep->front_count] = kinds[k];
         if (!find_front(sweep, &sweep->fronts[sweep->front_count++], err)) return false;
     }

@@ -59,7 +59,6 @@ struct sweep {
     struct journal journal;
     json_t *definition;
     struct sweep_point *sums;
-    size_t whole_captures; /* those that have results */
     struct sweep_front fronts[SWEEP_FRONTS];
     size_t front_count;
 };

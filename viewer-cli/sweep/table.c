@@ -80,8 +80,9 @@ void sweep_print(const struct sweep *sweep) {
     printf("errors of the %s, against the %s", sweep->against.effect->noun,
            sweep->against.truth ? "truth in the capture" : "reference");
     if (sweep->captures.count > 1) {
-        if (sweep->whole_captures == sweep->captures.count) printf(", mean of %zu captures", sweep->captures.count);
-        else printf(", mean of %zu of %zu captures", sweep->whole_captures, sweep->captures.count);
+        const size_t counted = sweep_count(sweep, NULL);
+        if (counted == sweep->captures.count) printf(", mean of %zu captures", counted);
+        else printf(", mean of %zu of %zu captures", counted, sweep->captures.count);
     }
     if (sweep->rounds)
         printf("; times: median of %u alternating rounds on %s%s", sweep->rounds, device->name,
