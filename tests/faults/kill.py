@@ -162,7 +162,7 @@ class Case:
         self.begin()
         assert self.run({"GLINT_FAIL": f"{kind} 0 0 once"}).returncode == 0
         with open(self.report, encoding="utf-8") as file:
-            return int(next(line.split()[1] for line in file if line.startswith("calls ")))
+            return int(next(line.split()[2] for line in file if line.startswith("calls ")))
 
     def same(self, path, data):
         expected = self.whole[path]
