@@ -195,7 +195,7 @@ def arguments():
     parser.add_argument("program", type=os.path.abspath)
     parser.add_argument("--all", action="store_true", dest="everything", help="every call")
     parser.add_argument("--stacks", type=int, choices=(1, 2, 3), help="the first, last and middle call of each stack of calls")
-    parser.add_argument("--samples", type=int, default=16, help="faults of a command, about")
+    parser.add_argument("--samples", type=int, default=14, help="faults of a command, about")
     parser.add_argument("--only", default="")
     parser.add_argument("--from", type=int, dest="begin")
     parser.add_argument("--to", type=int, dest="end")
