@@ -76,8 +76,8 @@ COMMANDS = {
 }
 
 # A fault of these takes many replays: in a sample they have fewer, or are left to longer runs.
-LONG = {"replay SHOT", "replay --against", "library replay", "report"}
-LONGEST = {"compare", "live", "probe", "replay PART", "reference", "sweep", "tune", "blame", "stability", "explain", "selftest", "library reference"}
+LONG = {"replay SHOT", "replay --against", "library replay", "report", "selftest"}
+LONGEST = {"compare", "live", "probe", "replay PART", "reference", "sweep", "tune", "blame", "stability", "explain", "library reference"}
 
 
 def make_inputs(folder):
