@@ -14,6 +14,7 @@ struct arguments {
     struct pipeline_args pipeline;
     const char *metric, *budget_ms, *budget_fetches, *error, *cost;
     bool json, overwrite;
+    struct shard_record record;
 };
 
 enum {
@@ -62,6 +63,7 @@ static const struct argp_option options[] = {
     {"seed",      KEY_SEED,      "N",            0, "Seed of the restarts of the search (default 1)", 0},
     {"rounds",    KEY_ROUNDS,    "N",            0, "Timed rounds of each evaluation, alternating with the start preset (default 3)", 0},
     {"repeat",    KEY_REPEAT,    "N",            0, "Timed rounds of the final comparison (default 15; 0: no times)", 0},
+    SHARD_OPTION,
     EFFECT_OPTION,
     {"reference", KEY_REFERENCE, "RUN|truth",    0, "Errors are measured against this: the run of glint reference (once for each capture, including the held-out ones), or "
         "the truth in the capture (default: a reference is traced once and kept in the folder)", 0},
@@ -164,6 +166,9 @@ static error_t cmd_tune_parse(int key, char *arg, struct argp_state *state) {
     case KEY_OVER:
         tune->worst = arg_choice("over", arg, overs, state) == 1;
         return 0;
+    case KEY_SHARD:
+        shard_parse(&tune->shard, arg, state);
+        return 0;
     case ARGP_KEY_END:
         check_arguments(a, state);
         return 0;
@@ -177,6 +182,16 @@ static bool choose_metric(struct arguments *a, struct glint_error *err) {
         return glint_fail(err, GLINT_ERROR_USAGE, "--metric %s: expected an error, which is better when lower",
                           a->metric);
     return true;
+}
+
+/* Writes what there is to do: an equal share of about all evaluations. */
+static bool record_shard(struct arguments *a, bool first, struct glint_error *err) {
+    const struct tune *tune = &a->tune;
+    if (!tune->shard.count) return true;
+    a->record.shard = tune->shard;
+    a->record.folder = tune->folder;
+    a->record.results = (1 + (size_t)tune->tries) * tune->captures.count / tune->shard.count + 1;
+    return first ? shard_begin(&a->record, err) : shard_write(&a->record, false, err);
 }
 
 static bool begin_tune(struct arguments *a, struct glint_error *err) {
@@ -193,7 +208,10 @@ static bool begin_tune(struct arguments *a, struct glint_error *err) {
     /* What --vary names is checked before the reference is traced; without it, the axes depend on what ran. */
     const bool named = tune->vary.count > 0;
     if ((named && !tune_make_axes(tune, err)) || !(tune->device = pipeline_args_device(&a->pipeline, err)) ||
-        !glint_make_folder(tune->folder, err) || !tune_load(tune, err) || (!named && !tune_make_axes(tune, err)))
+        !tune_make_subjects(tune, err) || !tune_open(tune, err) || !record_shard(a, true, err))
+        return false;
+    if (!tune_shards_open(tune, err) || !tune_begin_captures(tune, err) || (!named && !tune_make_axes(tune, err)) ||
+        !tune_check_lines(tune, err))
         return false;
     if (!tune->axis_count)
         return glint_fail(err, GLINT_ERROR_USAGE,
@@ -206,19 +224,27 @@ static bool begin_tune(struct arguments *a, struct glint_error *err) {
                      "%u tries are few for %zu parameters, and may find little; without --tries it is %u, and --vary "
                      "tunes fewer",
                      tune->tries, tune->axis_count, usual);
-    return tune_open(tune, err);
+    return record_shard(a, false, err);
 }
 
 /* An interrupted search writes the best preset so far. */
 static enum status report_interrupted_tune(struct tune *tune) {
     struct glint_error err = {0};
-    const bool some = tune->found.count && tune->found.feasible;
+    const bool some = tune->found.count && tune->found.feasible && !tune->shard.count;
     if (some && !tune_write_preset(tune, &err)) return command_fail(&cmd_tune, &err);
     char text[512];
     journal_describe_kept(&tune->journal, "evaluations", text);
     command_note(&cmd_tune, "%s%s%s", some ? tune->out : "",
                  some ? " is the best preset so far, without final timing; " : "", text);
     return STATUS_INTERRUPTED;
+}
+
+/* A shard's part of the search. The final comparison and what follows need all of it, and times that are measured together (glint merge). */
+static bool run_shard(struct arguments *a, struct glint_error *err) {
+    struct tune *tune = &a->tune;
+    if (!tune_search(tune, err)) return false;
+    a->record.results = tune->journal.results;
+    return shard_write(&a->record, true, err);
 }
 
 static bool search_and_write(struct tune *tune, struct glint_error *err) {
@@ -236,7 +262,14 @@ void tune_finish(struct tune *tune) {
     for (size_t a = 0; a < tune->axis_count; a++) free(tune->axes[a].texts);
     glint_search_result_finish(&tune->found);
     journal_close(&tune->journal);
+    tune_shards_close(tune);
+    json_decref(tune->definition);
+    json_decref(tune->single);
     json_decref(tune->lines);
+    for (size_t s = 0; tune->subjects && s < tune->subject_count; s++) {
+        json_decref(tune->subjects[s].slots);
+        free(tune->subjects[s].broken);
+    }
     free(tune->measured);
     free(tune->subjects);
     free(tune->axes);
@@ -249,6 +282,7 @@ void tune_finish(struct tune *tune) {
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) list_free(lists[i]);
 }
 
+/* As one process is called that makes all: without a share, and without what glint merge adds. */
 static char *command_line(int argc, char **argv) {
     char *text = NULL;
     size_t size = 0;
@@ -256,6 +290,13 @@ static char *command_line(int argc, char **argv) {
     if (!out) return NULL;
     fputs("glint tune", out);
     for (int i = 1; i < argc; i++) {
+        const bool merged = i + 3 < argc && !strcmp(argv[i], "--folder") && !strcmp(argv[i + 2], "--shard") &&
+                            !strcmp(argv[i + 3], "whole");
+        if (!strncmp(argv[i], "--shard=", strlen("--shard="))) continue;
+        if (merged || !strcmp(argv[i], "--shard")) {
+            i++;
+            continue;
+        }
         fputc(' ', out);
         shell_word(out, argv[i]);
     }
@@ -263,32 +304,52 @@ static char *command_line(int argc, char **argv) {
     return text;
 }
 
+/* PRESET.tune, and of a shard its own folder in it. */
+static bool find_folders(struct tune *tune, char common[4096], char own[4096], struct glint_error *err) {
+    snprintf(common, 4096, "%.*s.tune", (int)(strlen(tune->out) - strlen(".json")), tune->out);
+    tune->common = tune->folder ? tune->folder : common;
+    tune->folder = tune->shard.count ? own : tune->common;
+    return !tune->shard.count || shard_folder(&tune->shard, tune->common, own, err);
+}
+
+static enum status report_tune(const struct arguments *a) {
+    const struct tune *tune = &a->tune;
+    enum status status = STATUS_DONE;
+    if (tune->shard.count) return shard_report(&a->record, "evaluations", tune_live(tune) * tune->found.count, a->json);
+    if (a->json) status = print_json(tune_json(tune));
+    else tune_print(tune);
+    for (size_t s = 0; s < tune->subject_count; s++) {
+        if (!tune->subjects[s].broken) continue;
+        command_note(&cmd_tune, "left out: %s", tune->subjects[s].broken);
+        status = STATUS_CHECK;
+    }
+    if (tune->confirmed_within) return status;
+    command_note(&cmd_tune, "no evaluated point meets the limit in the final timing; %s contains the nearest one",
+                 tune->out);
+    return STATUS_CHECK;
+}
+
 static enum status cmd_tune_run(int argc, char **argv) {
-    struct arguments a = {
-        .tune = {
-            .metric = GLINT_METRIC_RMSE, .seed = 1, .against = {.rays = GLINT_JUDGE_RAYS}, .rounds = 3, .repeat = 15}};
+    struct arguments a = {.tune = {.metric = GLINT_METRIC_RMSE,
+                                   .seed = 1,
+                                   .against = {.rays = GLINT_JUDGE_RAYS},
+                                   .rounds = 3,
+                                   .repeat = 15},
+                          .record = {.argc = argc, .argv = argv, .result = "page.json"}};
     struct glint_error err = {0};
     struct progress progress;
     struct tune *tune = &a.tune;
-    char folder[4096], *line = command_line(argc, argv);
+    char common[4096], own[4096], *line = command_line(argc, argv);
     command_parse(&cmd_tune, argc, argv, &a);
-    snprintf(folder, sizeof folder, "%.*s.tune", (int)(strlen(tune->out) - strlen(".json")), tune->out);
-    if (!tune->folder) tune->folder = folder;
     tune->command_line = line ? line : "glint tune";
     tune->progress = &progress;
     progress_begin(&progress);
-    const bool ok = begin_tune(&a, &err) && search_and_write(tune, &err);
+    const bool ok = find_folders(tune, common, own, &err) && begin_tune(&a, &err) &&
+                    (tune->shard.count ? run_shard(&a, &err) : search_and_write(tune, &err));
     progress_end(&progress);
-    enum status status = ok                                    ? STATUS_DONE
-                         : err.code == GLINT_ERROR_INTERRUPTED ? report_interrupted_tune(tune)
-                                                               : command_fail(&cmd_tune, &err);
-    if (ok && a.json) status = print_json(tune_json(tune));
-    else if (ok) tune_print(tune);
-    if (ok && status == STATUS_DONE && !tune->confirmed_within) {
-        command_note(&cmd_tune, "no evaluated point meets the limit in the final timing; %s contains the nearest one",
-                     tune->out);
-        status = STATUS_CHECK;
-    }
+    const enum status status = ok                                    ? report_tune(&a)
+                               : err.code == GLINT_ERROR_INTERRUPTED ? report_interrupted_tune(tune)
+                                                                     : command_fail(&cmd_tune, &err);
     tune_finish(tune);
     pipeline_args_finish(&a.pipeline);
     free(line);

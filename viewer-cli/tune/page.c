@@ -170,7 +170,8 @@ bool tune_write_page(const struct tune *tune, struct glint_error *err) {
     add_facts(tune, document);
     page_chart(page_section(document, "All evaluated points"), chart(tune, true));
     add_moved(tune, document);
-    for (size_t s = 0; tune->confirmed && s < tune->subject_count; s++) add_contenders(tune, s, document);
+    for (size_t s = 0; tune->confirmed && s < tune->subject_count; s++)
+        if (!tune->subjects[s].broken) add_contenders(tune, s, document);
     add_left(tune, document);
     json_t *plain = chart(tune, false);
     snprintf(name, sizeof name, "%.*s.html", length, base);

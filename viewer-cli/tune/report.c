@@ -180,6 +180,7 @@ void tune_print(const struct tune *tune) {
     print_summary(tune);
     print_moved(tune);
     for (size_t s = 0; tune->confirmed && s < tune->subject_count; s++) {
+        if (tune->subjects[s].broken) continue;
         print_contenders(tune, s);
         print_differences(tune, s);
     }

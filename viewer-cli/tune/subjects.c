@@ -1,8 +1,11 @@
-/* Loads the captures, runs the start once on each, and times pipelines on them. */
+/* Loads the captures, and evaluates and times pipelines on them. */
+#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 #include "glint/sort.h"
+#include "options/capture_set.h"
 #include "tune/tune.h"
 
 bool tune_report(void *user, const char *what, double done) {
@@ -29,21 +32,32 @@ static bool find_target(struct tune *tune, struct tune_subject *subject, struct 
     return ok;
 }
 
+/* Reading a large capture for its hash takes long: of a set of many, a shard reads those that it works on. */
+static bool check_hash(const struct tune *tune, size_t s, struct glint_error *err) {
+    char hash[33];
+    return s >= tune->captures.count || !capture_set_hash(&tune->captures, s) ||
+           (glint_capture_hash(tune->subjects[s].capture, hash, err) &&
+            capture_set_check(&tune->captures, s, hash, err));
+}
+
 bool tune_load_subject(struct tune *tune, size_t s, uint32_t resamples, struct glint_error *err) {
     struct tune_subject *subject = &tune->subjects[s];
     struct glint_judge_options options = answer_args_judge(&tune->against, tune->folder, s);
+    if (subject->judge) return true;
     options.all = tune->all;
     options.metrics = GLINT_METRICS_CHEAP | 1u << tune->metric;
     options.resamples = resamples;
     options.keep_resampled = resamples != 0;
     options.seed = 1;
     if (!tune->against.truth) progress_phase(tune->progress, "reference, %.24s", base_name(subject->path));
-    return (subject->capture = glint_capture_open(subject->path, NULL, err)) &&
-           (subject->judge = glint_judge_create(tune->device, &options, err)) &&
-           glint_judge_load(subject->judge, subject->capture, err) && find_target(tune, subject, err);
+    const bool ok = (subject->capture = glint_capture_open(subject->path, NULL, err)) && check_hash(tune, s, err) &&
+                    (subject->judge = glint_judge_create(tune->device, &options, err)) &&
+                    glint_judge_load(subject->judge, subject->capture, err) && find_target(tune, subject, err);
+    if (!ok) tune_unload_subject(tune, s);
+    return ok;
 }
 
-bool tune_load(struct tune *tune, struct glint_error *err) {
+bool tune_make_subjects(struct tune *tune, struct glint_error *err) {
     tune->subject_count = tune->captures.count + tune->held_out.count;
     tune->subjects = calloc(tune->subject_count + 1, sizeof *tune->subjects);
     if (!tune->subjects) return fail_memory(err);
@@ -53,14 +67,20 @@ bool tune_load(struct tune *tune, struct glint_error *err) {
         struct tune_subject *subject = &tune->subjects[s];
         subject->held_out = s >= tune->captures.count;
         subject->path = subject->held_out ? tune->held_out.items[s - tune->captures.count] : tune->captures.items[s];
-        if (subject->held_out) continue;
-        struct glint_verdict verdict;
-        progress_phase(tune->progress, "start");
-        snprintf(tune->label, sizeof tune->label, "%s", glint_pipeline_name(tune->base));
-        if (!tune_load_subject(tune, s, 0, err) || !tune_judge(tune, subject, tune->base, &verdict, err)) return false;
-        glint_verdict_finish(&verdict);
     }
     return true;
+}
+
+size_t tune_live(const struct tune *tune) {
+    size_t live = 0;
+    for (size_t s = 0; s < tune->captures.count; s++) live += !tune->subjects[s].broken;
+    return live;
+}
+
+bool tune_fails_alone(const struct tune *tune, size_t s, const struct glint_error *own) {
+    const bool gone = own->code == GLINT_ERROR_IO && access(tune->subjects[s].path, F_OK) != 0 && errno == ENOENT;
+    return tune->subject_count > 1 && (gone || own->code == GLINT_ERROR_FORMAT || own->code == GLINT_ERROR_LIMIT ||
+                                       own->code == GLINT_ERROR_UNSUPPORTED);
 }
 
 bool tune_judge(struct tune *tune, struct tune_subject *subject, const struct glint_pipeline *pipeline,

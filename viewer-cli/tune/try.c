@@ -1,13 +1,17 @@
-/* Evaluates pipelines once on each capture that is tuned on, and records the results in the journal. */
+/* Evaluates pipelines once on each capture that is tuned on, and records the results in the journal. A shard has a line for each point on each capture; one process has a
+   line for each point, which glint merge puts together of those. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "record.h"
 #include "tune/tune.h"
 
 /* ---- The journal ---- */
 
+/* null: all parameters that can matter, which the pipeline and the captures tell. */
 static json_t *axes_json(const struct tune *tune) {
+    if (!tune->vary.count) return json_null();
     json_t *axes = json_array();
     for (size_t a = 0; a < tune->axis_count; a++) {
         const struct tune_axis *axis = &tune->axes[a];
@@ -23,33 +27,83 @@ static json_t *axes_json(const struct tune *tune) {
     return axes;
 }
 
-static bool keep_tune_line(void *user, json_t *line) {
+static bool is_list_of_texts(const json_t *values) {
+    for (size_t a = 0; a < json_array_size(values); a++)
+        if (!json_is_string(json_array_get(values, a))) return false;
+    return json_is_array(values);
+}
+
+static bool are_values(const struct tune *tune, const json_t *values) {
+    return is_list_of_texts(values) && (!tune->axes || json_array_size(values) == tune->axis_count);
+}
+
+static bool keep_start_times(struct tune *tune, const json_t *start) {
+    if (json_array_size(start) != tune->captures.count) return false;
+    for (size_t s = 0; s < tune->captures.count; s++)
+        tune->subjects[s].start_ms = json_number_value(json_array_get(start, s));
+    return tune->timed = true;
+}
+
+/* What came of the start on a capture. */
+static bool keep_beginning(struct tune_subject *subject, const json_t *line) {
+    json_t *slots = json_object_get(line, "slots");
+    const char *broken = json_string_value(json_object_get(line, "broken"));
+    if (subject->slots || subject->broken) return slots || broken;
+    if (json_is_object(slots)) subject->slots = json_incref(slots);
+    else if (broken) subject->broken = strdup(broken);
+    return subject->slots || subject->broken;
+}
+
+char *tune_point_key(size_t capture, const json_t *values) {
+    char *texts = values ? record_text(values, JSON_COMPACT) : strdup("start"), *key = NULL;
+    if (texts && asprintf(&key, "%zu %s", capture, texts) < 0) key = NULL;
+    free(texts);
+    return key;
+}
+
+/* A point on one capture. */
+static bool keep_single(struct tune *tune, size_t capture, json_t *line) {
+    struct tune_subject *subject = &tune->subjects[capture];
+    const json_t *values = json_object_get(line, "values"), *start = json_object_get(line, "start_ms");
+    if (!are_values(tune, values)) return false;
+    char *key = tune_point_key(capture, values);
+    if (json_is_number(start) && subject->start_ms == 0) subject->start_ms = json_number_value(start);
+    const bool ok = key && (json_object_get(tune->single, key) || json_object_set(tune->single, key, line) == 0);
+    free(key);
+    return ok;
+}
+
+bool tune_keep_line(void *user, json_t *line) {
     struct tune *tune = user;
-    const json_t *start = json_object_get(line, "start_ms");
-    size_t s;
-    json_t *value;
-    if (json_is_array(start)) {
-        if (json_array_size(start) != tune->captures.count) return false;
-        json_array_foreach(start, s, value) tune->subjects[s].start_ms = json_number_value(value);
-        return true;
-    }
-    const json_t *values = json_object_get(line, "values");
-    if (json_array_size(json_object_get(line, "captures")) != tune->captures.count ||
-        json_array_size(values) != tune->axis_count)
-        return false;
-    return json_array_append(tune->lines, line) == 0;
+    const json_t *start = json_object_get(line, "start_ms"), *capture = json_object_get(line, "capture");
+    if (json_is_array(start)) return keep_start_times(tune, start);
+    if (!capture)
+        return json_array_size(json_object_get(line, "captures")) == tune->captures.count &&
+               are_values(tune, json_object_get(line, "values")) && json_array_append(tune->lines, line) == 0;
+    const json_int_t s = json_integer_value(capture);
+    if (!json_is_integer(capture) || s < 0 || s >= (json_int_t)tune->captures.count) return false;
+    return json_object_get(line, "values") ? keep_single(tune, (size_t)s, line)
+                                           : keep_beginning(&tune->subjects[s], line);
+}
+
+static bool keep_own_line(void *user, json_t *line) {
+    struct tune *tune = user;
+    if (!tune_keep_line(user, line)) return false;
+    if (json_object_get(line, "capture") && !json_object_get(line, "values"))
+        tune->subjects[json_integer_value(json_object_get(line, "capture"))].noted = true;
+    return true;
 }
 
 /* Everything that results depend on. Budget and seed do not belong to it, so that another search reuses the results. */
 bool tune_open(struct tune *tune, struct glint_error *err) {
     const struct glint_device_info *device = glint_device_get_info(tune->device);
-    json_t *captures = captures_json(&tune->captures, false, err),
+    json_t *captures = captures_json(&tune->captures, tune->captures.count > 1, err),
            *sources = captures ? shaders_json(tune->shaders, err) : NULL;
     if (!sources) {
         json_decref(captures);
         return false;
     }
-    json_t *definition = json_pack(
+    tune->definition = json_pack(
         "{s:i, s:s, s:s, s:o, s:o, s:o, s:o, s:s, s:o, s:o, s:I, s:I, s:s, s:s, s:b, s:[ss]}", "format", 1, "glint",
         GLINT_VERSION, "effect", tune->against.effect->name, "captures", captures, "pipeline",
         pipeline_json(tune->base), "shaders", sources, "axes", axes_json(tune), "cost",
@@ -58,13 +112,21 @@ bool tune_open(struct tune *tune, struct glint_error *err) {
         (json_int_t)tune->rounds, "metric", glint_metric(tune->metric)->name, "against",
         tune->against.truth ? "truth" : "reference", "all", tune->all, "device", device->name, device->driver_version);
     tune->lines = json_array();
-    tune->journal.folder = tune->folder;
-    tune->journal.kind = "tuning";
-    tune->journal.keep = keep_tune_line;
-    tune->journal.user = tune;
-    const bool ok = (definition && tune->lines) ? journal_open(&tune->journal, definition, err) : fail_memory(err);
-    json_decref(definition);
-    return ok;
+    tune->single = json_object();
+    tune->journal = (struct journal){.folder = tune->folder, .kind = "tune", .keep = keep_own_line, .user = tune};
+    return ((tune->definition && tune->lines && tune->single) || fail_memory(err)) &&
+           journal_open(&tune->journal, tune->definition, err);
+}
+
+bool tune_check_lines(const struct tune *tune, struct glint_error *err) {
+    const char *key;
+    json_t *line;
+    size_t i;
+    bool ok = true;
+    json_array_foreach(tune->lines, i, line) ok = ok && are_values(tune, json_object_get(line, "values"));
+    json_object_foreach(tune->single, key, line) ok = ok && are_values(tune, json_object_get(line, "values"));
+    return ok || glint_fail(err, GLINT_ERROR_FORMAT, "%s/log.jsonl: expected values of %zu parameters in each line",
+                            tune->folder, tune->axis_count);
 }
 
 /* ---- Evaluations ---- */
@@ -89,9 +151,15 @@ static bool time_beside_start(struct tune *tune, struct tune_subject *subject, c
     return ok;
 }
 
-/* A failure of the pipeline itself is recorded as missing figures and does not end the search. */
-static bool evaluate_on(struct tune *tune, struct tune_subject *subject, const struct glint_pipeline *pipeline,
-                        json_t *line, struct glint_error *err) {
+/* Whether a failure ends the search; that of a pipeline itself is recorded. */
+static bool ends_search(const struct tune *tune, const struct glint_error *own) {
+    return own->code == GLINT_ERROR_INTERRUPTED || own->code == GLINT_ERROR_MEMORY || own->code == GLINT_ERROR_IO ||
+           glint_device_lost(tune->device);
+}
+
+/* The figures of a pipeline on a capture; missing ones where it fails. NULL with an error. */
+static json_t *evaluate_on(struct tune *tune, struct tune_subject *subject, const struct glint_pipeline *pipeline,
+                           struct glint_error *err) {
     const enum glint_target answer = answer_args_kind(&tune->against);
     struct glint_verdict verdict;
     struct glint_error own = {0};
@@ -107,13 +175,11 @@ static bool evaluate_on(struct tune *tune, struct tune_subject *subject, const s
         glint_verdict_finish(&verdict);
     }
     ok = ok && (tune->fetches || time_beside_start(tune, subject, pipeline, &cost, &own));
-    if (!ok && (own.code == GLINT_ERROR_INTERRUPTED || own.code == GLINT_ERROR_MEMORY || own.code == GLINT_ERROR_IO ||
-                glint_device_lost(tune->device)))
-        return glint_fail(err, own.code, "%s", own.message);
+    if (!ok && ends_search(tune, &own)) return glint_fail(err, own.code, "%s", own.message), NULL;
     json_t *figures = json_pack("{s:o, s:o}", "error", json_number(ok ? error : NAN), "cost", json_number(cost));
-    if (!ok) json_object_set_new(figures, "failed", json_string(own.message));
-    json_array_append_new(json_object_get(line, "captures"), figures);
-    return true;
+    if (figures && !ok) json_object_set_new(figures, "failed", json_string(own.message));
+    if (!figures) fail_memory(err);
+    return figures;
 }
 
 static struct tune_figures figures_on(const json_t *line, size_t s) {
@@ -125,9 +191,10 @@ static struct tune_figures figures_on(const json_t *line, size_t s) {
 
 /* Means over the captures; with --over worst, the largest ratio to the norm of the same capture, times the mean norm. */
 static struct tune_figures sum_up(const struct tune *tune, const json_t *line) {
-    const double count = (double)tune->captures.count;
+    const double count = (double)tune_live(tune);
     struct tune_figures mean = {0}, norm = {0}, most = {0};
     for (size_t s = 0; s < tune->captures.count; s++) {
+        if (tune->subjects[s].broken) continue;
         const struct tune_figures here = figures_on(line, s), by = tune->subjects[s].norm;
         mean.error += here.error / count, mean.cost += here.cost / count;
         norm.error += by.error / count, norm.cost += by.cost / count;
@@ -146,30 +213,6 @@ static const json_t *find_line(const struct tune *tune, const json_t *values) {
     return NULL;
 }
 
-static bool keep_start(struct tune *tune, struct glint_error *err) {
-    json_t *start = json_array();
-    for (size_t s = 0; s < tune->captures.count; s++)
-        json_array_append_new(start, json_real(tune->subjects[s].start_ms));
-    return journal_append(&tune->journal, json_pack("{s:o}", "start_ms", start), err);
-}
-
-/* Evaluates on all captures and appends to the journal. Takes ownership of `values`. */
-static bool add_line(struct tune *tune, const struct glint_pipeline *pipeline, json_t *values,
-                     struct glint_error *err) {
-    const bool first = !tune->fetches && tune->subjects[0].start_ms == 0;
-    json_t *line = json_pack("{s:o, s:[]}", "values", values, "captures");
-    if (!line) return fail_memory(err);
-    bool ok = true;
-    for (size_t s = 0; ok && s < tune->captures.count; s++)
-        ok = evaluate_on(tune, &tune->subjects[s], pipeline, line, err);
-    if (!ok || (first && !keep_start(tune, err))) {
-        json_decref(line);
-        return false;
-    }
-    tune->fresh++;
-    return journal_append(&tune->journal, line, err);
-}
-
 static json_t *values_json(const struct tune *tune, const double *values) {
     json_t *list = json_array();
     for (size_t a = 0; a < tune->axis_count; a++) {
@@ -180,21 +223,169 @@ static json_t *values_json(const struct tune *tune, const double *values) {
     return list;
 }
 
+/* Decodes the texts of values. */
+static void values_of(const struct tune *tune, const json_t *texts, double *values) {
+    for (size_t a = 0; a < tune->axis_count; a++) {
+        const struct tune_axis *axis = &tune->axes[a];
+        const char *text = json_string_value(json_array_get(texts, a));
+        values[a] = axis->texts ? axis->axis.start : strtod(text, NULL);
+        for (uint32_t c = 0; c < axis->axis.choices; c++)
+            if (!strcmp(axis->texts[c], text)) values[a] = c;
+    }
+}
+
+/* ---- Work that shards share ---- */
+
+static bool begin_subject(struct tune *tune, size_t s, struct glint_error *err) {
+    struct tune_subject *subject = &tune->subjects[s];
+    struct glint_verdict verdict;
+    progress_phase(tune->progress, "start");
+    snprintf(tune->label, sizeof tune->label, "%s", glint_pipeline_name(tune->base));
+    if (!tune_load_subject(tune, s, 0, err) || !tune_judge(tune, subject, tune->base, &verdict, err)) return false;
+    glint_verdict_finish(&verdict);
+    return true;
+}
+
+/* Runs the start, and finds what its passes did, or why the capture is left out. */
+static bool begin_capture(struct tune *tune, size_t s, struct glint_error *err) {
+    struct tune_subject *subject = &tune->subjects[s];
+    struct glint_error own = {0};
+    if (begin_subject(tune, s, &own)) return (subject->slots = tune_slots(tune, subject, err)) != NULL;
+    tune_unload_subject(tune, s);
+    if (!tune_fails_alone(tune, s, &own)) return glint_fail(err, own.code, "%s", own.message);
+    return (subject->broken = strdup(own.message)) != NULL || fail_memory(err);
+}
+
+static bool note_beginning(struct tune *tune, size_t s, struct glint_error *err) {
+    const struct tune_subject *subject = &tune->subjects[s];
+    return subject->noted ||
+           journal_append(&tune->journal,
+                          subject->broken ? json_pack("{s:I, s:s}", "capture", (json_int_t)s, "broken", subject->broken)
+                                          : json_pack("{s:I, s:O}", "capture", (json_int_t)s, "slots", subject->slots),
+                          err);
+}
+
+bool tune_is_known(const struct tune *tune, size_t s, const json_t *values) {
+    const struct tune_subject *subject = &tune->subjects[s];
+    if (!values || subject->broken) return subject->broken || subject->slots;
+    char *key = tune_point_key(s, values);
+    const bool known = key && json_object_get(tune->single, key);
+    free(key);
+    return known;
+}
+
+static bool do_point(struct tune *tune, size_t s, const json_t *texts, struct glint_error *err) {
+    struct tune_subject *subject = &tune->subjects[s];
+    const bool first = !tune->fetches && subject->start_ms == 0;
+    double *values = calloc(tune->axis_count + 1, sizeof *values);
+    if (!values) return fail_memory(err);
+    values_of(tune, texts, values);
+    struct glint_pipeline *pipeline = tune_load_subject(tune, s, 0, err) ? tune_pipeline(tune, values, err) : NULL;
+    json_t *line = pipeline ? evaluate_on(tune, subject, pipeline, err) : NULL;
+    bool ok = line != NULL;
+    if (ok && first) json_object_set_new(line, "start_ms", json_real(subject->start_ms));
+    if (ok && tune->shard.count) {
+        json_object_set_new(line, "capture", json_integer((json_int_t)s));
+        json_object_set(line, "values", (json_t *)texts);
+        ok = journal_append(&tune->journal, line, err);
+    } else if (ok) {
+        char *key = tune_point_key(s, texts);
+        ok = (key && json_object_set_new(tune->single, key, line) == 0) || fail_memory(err);
+        free(key);
+    }
+    if (pipeline) glint_pipeline_destroy(&pipeline);
+    free(values);
+    tune->fresh += ok && tune->shard.count;
+    return ok;
+}
+
+bool tune_do(struct tune *tune, size_t s, const json_t *values, struct glint_error *err) {
+    if (values) return do_point(tune, s, values, err);
+    return begin_capture(tune, s, err) && (!tune->shard.count || note_beginning(tune, s, err));
+}
+
+bool tune_begin_captures(struct tune *tune, struct glint_error *err) {
+    if (!tune_share(tune, NULL, err)) return false;
+    for (size_t s = 0; s < tune->captures.count && !tune->shard.count; s++)
+        if (!note_beginning(tune, s, err)) return false;
+    return tune_live(tune) ||
+           glint_fail(err, GLINT_ERROR_USAGE, "none of the %zu captures can be tuned on; the first: %s",
+                      tune->captures.count, tune->subjects[0].broken);
+}
+
+/* ---- Points ---- */
+
+static bool keep_start(struct tune *tune, struct glint_error *err) {
+    json_t *start = json_array();
+    if (tune->fetches || tune->timed) return json_decref(start), true;
+    for (size_t s = 0; s < tune->captures.count; s++)
+        json_array_append_new(start, json_real(tune->subjects[s].start_ms));
+    return journal_append(&tune->journal, json_pack("{s:o}", "start_ms", start), err);
+}
+
+/* The figures on all captures, which are known on each; null on those that are left out. */
+static json_t *put_together(const struct tune *tune, json_t *values) {
+    json_t *captures = json_array();
+    bool ok = captures != NULL;
+    for (size_t s = 0; ok && s < tune->captures.count; s++) {
+        char *key = tune_point_key(s, values);
+        const json_t *single = key ? json_object_get(tune->single, key) : NULL;
+        json_t *figures = single ? json_pack("{s:O, s:O}", "error", json_object_get(single, "error"), "cost",
+                                             json_object_get(single, "cost"))
+                                 : json_null();
+        if (single && json_object_get(single, "failed"))
+            json_object_set(figures, "failed", json_object_get(single, "failed"));
+        ok = key && (single || tune->subjects[s].broken) && json_array_append_new(captures, figures) == 0;
+        free(key);
+    }
+    json_t *line = ok ? json_pack("{s:O, s:O}", "values", values, "captures", captures) : NULL;
+    json_decref(captures);
+    return line;
+}
+
+static bool add_line(struct tune *tune, json_t *values, struct glint_error *err) {
+    json_t *points = json_pack("[O]", values);
+    if (!points) return fail_memory(err);
+    bool known = true;
+    for (size_t s = 0; s < tune->captures.count; s++) known = known && tune_is_known(tune, s, values);
+    bool ok = tune_share(tune, points, err);
+    json_decref(points);
+    if (!ok) return false;
+    json_t *line = put_together(tune, values);
+    if (!line) return fail_memory(err);
+    if (tune->shard.count) return json_array_append_new(tune->lines, line) == 0 || fail_memory(err);
+    if (!keep_start(tune, err)) return json_decref(line), false;
+    tune->fresh += !known;
+    return journal_append(&tune->journal, line, err);
+}
+
 bool tune_evaluate(struct tune *tune, const double *values, struct tune_figures *figures, struct glint_error *err) {
     json_t *list = values_json(tune, values);
     const size_t number = (size_t)json_array_size(tune->lines) + 1;
     bool ok = true;
-    if (!find_line(tune, list)) {
-        struct glint_pipeline *pipeline = tune_pipeline(tune, values, err);
-        snprintf(tune->label, sizeof tune->label, "point %zu of %u", number, tune->tries);
-        ok = pipeline && add_line(tune, pipeline, json_incref(list), err) && tune_report(tune, NULL, 0);
-        if (pipeline) glint_pipeline_destroy(&pipeline);
-    }
+    snprintf(tune->label, sizeof tune->label, "point %zu of %u", number, tune->tries);
+    if (!find_line(tune, list)) ok = add_line(tune, list, err) && tune_report(tune, NULL, 0);
     tune->done = fmin(1, (double)number / tune->tries);
     if (ok) *figures = sum_up(tune, find_line(tune, list));
     json_decref(list);
     return ok || glint_fail(err, err->code ? err->code : GLINT_ERROR_INTERRUPTED, "%s",
                             err->code ? err->message : "interrupted");
+}
+
+bool tune_announce(void *user, const double *values, size_t count, struct glint_error *err) {
+    struct tune *tune = user;
+    if (!tune->shard.count) return true;
+    json_t *points = json_array();
+    bool ok = points || fail_memory(err);
+    for (size_t i = 0; ok && i < count; i++) {
+        json_t *list = values_json(tune, values + i * tune->axis_count);
+        if (find_line(tune, list)) json_decref(list);
+        else ok = json_array_append_new(points, list) == 0 || fail_memory(err);
+    }
+    snprintf(tune->label, sizeof tune->label, "%zu points", json_array_size(points));
+    ok = ok && (!json_array_size(points) || tune_share(tune, points, err));
+    json_decref(points);
+    return ok;
 }
 
 void tune_set_norm(struct tune *tune, const double *values) {
@@ -209,27 +400,17 @@ void tune_correct(struct tune *tune, const double *values, double part, const do
     const json_t *line = find_line(tune, list);
     tune->within = tune->scaled_within ? 0 : sum_up(tune, line).cost / part;
     for (size_t s = 0; s < tune->captures.count && tune->scaled_within; s++) {
+        if (tune->subjects[s].broken) continue;
         tune->subjects[s].norm.cost = figures_on(line, s).cost / parts[s];
-        tune->within += tune->subjects[s].norm.cost / (double)tune->captures.count;
+        tune->within += tune->subjects[s].norm.cost / (double)tune_live(tune);
     }
     json_decref(list);
-}
-
-/* Decodes the figures of a line of the journal. */
-static void values_of(const struct tune *tune, const json_t *line, double *values) {
-    for (size_t a = 0; a < tune->axis_count; a++) {
-        const struct tune_axis *axis = &tune->axes[a];
-        const char *text = json_string_value(json_array_get(json_object_get(line, "values"), a));
-        values[a] = axis->texts ? axis->axis.start : strtod(text, NULL);
-        for (uint32_t c = 0; c < axis->axis.choices; c++)
-            if (!strcmp(axis->texts[c], text)) values[a] = c;
-    }
 }
 
 bool tune_all_tried(const struct tune *tune, double **values, size_t *count, struct glint_error *err) {
     *count = json_array_size(tune->lines);
     *values = calloc(tune->axis_count * *count + 1, sizeof **values);
     for (size_t i = 0; *values && i < *count; i++)
-        values_of(tune, json_array_get(tune->lines, i), *values + tune->axis_count * i);
+        values_of(tune, json_object_get(json_array_get(tune->lines, i), "values"), *values + tune->axis_count * i);
     return *values || fail_memory(err);
 }
