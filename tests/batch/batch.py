@@ -319,7 +319,7 @@ class Tests:
         assert not self.calls()
 
     def test_wrong_words_are_usage_errors(self):
-        for words, said in ((["statu", "x"], "found statu"), ([], "expected sweep, status"), (["status"], "one folder"), (["cancel", "a", "b"], "one folder"),
+        for words, said in ((["statu", "x"], "found statu"), ([], "expected a command with --shard ("), (["status"], "one folder"), (["cancel", "a", "b"], "one folder"),
                             (["resubmit", "a", "--shards=2"], "no option but --json"), (["status", "a", "--sbatch=-x"], "no option but --json"),
                             (["sweep", "a.exr", "-o", "x", "--slurm", "--varry=x"], "did you mean --vary")):
             assert said in glint("batch", *words, status=2).stderr, words

@@ -49,7 +49,7 @@ static bool has_tag(const struct list *captures, size_t capture, const char *tag
 
 /* Whether the capture counts for the group. */
 static bool is_in(const struct contest_log *log, const struct contest_group *g, size_t capture) {
-    return log->entries[capture].state == CONTEST_DONE && (!g->tag || has_tag(log->captures, capture, g->tag));
+    return log->states[capture] == CONTEST_DONE && (!g->tag || has_tag(log->captures, capture, g->tag));
 }
 
 /* The group of all captures, and one for each tag, in the order in which the set has them. */
@@ -167,8 +167,7 @@ static bool rank(struct contest_overall *o, const struct contest_log *log, struc
     struct ranked *ranks = malloc((count + 1) * sizeof *ranks);
     o->order = malloc((count + 1) * sizeof *o->order);
     const bool ok = (ranks && o->order) || fail_memory(err);
-    for (size_t i = 0; ok && i < count; i++)
-        ranks[i] = (struct ranked){i, contest_worst_error(log, i), log->entries[i].state};
+    for (size_t i = 0; ok && i < count; i++) ranks[i] = (struct ranked){i, contest_worst_error(log, i), log->states[i]};
     if (ok) qsort(ranks, count, sizeof *ranks, compare_ranks);
     for (size_t i = 0; ok && i < count; i++) {
         o->order[i] = ranks[i].capture;

@@ -8,6 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "glint/capture.h"
 #include "io/console.h"
 #include "journal/journal.h"
 #include "record.h"
@@ -35,6 +36,15 @@ void shard_parse(struct shard *shard, const char *text, struct argp_state *state
 bool shard_folder(const struct shard *shard, const char *out, char path[4096], struct glint_error *err) {
     return snprintf(path, 4096, "%s/shards/%u-of-%u", out, shard->number, shard->count) < 4096 ||
            glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", out);
+}
+
+bool shard_pixels(const char *path, double *pixels, struct glint_error *err) {
+    struct glint_error own = {0};
+    struct glint_capture *capture = glint_capture_open(path, NULL, &own);
+    const struct glint_part_info *part = capture ? glint_capture_find(capture, GLINT_PART_GBUFFER) : NULL;
+    *pixels = part ? (double)part->width * part->height : 1;
+    glint_capture_close(&capture);
+    return own.code != GLINT_ERROR_MEMORY || fail_memory(err);
 }
 
 /* The place in the order of all points at which this part of the whole cost is done. */

@@ -22,6 +22,8 @@ bool shard_folder(const struct shard *shard, const char *out, char path[4096], s
 /* Whether the name of a folder is "K-of-N". */
 bool shard_of_name(const char *name, struct shard *shard);
 
+/* The pixels of a capture; 1 of one that cannot be read, which takes no time. False without memory. */
+bool shard_pixels(const char *capture, double *pixels, struct glint_error *err);
 /* The work on a capture: what any of its points costs before the first, such as its reference, and each point. */
 struct shard_cost {
     double first, each;

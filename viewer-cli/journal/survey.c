@@ -78,7 +78,8 @@ bool survey_open(struct survey *survey, json_t *definition, const double *costs,
     struct shard_cost *each = calloc(survey->count + 1, sizeof *each);
     survey->at = malloc((survey->count + 1) * sizeof *survey->at);
     for (size_t i = 0; survey->at && i < survey->count; i++) survey->at[i] = -1;
-    bool ok = (each && survey->at && definition) || fail_memory(err);
+    bool ok = (each && survey->at && definition) || err->code || fail_memory(err);
+    ok = ok && !err->code;
     if (ok && unrepeatable && survey->shard.count)
         ok = glint_fail(err, GLINT_ERROR_USAGE, "--shard: expected captures that each process can read, found stdin");
     if (ok) cut(survey, costs, each);
