@@ -85,7 +85,8 @@ static bool expand(struct arguments *a, json_t *made, struct glint_error *err) {
 static enum status run_command(const struct arguments *a, const struct merge *merge, const char *out,
                                const struct command *command, struct glint_error *err) {
     const size_t given = json_array_size(merge->arguments);
-    const char *const added[] = {"-o", out, "--shard", "whole", a->json ? "--json" : NULL};
+    const char *const added[] = {command->rounds ? "--folder" : "-o", out, "--shard", "whole",
+                                 a->json ? "--json" : NULL};
     char **argv = calloc(given + 8, sizeof *argv);
     int argc = 0;
     if (!argv) return fail_memory(err), command_fail(&cmd_merge, err);
@@ -126,7 +127,7 @@ static enum status merge_shards(const struct arguments *a, struct merge *merge, 
         return command_fail(&cmd_merge, err);
     }
     open_many_files();
-    if (!merge_write(merge, a->out, err)) return command_fail(&cmd_merge, err);
+    if (!(command->rounds ? merge_gather : merge_write)(merge, a->out, err)) return command_fail(&cmd_merge, err);
     if (a->only) {
         printf("%zu results of %zu shards are in %s\n", merge->results, merge->count, name_text(a->out));
         return STATUS_DONE;

@@ -329,22 +329,37 @@ static enum status report_tune(const struct arguments *a) {
     return STATUS_CHECK;
 }
 
+/* The arguments as they were given, which parsing reorders and cuts into pieces; NULL without memory. Owned by `owner`. */
+static char **keep_arguments(int argc, char **argv, json_t *owner) {
+    char **kept = calloc((size_t)argc + 1, sizeof *kept);
+    for (int i = 0; kept && i < argc; i++) {
+        json_t *text = json_stringn_nocheck(argv[i], strlen(argv[i]));
+        kept[i] = (char *)json_string_value(text);
+        if (json_array_append_new(owner, text) == 0) continue;
+        free(kept);
+        return NULL;
+    }
+    return kept;
+}
+
 static enum status cmd_tune_run(int argc, char **argv) {
     struct arguments a = {.tune = {.metric = GLINT_METRIC_RMSE,
                                    .seed = 1,
                                    .against = {.rays = GLINT_JUDGE_RAYS},
                                    .rounds = 3,
                                    .repeat = 15},
-                          .record = {.argc = argc, .argv = argv, .result = "page.json"}};
+                          .record = {.argc = argc, .result = "page.json"}};
     struct glint_error err = {0};
     struct progress progress;
     struct tune *tune = &a.tune;
-    char common[4096], own[4096], *line = command_line(argc, argv);
+    json_t *texts = json_array();
+    char common[4096], own[4096], *line = command_line(argc, argv), **kept = keep_arguments(argc, argv, texts);
     command_parse(&cmd_tune, argc, argv, &a);
     tune->command_line = line ? line : "glint tune";
     tune->progress = &progress;
     progress_begin(&progress);
-    const bool ok = find_folders(tune, common, own, &err) && begin_tune(&a, &err) &&
+    a.record.argv = kept;
+    const bool ok = (kept || fail_memory(&err)) && find_folders(tune, common, own, &err) && begin_tune(&a, &err) &&
                     (tune->shard.count ? run_shard(&a, &err) : search_and_write(tune, &err));
     progress_end(&progress);
     const enum status status = ok                                    ? report_tune(&a)
@@ -352,6 +367,8 @@ static enum status cmd_tune_run(int argc, char **argv) {
                                                                      : command_fail(&cmd_tune, &err);
     tune_finish(tune);
     pipeline_args_finish(&a.pipeline);
+    json_decref(texts);
+    free(kept);
     free(line);
     return status;
 }
@@ -380,5 +397,6 @@ const struct command cmd_tune = {
     .parse = cmd_tune_parse,
     .examples = examples,
     .values = cmd_tune_values,
+    .rounds = true,
     .run = cmd_tune_run,
 };

@@ -13,6 +13,7 @@
 #include "inside.h"
 #include "io/copy.h"
 #include "journal/journal.h"
+#include "journal/shard.h"
 #include "record.h"
 
 /* The place of a result in the order of one process: its capture, or its run of replay, then its round, then its point. Those that a line lacks come first. */
@@ -340,6 +341,29 @@ bool merge_write(struct merge *merge, const char *out, struct glint_error *err) 
     bool ok = lock != NULL;
     for (size_t i = 0; ok && i < json_array_size(merge->studies); i++)
         ok = write_study(merge, json_string_value(json_array_get(merge->studies, i)), out, err);
+    glint_folder_unlock(&lock);
+    return ok;
+}
+
+static bool gather_shard(struct merge *merge, struct merge_part *part, const char *out, struct glint_error *err) {
+    const struct shard shard = {part->number, (uint32_t)number_of(part, "of")};
+    char name[64], folder[4096], from[4096], to[4096];
+    definition_name(merge, name);
+    const char *const names[] = {name, "shard.json", "log.jsonl"};
+    if (!study_path(part->folder, "", part->study, err) || !shard_folder(&shard, out, folder, err) ||
+        !glint_make_folder(folder, err) || !take_folders(part, out, err))
+        return false;
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (!journal_path(part->folder, names[i], from, err) || !journal_path(folder, names[i], to, err) ||
+            !take_file(from, to, err))
+            return false;
+    return true;
+}
+
+bool merge_gather(struct merge *merge, const char *out, struct glint_error *err) {
+    struct glint_folder_lock *lock = glint_make_folder(out, err) ? glint_folder_lock(out, err) : NULL;
+    bool ok = lock != NULL;
+    for (size_t i = 0; ok && i < merge->count; i++) ok = gather_shard(merge, &merge->parts[i], out, err);
     glint_folder_unlock(&lock);
     return ok;
 }

@@ -21,6 +21,8 @@ bool merge_open(struct merge *merge, const struct list *folders, struct glint_er
 /* Writes the definition and the journal of each whole study into a folder, in the order of one process, and links or copies the other files of
    the shards, such as references and pictures. Takes no more memory for more results. */
 bool merge_write(struct merge *merge, const char *out, struct glint_error *err);
+/* For a command that reads the journals of its shards itself (struct command: rounds): puts all shards into the folder, and their other files. */
+bool merge_gather(struct merge *merge, const char *out, struct glint_error *err);
 void merge_close(struct merge *merge);
 
 #endif

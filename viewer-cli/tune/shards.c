@@ -119,19 +119,12 @@ static bool find_peers(struct tune *tune, const char *folder, struct glint_error
 
 /* ---- Shares ---- */
 
-/* By pixels: what cannot be read takes no time. */
 static bool weigh_captures(struct tune *tune, struct glint_error *err) {
     struct shard_cost *costs = tune->shards->costs = calloc(tune->captures.count + 1, sizeof *costs);
-    if (!costs) return fail_memory(err);
-    for (size_t s = 0; s < tune->captures.count; s++) {
-        struct glint_error own = {0};
-        struct glint_capture *capture = glint_capture_open(tune->captures.items[s], NULL, &own);
-        const struct glint_part_info *part = capture ? glint_capture_find(capture, GLINT_PART_GBUFFER) : NULL;
-        costs[s].each = part ? (double)part->width * part->height : 1;
-        glint_capture_close(&capture);
-        if (own.code == GLINT_ERROR_MEMORY) return fail_memory(err);
-    }
-    return true;
+    bool ok = costs || fail_memory(err);
+    for (size_t s = 0; ok && s < tune->captures.count; s++)
+        ok = shard_pixels(tune->captures.items[s], &costs[s].each, err);
+    return ok;
 }
 
 bool tune_shards_open(struct tune *tune, struct glint_error *err) {
