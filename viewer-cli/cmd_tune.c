@@ -261,6 +261,9 @@ void tune_finish(struct tune *tune) {
     json_decref(tune->provenance);
     for (size_t a = 0; a < tune->axis_count; a++) free(tune->axes[a].texts);
     glint_search_result_finish(&tune->found);
+    /* A search that failed before its first result may be tried with other arguments. */
+    if (tune->journal.log > 0 && !tune->journal.results && !tune->shard.count)
+        journal_remove(tune->folder, tune->journal.kind);
     journal_close(&tune->journal);
     tune_shards_close(tune);
     json_decref(tune->definition);

@@ -1,0 +1,119 @@
+"""Shards of glint tune share out each round of evaluations, and make together what one process makes. rounds.py GLINT CAPTURES TRIES. Speaks TAP."""
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+import tap
+from timeless import contents
+
+ARGUMENTS = ["set", "-o", "found.json", "-p", tap.PLAIN, "--budget-fetches", "60%", "--rays", "2", "--tries", sys.argv[3], "--repeat", "0",
+             "--vary", "screen_trace.steps=2..64", "--vary", "cubemap_trace.steps_hq=4..64"]
+
+
+class Tests:
+    def __init__(self, folder):
+        self.folder = folder
+        for name in ("set", "one", "many"):
+            os.mkdir(self.path(name))
+        self.names = [f"set/{i}.exr" for i in range(int(sys.argv[2]))]
+        for i, name in enumerate(self.names):
+            tap.glint("sample", "still_life", "-o", name, "--size", f"{16 + 4 * i}x9", "--cube-size", "4", folder=folder)
+        self.names.insert(1, "set/broken.exr")
+        with open(self.path("set", "broken.exr"), "wb") as file:
+            file.write(b"\x76\x2f\x31\x01 and no more")
+        with open(self.path("set", "set.json"), "w", encoding="utf-8") as file:
+            json.dump({"format": 1, "captures": [{"path": os.path.basename(name), "tags": [f"half-{i % 2}"]} for i, name in enumerate(self.names)]}, file)
+        for name in ("one", "many"):
+            os.symlink("../set", self.path(name, "set"))
+        self.one = tap.glint("tune", *ARGUMENTS, folder=self.path("one"), status=1)
+        self.whole = contents(self.path("one", "found.tune"))
+        self.started = []
+
+    def path(self, *names):
+        return os.path.join(self.folder, *names)
+
+    def start(self, shard, *more):
+        words = [os.path.abspath(sys.argv[1]), "tune", *ARGUMENTS, *more, "--shard", shard]
+        self.started.append(subprocess.Popen(words, cwd=self.path("many"), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True))
+        return self.started[-1]
+
+    def log(self, number):
+        return self.path("many", "found.tune", "shards", f"{number}-of-3", "log.jsonl")
+
+    def lines(self, number):
+        if not os.path.exists(self.log(number)):
+            return []
+        with open(self.log(number), encoding="utf-8") as file:
+            return [line for line in file if line.endswith("\n")]
+
+    def test_a_broken_capture_is_a_row(self):
+        assert "left out: set/broken.exr" in self.one.stderr, self.one.stderr
+        with open(self.path("one", "found.json"), encoding="utf-8") as file:
+            captures = json.load(file)["provenance"]["captures"]
+        broken = [name == "set/broken.exr" for name in self.names]
+        assert [capture["xxh3_128"] is None for capture in captures] == broken, captures
+        points = [line for line in self.whole["log.jsonl"] if "values" in line]
+        assert 0 < len(points) <= int(sys.argv[3]) and all([one is None for one in line["captures"]] == broken for line in points)
+        for line in points:  # what is left counts as if the broken one were not there
+            assert all(one["error"] > 0 and one["cost"] > 0 for one in line["captures"] if one), line
+        run = tap.glint("tune", "set/broken.exr", "set/broken.exr", *ARGUMENTS[1:2], "none.json", *ARGUMENTS[3:], folder=self.folder, status=2)
+        assert "none of the 2 captures can be tuned on" in run.stderr and "broken.exr" in run.stderr, run.stderr
+        assert not os.path.exists(self.path("none.json"))
+
+    def test_shards_make_what_one_process_makes(self):
+        """Two run at the same time, until one is killed in the middle, and the other goes on alone; the third is started when all is done."""
+        killed, second = self.start("1/3"), self.start("2/3")
+        while killed.poll() is None and len(self.lines(1)) + len(self.lines(2)) < len(self.names) + 3:
+            time.sleep(0.002)
+        killed.send_signal(signal.SIGKILL)
+        assert killed.wait() in (-signal.SIGKILL, 0), killed.stderr.read()  # 0: it was faster
+        before = self.lines(1)
+        with open(self.log(1), "ab") as file:
+            file.write(b'{"error":0.1,"cost":2,"capture":0,"val')  # as a kill in the middle of a write leaves it
+        assert second.wait() == 0, second.stderr.read()
+        run = tap.glint("merge", "many/found.tune", folder=self.folder, status=2)
+        assert "is not done" in run.stderr or "missing" in run.stderr, run.stderr
+        first, third = self.start("1/3"), self.start("3/3")
+        assert first.wait() == 0 and third.wait() == 0, (first.stderr.read(), third.stderr.read())
+        assert self.lines(1) == before and not self.lines(3)
+        works = [json.dumps([line["capture"], line.get("values")]) for number in (1, 2, 3) for line in map(json.loads, self.lines(number))]
+        points = sum("values" in line for line in self.whole["log.jsonl"])
+        assert len(works) == len(set(works)) == len(self.names) + (len(self.names) - 1) * points, works
+        merged = tap.glint("merge", "found.tune", folder=self.path("many"), status=1)
+        assert "left out: set/broken.exr" in merged.stderr, merged.stderr
+        found = contents(self.path("many", "found.tune"), "shards")
+        assert found.keys() == self.whole.keys(), found.keys() ^ self.whole.keys()
+        differing = [name for name in found if found[name] != self.whole[name]]
+        assert not differing, differing
+        with open(self.path("many", "found.json"), "rb") as file, open(self.path("one", "found.json"), "rb") as other:
+            assert file.read() == other.read()
+        self.other_searches_are_refused()
+
+    def other_searches_are_refused(self):
+        shutil.rmtree(self.path("many", "found.tune", "shards", "3-of-3"))
+        other = self.start("3/3", "--rays", "3")
+        assert other.wait() != 0
+        assert "other arguments" in other.stderr.read()
+
+    def finish(self):
+        for process in self.started:
+            process.kill()
+            process.communicate()
+
+
+def main():
+    sys.argv[1] = os.path.abspath(sys.argv[1])
+    with tempfile.TemporaryDirectory(prefix="glint-rounds-") as folder:
+        tests = Tests(folder)
+        try:
+            return tap.run(tests)
+        finally:
+            tests.finish()
+
+
+sys.exit(main())
