@@ -285,23 +285,28 @@ void tune_finish(struct tune *tune) {
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) list_free(lists[i]);
 }
 
-/* As one process is called that makes all: without a share, and without what glint merge adds. */
+/* The number of arguments from here on that one process does not have that makes all: a share, or what glint merge adds. */
+static int count_of_shards(char **argv) {
+    const bool added = !strcmp(argv[0], "--folder") && argv[1] && argv[2] && argv[3] && !strcmp(argv[2], "--shard") &&
+                       !strcmp(argv[3], "whole");
+    if (added) return 4 + (argv[4] && !strcmp(argv[4], "--json"));
+    if (!strcmp(argv[0], "--shard")) return argv[1] ? 2 : 1;
+    return !strncmp(argv[0], "--shard=", strlen("--shard="));
+}
+
+/* As one process is called that makes all. */
 static char *command_line(int argc, char **argv) {
     char *text = NULL;
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
     if (!out) return NULL;
     fputs("glint tune", out);
-    for (int i = 1; i < argc; i++) {
-        const bool merged = i + 3 < argc && !strcmp(argv[i], "--folder") && !strcmp(argv[i + 2], "--shard") &&
-                            !strcmp(argv[i + 3], "whole");
-        if (!strncmp(argv[i], "--shard=", strlen("--shard="))) continue;
-        if (merged || !strcmp(argv[i], "--shard")) {
-            i++;
-            continue;
-        }
+    for (int i = 1; i < argc;) {
+        const int skipped = count_of_shards(argv + i);
+        i += skipped;
+        if (skipped) continue;
         fputc(' ', out);
-        shell_word(out, argv[i]);
+        shell_word(out, argv[i++]);
     }
     fclose(out);
     return text;

@@ -84,7 +84,8 @@ class Tests:
         works = [json.dumps([line["capture"], line.get("values")]) for number in (1, 2, 3) for line in map(json.loads, self.lines(number))]
         points = sum("values" in line for line in self.whole["log.jsonl"])
         assert len(works) == len(set(works)) == len(self.names) + (len(self.names) - 1) * points, works
-        merged = tap.glint("merge", "found.tune", folder=self.path("many"), status=1)
+        merged = tap.glint("merge", "found.tune", "--json", folder=self.path("many"), status=1)
+        assert json.loads(merged.stdout)["fresh"] == 0, "evaluated again"
         assert "left out: set/broken.exr" in merged.stderr, merged.stderr
         found = contents(self.path("many", "found.tune"), "shards")
         assert found.keys() == self.whole.keys(), found.keys() ^ self.whole.keys()
