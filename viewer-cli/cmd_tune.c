@@ -7,6 +7,7 @@
 #include "io/shell.h"
 #include "options/pass_names.h"
 #include "options/pipeline_args.h"
+#include "tune/overall.h"
 #include "tune/tune.h"
 
 struct arguments {
@@ -249,10 +250,12 @@ static bool run_shard(struct arguments *a, struct glint_error *err) {
 
 static bool search_and_write(struct tune *tune, struct glint_error *err) {
     return tune_search(tune, err) && (tune->found.feasible || tune_fail_least(tune, err)) && tune_choose(tune, err) &&
-           tune_confirm(tune, err) && tune_write_preset(tune, err) && tune_write_page(tune, err);
+           tune_confirm(tune, err) && tune_sum_up(tune, err) && tune_write_preset(tune, err) &&
+           tune_write_page(tune, err);
 }
 
 void tune_finish(struct tune *tune) {
+    tune_overall_finish(tune);
     for (size_t i = 0; tune->measured && i < tune->subject_count * TUNE_CONTENDERS; i++)
         glint_metric_table_finish(&tune->measured[i].errors);
     for (size_t s = 0; tune->subjects && s < tune->subject_count; s++) tune_unload_subject(tune, s);

@@ -1,4 +1,5 @@
 """Shards of glint tune share out each round of evaluations, and make together what one process makes. rounds.py GLINT CAPTURES TRIES. Speaks TAP."""
+import fcntl
 import json
 import os
 import shutil
@@ -67,7 +68,8 @@ class Tests:
 
     def test_shards_make_what_one_process_makes(self):
         """Two run at the same time, until one is killed in the middle, and the other goes on alone; the third is started when all is done."""
-        killed, second = self.start("1/3"), self.start("2/3")
+        killed = self.waits_for_locks("1/3")
+        second = self.start("2/3")
         while killed.poll() is None and len(self.lines(1)) + len(self.lines(2)) < len(self.names) + 3:
             time.sleep(0.002)
         killed.send_signal(signal.SIGKILL)
@@ -94,6 +96,19 @@ class Tests:
         with open(self.path("many", "found.json"), "rb") as file, open(self.path("one", "found.json"), "rb") as other:
             assert file.read() == other.read()
         self.other_searches_are_refused()
+
+    def waits_for_locks(self, shard):
+        """The shard, started while somebody else works on all that there is to do: it does nothing before that ends."""
+        folder = self.path("many", "found.tune", "shards")
+        os.makedirs(folder)
+        with open(os.path.join(folder, "claims"), "wb") as claims:
+            fcntl.lockf(claims, fcntl.LOCK_EX)
+            process = self.start(shard)
+            while process.poll() is None and not os.path.exists(self.log(1)):
+                time.sleep(0.01)
+            time.sleep(1)
+            assert process.poll() is None and not self.lines(1)
+        return process
 
     def other_searches_are_refused(self):
         shutil.rmtree(self.path("many", "found.tune", "shards", "3-of-3"))

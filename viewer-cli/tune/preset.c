@@ -6,6 +6,7 @@
 #include "options/preset_json.h"
 #include "io/output.h"
 #include "record.h"
+#include "tune/overall.h"
 #include "tune/tune.h"
 
 static json_t *limit_json(const struct tune *tune) {
@@ -67,16 +68,11 @@ static json_t *part_json(const struct tune_median *part) {
     return json;
 }
 
-static json_t *figure_json(struct glint_figure figure) {
-    return json_pack("{s:o, s:o, s:o}", "value", json_number(figure.value), "low", json_number(figure.low), "high",
-                     json_number(figure.high));
-}
-
 static json_t *errors_of(const struct tune *tune, const struct glint_metric_table *table) {
     json_t *classes = json_object();
     for (size_t r = 0; r < table->count; r++)
         if (table->rows[r].pixels)
-            json_object_set_new(classes, table->rows[r].name, figure_json(table->rows[r].of[tune->metric]));
+            json_object_set_new(classes, table->rows[r].name, figure_json(&table->rows[r].of[tune->metric]));
     return classes;
 }
 
@@ -86,7 +82,7 @@ static json_t *differences_of(const struct tune *tune, size_t s, int a, int b) {
     for (size_t r = 0; r < table->count; r++) {
         struct glint_figure difference;
         if (!tune_difference(tune, s, a, b, r, &difference)) continue;
-        json_t *json = figure_json(difference);
+        json_t *json = figure_json(&difference);
         json_object_set_new(json, "verdict", json_string(tune_verdict(&difference)));
         json_object_set_new(classes, table->rows[r].name, json);
     }
@@ -177,8 +173,8 @@ json_t *tune_json(const struct tune *tune) {
                          ? json_null()
                          : json_pack("{s:f, s:f, s:f, s:b}", "factor", tune->factor, "error", tune->scaled.error,
                                      "cost", tune->scaled.cost, "within", tune->scaled_within);
-    return json_pack("{s:s, s:O, s:{s:f, s:f}, s:b, s:I, s:o, s:o, s:o}", "preset", tune->out, "provenance",
+    return json_pack("{s:s, s:O, s:{s:f, s:f}, s:b, s:I, s:o, s:o, s:o, s:o}", "preset", tune->out, "provenance",
                      tune->provenance, "start", "error", tune->start.error, "cost", tune->start.cost, "within",
                      tune->confirmed_within, "fresh", (json_int_t)tune->fresh, "left", left_json(tune), "scaled",
-                     scaled, "confirmed", confirmed_json(tune));
+                     scaled, "confirmed", confirmed_json(tune), "overall", tune_overall_json(tune));
 }

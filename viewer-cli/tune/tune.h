@@ -106,6 +106,7 @@ struct tune {
     struct glint_pipeline *contenders[TUNE_CONTENDERS]; /* NULL: none */
     json_t *provenance;                                 /* how the preset was found, as last written */
     struct tune_measured *measured;                     /* subject · TUNE_CONTENDERS + contender */
+    struct tune_overall *overall;                       /* of all of them (tune/overall.h); NULL: not measured yet */
 };
 void tune_finish(struct tune *tune);
 const char *tune_cost_unit(const struct tune *tune);       /* "ms", "fetches/px" */
