@@ -12,7 +12,7 @@ import time
 import tap
 from timeless import contents
 
-ARGUMENTS = ["set", "-o", "found.json", "-p", tap.PLAIN, "--budget-fetches", "60%", "--rays", "2", "--tries", sys.argv[3], "--repeat", "0",
+ARGUMENTS = ["set", "-o", "found.json", "-p", tap.PLAIN, "--budget-fetches", "60%", "--rays", "2", "--tries", sys.argv[3], "--repeat", "0", "--json",
              "--vary", "screen_trace.steps=2..64", "--vary", "cubemap_trace.steps_hq=4..64"]
 
 
@@ -66,6 +66,26 @@ class Tests:
         assert "none of the 2 captures can be tuned on" in run.stderr and "broken.exr" in run.stderr, run.stderr
         assert not os.path.exists(self.path("none.json"))
 
+    def test_figures_by_tag_and_the_worst_first(self):
+        """Means of what is told of each capture, which are computed here once more."""
+        found = json.loads(self.one.stdout)
+        def errors(contender, names):
+            return [row["contenders"][contender]["errors"]["all"]["value"] for row in found["confirmed"] if "contenders" in row and row["capture"] in names]
+        assert [row["capture"] for row in found["confirmed"] if "broken" in row] == ["set/broken.exr"], found["confirmed"]
+        groups = {group.get("tag"): group for group in found["overall"]}
+        assert set(groups) == {None, "half-0", "half-1"}
+        for tag, names in ((None, self.names), ("half-0", self.names[0::2]), ("half-1", self.names[1::2])):
+            start, tuned = errors("start", names), errors("tuned", names)
+            assert groups[tag]["captures"] == groups[tag]["shots"] == len(start) == len(names) - ("set/broken.exr" in names), groups[tag]
+            for name, values in (("start", start), ("tuned", tuned), ("tuned_less_start", [b - a for a, b in zip(start, tuned)])):
+                figure, mean = groups[tag][name], sum(values) / len(values) if values else None
+                assert figure["value"] is None if mean is None else abs(figure["value"] - mean) < 1e-6, (tag, name, figure, mean)
+                assert len(values) < 2 or figure["low"] <= figure["value"] <= figure["high"], figure
+        titles = [section["title"] for section in self.whole["page.json"]["sections"]]
+        shown = [title for title in titles if title.endswith(".exr")]
+        worst = sorted((name for name in self.names if name != "set/broken.exr"), key=lambda name: -errors("tuned", [name])[0])
+        assert shown == [os.path.basename(name) for name in worst], (shown, worst)
+
     def test_shards_make_what_one_process_makes(self):
         """Two run at the same time, until one is killed in the middle, and the other goes on alone; the third is started when all is done."""
         killed = self.waits_for_locks("1/3")
@@ -86,7 +106,7 @@ class Tests:
         works = [json.dumps([line["capture"], line.get("values")]) for number in (1, 2, 3) for line in map(json.loads, self.lines(number))]
         points = sum("values" in line for line in self.whole["log.jsonl"])
         assert len(works) == len(set(works)) == len(self.names) + (len(self.names) - 1) * points, works
-        merged = tap.glint("merge", "found.tune", "--json", folder=self.path("many"), status=1)
+        merged = tap.glint("merge", "found.tune", folder=self.path("many"), status=1)
         assert json.loads(merged.stdout)["fresh"] == 0, "evaluated again"
         assert "left out: set/broken.exr" in merged.stderr, merged.stderr
         found = contents(self.path("many", "found.tune"), "shards")
