@@ -1,9 +1,7 @@
 /* Evaluates and times every point, unless the results are in the log already. */
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <unistd.h>
 
 #include "draw/view/pixels.h"
 #include "draw/view/png_file.h"
@@ -215,13 +213,6 @@ static bool take_turns(struct work *work, struct glint_error *err) {
 
 typedef bool (*task)(struct work *work, struct glint_error *err);
 
-/* Reading a large capture for its hash takes long: of a set of many, a shard reads those that it works on. */
-static bool check_hash(const struct sweep *sweep, size_t c, struct glint_capture *capture, struct glint_error *err) {
-    char hash[33];
-    return !capture_set_hash(&sweep->captures, c) ||
-           (glint_capture_hash(capture, hash, err) && capture_set_check(&sweep->captures, c, hash, err));
-}
-
 static bool on_capture(struct work *work, size_t c, task task, struct glint_error *err) {
     struct sweep *sweep = work->sweep;
     struct glint_judge_options options = answer_args_judge(&sweep->against, sweep->out, c);
@@ -231,7 +222,7 @@ static bool on_capture(struct work *work, size_t c, task task, struct glint_erro
     struct glint_capture *capture = glint_capture_open(sweep->captures.items[c], NULL, err);
     work->capture = c;
     work->again = (struct again){&cmd_sweep, sweep->device, &work->judge, 1, 0, false};
-    bool ok = capture && check_hash(sweep, c, capture, err) &&
+    bool ok = capture && capture_set_check_open(&sweep->captures, c, capture, err) &&
               (work->judge = glint_judge_create(sweep->device, &options, err)) &&
               glint_judge_load(work->judge, capture, err) && find_answer(work, err);
     work->begun = ok;
@@ -241,20 +232,12 @@ static bool on_capture(struct work *work, size_t c, task task, struct glint_erro
     return ok;
 }
 
-/* Whether a capture fails by itself, whatever the point: not for lack of memory, space or a device, which may be there the next time. */
-static bool fails_alone(const struct work *work, const struct glint_error *own) {
-    const char *path = work->sweep->captures.items[work->capture];
-    const bool gone = own->code == GLINT_ERROR_IO && access(path, F_OK) != 0 && errno == ENOENT;
-    return gone || own->code == GLINT_ERROR_FORMAT || own->code == GLINT_ERROR_LIMIT ||
-           own->code == GLINT_ERROR_UNSUPPORTED;
-}
-
 static bool sweep_capture(struct work *work, size_t c, struct glint_error *err) {
     struct sweep *sweep = work->sweep;
     struct glint_error own = {0};
     work->begun = false;
     if (on_capture(work, c, take_turns, &own)) return true;
-    bool ok = sweep->captures.count > 1 && !work->begun && fails_alone(work, &own);
+    bool ok = sweep->captures.count > 1 && !work->begun && capture_set_fails_alone(&sweep->captures, c, &own);
     if (!ok) *err = own;
     for (size_t p = 0; ok && p < sweep->points; p++)
         if (sweep_works_on(sweep, c, p))
