@@ -3,6 +3,7 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -108,6 +109,14 @@ static enum status run_command(const struct arguments *a, const struct merge *me
     return status;
 }
 
+/* As many as the system lets a process have: the journals of all shards are read at the same time. */
+static void open_many_files(void) {
+    struct rlimit files;
+    if (getrlimit(RLIMIT_NOFILE, &files) != 0) return;
+    files.rlim_cur = files.rlim_max;
+    setrlimit(RLIMIT_NOFILE, &files);
+}
+
 static enum status merge_shards(const struct arguments *a, struct merge *merge, struct glint_error *err) {
     if (!merge_open(merge, &a->folders, err)) return command_fail(&cmd_merge, err);
     const struct command *command = command_find(merge->command);
@@ -116,6 +125,7 @@ static enum status merge_shards(const struct arguments *a, struct merge *merge, 
                    a->folders.items[0], merge->command);
         return command_fail(&cmd_merge, err);
     }
+    open_many_files();
     if (!merge_write(merge, a->out, err)) return command_fail(&cmd_merge, err);
     if (a->only) {
         printf("%zu results of %zu shards are in %s\n", merge->results, merge->count, name_text(a->out));

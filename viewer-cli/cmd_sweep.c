@@ -192,10 +192,12 @@ static void note_kept(const struct sweep *sweep) {
 
 /* What one of several processes does: its part of the results, without what is made of all. */
 static bool run_shard(struct sweep *sweep, int argc, char **argv, struct glint_error *err) {
-    const struct shard_record record = {
-        sweep->shard,           sweep->out, (sweep->end - sweep->begin) * (1 + (size_t)sweep->rounds),
-        sweep->journal.results, argc,       argv};
-    return shard_write(&record, false, err) && sweep_run(sweep, err) && shard_write(&record, true, err);
+    struct shard_record record = {.shard = sweep->shard,
+                                  .folder = sweep->out,
+                                  .results = (sweep->end - sweep->begin) * (1 + (size_t)sweep->rounds),
+                                  .argc = argc,
+                                  .argv = argv};
+    return shard_begin(&record, err) && sweep_run(sweep, err) && shard_write(&record, true, err);
 }
 
 static bool run_whole(struct sweep *sweep, struct glint_error *err) {

@@ -24,6 +24,7 @@ struct batch_shard {
 struct batch {
     const char *folder;
     char command[BATCH_WORD]; /* "sweep" */
+    char result[BATCH_WORD];  /* the file that the command writes last; "": not known */
     json_t *record;           /* batch.json; NULL: something else than glint batch started the shards */
     struct batch_shard *shards;
     size_t count;

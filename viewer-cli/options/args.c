@@ -25,16 +25,21 @@ void list_add(struct list *list, const char *item, struct argp_state *state) {
     list->items = items;
 }
 
-void list_split(struct list *list, char *text, struct argp_state *state) {
-    for (char *rest = text, *piece; (piece = strsep(&rest, ",")) != NULL;) {
-        if (!*piece) argp_error(state, "a list contains an empty name");
-        list_add(list, piece, state);
+void list_split(struct list *list, const char *text, struct argp_state *state) {
+    if (!list->pieces) list->pieces = json_array();
+    for (const char *end; text; text = *end ? end + 1 : NULL) {
+        end = text + strcspn(text, ",");
+        if (end == text) argp_error(state, "a list contains an empty name");
+        json_t *piece = json_stringn_nocheck(text, (size_t)(end - text));
+        if (json_array_append_new(list->pieces, piece) != 0) argp_failure(state, STATUS_CHECK, ENOMEM, "arguments");
+        else list_add(list, json_string_value(piece), state);
     }
 }
 
 void list_free(struct list *list) {
     free(list->items);
     json_decref(list->set);
+    json_decref(list->pieces);
     *list = (struct list){0};
 }
 
@@ -242,6 +247,10 @@ void json_put(FILE *out, json_t *json, size_t indent, size_t spaces) {
     else memory_note();
     free(text);
     json_decref(json);
+}
+
+json_t *json_text(const char *text) {
+    return json_stringn_nocheck(text, strlen(text));
 }
 
 json_t *json_number(double value) {
