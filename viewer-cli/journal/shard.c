@@ -63,6 +63,16 @@ void shard_cut(const struct shard *shard, const struct shard_cost *captures, siz
     if (shard->number < shard->count) *end = place_of((double)shard->number / shard->count, captures, count, points);
 }
 
+bool shard_pixels(const char *path, double *pixels, struct glint_error *err) {
+    struct glint_capture *capture = glint_capture_open(path, NULL, err);
+    const struct glint_part_info *part = capture ? glint_capture_find(capture, GLINT_PART_GBUFFER) : NULL;
+    *pixels = part ? (double)part->width * part->height : 1;
+    glint_capture_close(&capture);
+    if (!part && err->code == GLINT_ERROR_MEMORY) return false;
+    *err = (struct glint_error){0};
+    return true;
+}
+
 static json_t *arguments_json(const struct shard_record *record) {
     json_t *arguments = json_array();
     bool fits = arguments != NULL;

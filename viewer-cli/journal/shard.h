@@ -31,6 +31,9 @@ struct shard_cost {
 void shard_cut(const struct shard *shard, const struct shard_cost *captures, size_t count, size_t points, size_t *begin,
                size_t *end);
 
+/* The pixels of a capture, by which its work is measured; 1 of one that cannot be read, which takes no time. False without memory. */
+bool shard_pixels(const char *path, double *pixels, struct glint_error *err);
+
 /* What FOLDER/shard.json says: the share, the number of results that its journal will have (fewer where points fail), how many it had when the command was started,
    when the file is written first, whether all are there, the command line that made it, and the file that the command writes last when all shards are merged. */
 struct shard_record {

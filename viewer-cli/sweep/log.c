@@ -63,12 +63,9 @@ bool sweep_cut(struct sweep *sweep, struct glint_error *err) {
     struct shard_cost *costs = calloc(count + 1, sizeof *costs);
     bool ok = costs || fail_memory(err);
     for (size_t c = 0; ok && sweep->shard.count && c < count; c++) {
-        struct glint_capture *capture = glint_capture_open(sweep->captures.items[c], NULL, err);
-        const struct glint_part_info *part = capture ? glint_capture_find(capture, GLINT_PART_GBUFFER) : NULL;
-        const double pixels = part ? (double)part->width * part->height : 1; /* what cannot be read takes no time */
+        double pixels;
+        ok = shard_pixels(sweep->captures.items[c], &pixels, err);
         costs[c] = (struct shard_cost){traces ? rays * pixels : pixels, (1. + sweep->rounds) * pixels};
-        ok = part || err->code != GLINT_ERROR_MEMORY;
-        glint_capture_close(&capture);
     }
     if (ok) shard_cut(&sweep->shard, costs, count, sweep->points, &sweep->begin, &sweep->end);
     free(costs);
