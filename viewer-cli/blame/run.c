@@ -97,8 +97,6 @@ static bool replay_coalition(struct work *work, uint32_t coalition, struct glint
         ok = run_before(work, pipeline, &own) &&
              glint_judge_evaluate(work->judge, pipeline, 0, &verdict, report, work, &own);
     while (!ok && again_try(&work->again, &own, "%s", name_step(work, coalition).text));
-    if (ok && work->blame->against.truth && verdict.no_truth.code != GLINT_OK)
-        ok = glint_fail(&own, verdict.no_truth.code, "%s", verdict.no_truth.message);
     for (int k = 0; ok && k < GLINT_TARGET_COUNT; k++)
         ok = !verdict.errors[k].count ||
              glint_metrics_valid(&verdict.errors[k], glint_target_name((enum glint_target)k), &own);
@@ -110,16 +108,17 @@ static bool replay_coalition(struct work *work, uint32_t coalition, struct glint
     return ok;
 }
 
-/* Makes the reference before the coalitions, because it can take longer than they do. */
+/* Makes the reference before the coalitions, because it can take longer than they do; a capture without the truth fails here. */
 static bool find_answer(struct work *work, struct glint_error *err) {
+    const enum glint_target answer = answer_args_kind(&work->blame->against);
     const float *error;
-    name_phase(work, "reference");
-    bool ok = work->blame->against.truth;
+    bool ok;
+    if (answer == GLINT_TARGET_REFERENCE) name_phase(work, "reference");
     work->again.tried = false;
     do
-        ok = ok || glint_judge_target(work->judge, GLINT_TARGET_REFERENCE, work->blame->base, &error, progress_report,
-                                      work->blame->progress, err);
-    while (!ok && again_try(&work->again, err, "reference"));
+        ok = glint_judge_target(work->judge, answer, work->blame->base, &error, progress_report, work->blame->progress,
+                                err) != NULL;
+    while (!ok && again_try(&work->again, err, "%s", glint_target_name(answer)));
     return ok;
 }
 
