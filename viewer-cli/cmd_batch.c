@@ -47,6 +47,7 @@ static const struct example examples[] = {
     {"glint batch sweep shots/ -o steps --vary screen_trace.cells=8..512:log --slurm --sbatch=--time=2:00:00 "
      "--sbatch=--account=render",
      "passes options on to sbatch"},
+    {"glint batch lint shots/ -o linted --slurm --shards 32", "does so with another command that has --shard"},
     {"glint batch status steps", "shows the state of each shard, and how far it is"},
     {"glint batch resubmit steps", "submits again what is not done and not in the queue"},
     {"glint batch cancel steps", "takes the jobs out of the queue; what they have done is kept"},
@@ -77,7 +78,7 @@ static void check_sbatch(const struct arguments *a, struct argp_state *state) {
 }
 
 static void check_study(struct arguments *a, struct argp_state *state) {
-    if (!a->operands.count) argp_error(state, "no %s given", a->command->operand);
+    if (!a->operands.count) argp_error(state, "no %s given", a->command->operand ? a->command->operand : "capture");
     if (!a->out) argp_error(state, "no output folder given: -o FOLDER");
     if (!a->shards) a->shards = 8;
     if (!a->slurm) argp_error(state, "expected the system that runs the shards: --slurm");
@@ -96,10 +97,11 @@ static void keep_option(struct arguments *a, int key, const char *value, struct 
 }
 
 static void check_arguments(struct arguments *a, struct argp_state *state) {
+    char *names = a->command || a->action ? NULL : batch_studied_names();
     if (a->command) check_study(a, state);
     else if (!a->action)
-        argp_error(state, "expected sweep, status, resubmit or cancel%s%s", a->operands.count ? ", found " : "",
-                   a->operands.count ? a->operands.items[0] : "");
+        argp_error(state, "expected a command with --shard (%s), or status, resubmit or cancel%s%s", names ? names : "",
+                   a->operands.count ? ", found " : "", a->operands.count ? a->operands.items[0] : "");
     else if (a->operands.count != 1) argp_error(state, "expected one folder of a batch");
     else if (a->out || a->slurm || a->shards || a->gpus || a->partition || a->sbatch.count || a->wait)
         argp_error(state, "%s has no option but --json: the others are those of the job scripts", a->action->name);
@@ -245,10 +247,11 @@ static enum status cmd_batch_run(int argc, char **argv) {
 
 const struct command cmd_batch = {
     .name = "batch",
-    .arguments = "sweep|status|resubmit|cancel F...|FOLDER",
-    .summary = "run a sweep in shards, as jobs of Slurm",
+    .arguments = "COMMAND|status|resubmit|cancel F...|FOLDER",
+    .summary = "run a study in shards, as jobs of Slurm",
     .description =
-        "glint batch sweep takes the arguments of glint sweep, cuts the sweep into shards, and submits them to Slurm "
+        "glint batch COMMAND takes the arguments of a command that has --shard, such as sweep, compare, lint, "
+        "validate or check, cuts it into shards, and submits them to Slurm "
         "as a job array, and a "
         "job that merges their results and waits for them. FOLDER then contains the job scripts shard.sbatch and "
         "merge.sbatch, which can be changed and submitted by hand, batch.json (the jobs), logs, shards, and after the "

@@ -60,7 +60,7 @@ static bool is_one(const struct arguments *a) {
 
 /* -o names a copy with --fix, else a folder. */
 static void check_output(struct arguments *a, struct argp_state *state) {
-    if (a->fix && !a->out) argp_error(state, "--fix: no copy given: -o F2");
+    if (a->fix && !a->out) argp_error(state, "--fix and -o F2 must be used together");
     if (a->fix && !is_one(a)) argp_error(state, "--fix: expected one capture");
     if (a->fix && a->shard.count) argp_error(state, "--fix writes one copy, and has no shares: --shard");
     if (!a->fix && a->out && output_is(a->out, OUTPUT_EXR))

@@ -163,7 +163,9 @@ const struct command cmd_merge = {
         "and "
         "pictures get a second name in the folder of the result, or are copied; and the command, which shard.json has, "
         "makes its tables, charts and page of them, in the folder in which it was run. All shards have to be there and "
-        "done: one that died goes on where it stopped when its command is run again.",
+        "done: one that died goes on where it stopped when its command is run again. Commands with --shard can be "
+        "merged: "
+        "what merge prints, and its exit status, are those of the command, such as 1 if glint lint has findings.",
     .options = options,
     .targets = targets,
     .operand = "folder",

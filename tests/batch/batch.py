@@ -62,12 +62,12 @@ class Tests:
         glint("batch", "sweep", "a.exr", "-o", out, "--vary=screen_trace.steps=1..4", "--slurm", f"--shards={shards}", *words)
         return out
 
-    def shard(self, out, number, of, results, total, kept=0, started=1000.0, written=1010.0, done=False, cut=False):
+    def shard(self, out, number, of, results, total, kept=0, started=1000.0, written=1010.0, done=False, cut=False, **more):
         """What a shard leaves behind (journal/shard.h)."""
         folder = os.path.join(out, f"shards/{number}-of-{of}")
         os.makedirs(folder, exist_ok=True)
         with open(os.path.join(folder, "shard.json"), "w", encoding="utf-8") as file:
-            json.dump({"format": 1, "command": "sweep", "shard": number, "of": of, "results": total, "kept": kept, "done": done}, file)
+            json.dump({"format": 1, "command": "sweep", "shard": number, "of": of, "results": total, "kept": kept, "done": done, **more}, file)
         with open(os.path.join(folder, "log.jsonl"), "w", encoding="utf-8") as file:
             file.write('{"capture":0,"point":0}\n' * results + '{"capture"' * cut)
         os.utime(os.path.join(folder, "shard.json"), (started, started))
@@ -96,6 +96,17 @@ class Tests:
             own, "sweep", "--shard=3/5", "--output=../out put", "--vary=a=b c", "--repeat=0", "--preset=$HOME", "--no-pictures", "--set=x=", "--", *hard]
         assert self.words("merge.sh") == [own, "merge", "../out put"]
         assert not self.calls()
+
+    def test_every_command_with_shards_has_scripts(self):
+        for k, (words, expected) in enumerate(((["lint", "a.exr"], ["lint", "--shard=2/3", "--output=X", "a.exr"]), (["validate", "s/", "a"], ["validate", "--shard=2/3", "--output=X", "s/", "a"]),
+                                               (["compare", "s", "--presets", "a,b"], ["compare", "--shard=2/3", "--output=X", "--presets=a,b", "s"]),
+                                               (["check", "r", "--baseline=b", "-fail", "0.1"], ["check", "--shard=2/3", "--output=X", "--baseline=b", "--fail=0.1", "r"]))):
+            out = f"every{k}"
+            glint("batch", *words, "-o", out, "--slurm", "--no-submit", "--shards=3")
+            with open(f"{out}/shard.sbatch", encoding="utf-8") as file, open("every.sh", "w", encoding="utf-8") as script:
+                script.write(file.read().replace(GLINT, os.path.join(self.fakes, "words")))
+            assert self.words("every.sh", SLURM_ARRAY_TASK_ID="2")[1:] == [word.replace("X", out) for word in expected]
+            assert "no " in glint("batch", words[0], "-o", "none", "--slurm", status=2).stderr
 
     def words(self, script, **environment):
         subprocess.run(["bash", script], check=True, env={**os.environ, **environment})
@@ -274,6 +285,12 @@ class Tests:
         assert not self.status(out)["merge"]["done"], "it is of an earlier sweep"
         os.utime(f"{out}/index.html", (2000, 2000))
         assert self.status(out)["merge"]["done"]
+        self.shard(out, 1, 2, results=2, total=3, done=True, result="results.json")
+        self.shard(out, 2, 2, results=2, total=3, done=True, result="results.json")
+        assert not self.status(out)["merge"]["done"], "the command has another result"
+        with open(f"{out}/results.json", "w", encoding="utf-8"):
+            pass
+        assert self.status(out)["merge"]["done"]
         self.shard(out, 2, 2, results=2, total=3)
         assert not self.status(out)["merge"]["done"], "it is of an earlier sweep"
 
@@ -319,7 +336,7 @@ class Tests:
         assert not self.calls()
 
     def test_wrong_words_are_usage_errors(self):
-        for words, said in ((["statu", "x"], "found statu"), ([], "expected sweep, status"), (["status"], "one folder"), (["cancel", "a", "b"], "one folder"),
+        for words, said in ((["statu", "x"], "found statu"), ([], "expected a command with --shard ("), (["status"], "one folder"), (["cancel", "a", "b"], "one folder"),
                             (["resubmit", "a", "--shards=2"], "no option but --json"), (["status", "a", "--sbatch=-x"], "no option but --json"),
                             (["sweep", "a.exr", "-o", "x", "--slurm", "--varry=x"], "did you mean --vary")):
             assert said in glint("batch", *words, status=2).stderr, words

@@ -51,7 +51,7 @@ class Tests:
     @functools.cached_property
     def shot(self):
         os.mkdir("shot")
-        glint("sample", "room", "-o", "shot/room.exr", f"--frames={CAPTURES}", "--size=16x9", "--cube-size=8", "--truth=1")
+        glint("sample", "room", "-o", "shot/room.exr", f"--frames={CAPTURES}", "--size=16x9", "--cube-size=8", "--light=1", "--truth=1")
         return "shot"
 
     @functools.cached_property
@@ -124,6 +124,25 @@ class Tests:
         assert found["merge"]["done"] and found["merge"]["state"] == "completed", (found, self.logs("killed"))
         assert lines(log)[:len(before)] == before, "what it had is not done again"
         self.check_same("killed")
+
+    def test_other_commands_in_shards(self):
+        """Of the merge of a lint with findings Slurm says that it failed, since its exit status is that of lint."""
+        os.mkdir("few")
+        for name in sorted(name for name in os.listdir(self.shot) if name.startswith("room.0"))[:6]:
+            shutil.copy(f"{self.shot}/{name}", "few")
+        shutil.copy(f"{self.shot}/room.cubemaps.exr", "few")
+        with open("few/unreadable.exr", "wb") as file:
+            file.write(b"not an image")
+        compare = ["--presets", tap.PLAIN, "--effect", "reflection", "--repeat", "1"]
+        for command, words, state in (("lint", [], "failed"), ("validate", [], "failed"), ("compare", compare, "failed")):
+            glint(command, "few", "-o", f"{command}-one", *words, status=1)
+            glint("batch", command, "few", "-o", f"{command}-out", *words, "--slurm", "--shards=3")
+            found = self.wait(f"{command}-out")
+            assert found["merge"]["done"] and found["merge"]["state"] == state and found["results"] == 7, (found, self.logs(f"{command}-out"))
+            assert f"merged: {command}-out" in glint("batch", "status", f"{command}-out").stdout
+            one, out = timeless.contents(f"{command}-one"), timeless.contents(f"{command}-out", *OWN)
+            timed = ("index.html", "page.json", "table.csv")
+            assert one.keys() == out.keys() and not [name for name in one if one[name] != out[name] and name not in timed], (one.keys(), out.keys())
 
     def test_a_cancelled_batch_goes_on(self):
         """Names are hard, and scripts are changed before they are submitted."""

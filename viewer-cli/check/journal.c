@@ -50,7 +50,7 @@ bool check_survey_open(struct survey *survey, const struct check_pairs *pairs, c
         if (pair->has_run && pair->has_baseline) costs[i] = cost_of(pair->run);
     }
     json_t *definition = costs ? define(pairs, &args->options) : NULL;
-    const bool ok = costs ? survey_open(survey, definition, costs, false, err) : fail_memory(err);
+    const bool ok = (definition || fail_memory(err)) && survey_open(survey, definition, costs, false, err);
     free(costs);
     return ok;
 }

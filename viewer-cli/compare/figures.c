@@ -66,7 +66,7 @@ static bool find_groups(struct contest_overall *o, const struct contest_log *log
     const size_t count = log->captures->count;
     bool *done = calloc(count + 1, sizeof *done), ok = done || fail_memory(err);
     for (size_t i = 0; ok && i < count; i++) {
-        done[i] = log->entries[i].state == CONTEST_DONE;
+        done[i] = log->states[i] == CONTEST_DONE;
         o->unreadable += !done[i];
     }
     ok = ok && capture_groups_find(&o->captures, log->captures, done, err);

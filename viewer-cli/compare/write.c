@@ -100,7 +100,7 @@ void contest_write_csv(FILE *out, const struct contest_table *t) {
           "maps ms,notes\n",
           out);
     for (size_t c = 0; c < t->capture_count; c++) {
-        if (t->log->entries[c].state != CONTEST_DONE) put_unreadable(out, t, c, classes);
+        if (t->log->states[c] != CONTEST_DONE) put_unreadable(out, t, c, classes);
         else
             for (size_t p = 0; p < t->contest->count; p++) put_row(out, t, c, p, classes);
     }

@@ -8,6 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "glint/capture.h"
 #include "io/console.h"
 #include "journal/journal.h"
 #include "record.h"
@@ -37,6 +38,15 @@ bool shard_folder(const struct shard *shard, const char *out, char path[4096], s
            glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", out);
 }
 
+bool shard_pixels(const char *path, double *pixels, struct glint_error *err) {
+    struct glint_error own = {0};
+    struct glint_capture *capture = glint_capture_open(path, NULL, &own);
+    const struct glint_part_info *part = capture ? glint_capture_find(capture, GLINT_PART_GBUFFER) : NULL;
+    *pixels = part ? (double)part->width * part->height : 1;
+    glint_capture_close(&capture);
+    return own.code != GLINT_ERROR_MEMORY || fail_memory(err);
+}
+
 /* The place in the order of all points at which this part of the whole cost is done. */
 static size_t place_of(double part, const struct shard_cost *captures, size_t count, size_t points) {
     double whole = 0, before = 0;
@@ -61,16 +71,6 @@ void shard_cut(const struct shard *shard, const struct shard_cost *captures, siz
     if (!shard->count) return;
     if (shard->number > 1) *begin = place_of((shard->number - 1.) / shard->count, captures, count, points);
     if (shard->number < shard->count) *end = place_of((double)shard->number / shard->count, captures, count, points);
-}
-
-bool shard_pixels(const char *path, double *pixels, struct glint_error *err) {
-    struct glint_capture *capture = glint_capture_open(path, NULL, err);
-    const struct glint_part_info *part = capture ? glint_capture_find(capture, GLINT_PART_GBUFFER) : NULL;
-    *pixels = part ? (double)part->width * part->height : 1;
-    glint_capture_close(&capture);
-    if (!part && err->code == GLINT_ERROR_MEMORY) return false;
-    *err = (struct glint_error){0};
-    return true;
 }
 
 static json_t *arguments_json(const struct shard_record *record) {

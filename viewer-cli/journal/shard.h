@@ -22,6 +22,8 @@ bool shard_folder(const struct shard *shard, const char *out, char path[4096], s
 /* Whether the name of a folder is "K-of-N". */
 bool shard_of_name(const char *name, struct shard *shard);
 
+/* The pixels of a capture; 1 of one that cannot be read, which takes no time. False without memory. */
+bool shard_pixels(const char *capture, double *pixels, struct glint_error *err);
 /* The work on a capture: what any of its points costs before the first, such as its reference, and each point. */
 struct shard_cost {
     double first, each;
@@ -30,9 +32,6 @@ struct shard_cost {
    same. A capture is divided between two of them only where that evens out more work than its first work, which both then do. */
 void shard_cut(const struct shard *shard, const struct shard_cost *captures, size_t count, size_t points, size_t *begin,
                size_t *end);
-
-/* The pixels of a capture, by which its work is measured; 1 of one that cannot be read, which takes no time. False without memory. */
-bool shard_pixels(const char *path, double *pixels, struct glint_error *err);
 
 /* What FOLDER/shard.json says: the share, the number of results that its journal will have (fewer where points fail), how many it had when the command was started,
    when the file is written first, whether all are there, the command line that made it, and the file that the command writes last when all shards are merged. */

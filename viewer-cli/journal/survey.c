@@ -39,10 +39,11 @@ static bool open_files(struct survey *survey, const struct list *captures, struc
     double *costs = calloc(captures->count + 1, sizeof *costs);
     survey->count = captures->count;
     for (size_t i = 0; costs && survey->folder && i < captures->count; i++)
-        json_array_append_new(files, survey_file(captures->items[i], &costs[i]));
+        record_append(&files, survey_file(captures->items[i], &costs[i]));
     json_t *definition = json_pack("{s:i, s:s, s:o}", "format", 1, "glint", GLINT_VERSION, "captures", files);
-    const bool ok = costs ? survey_open(survey, definition, costs, survey_has_stdin(captures), err) : fail_memory(err);
-    if (!costs) json_decref(definition);
+    const bool whole = (costs && definition) || fail_memory(err);
+    const bool ok = whole && survey_open(survey, definition, costs, survey_has_stdin(captures), err);
+    if (!whole) json_decref(definition);
     free(costs);
     return ok;
 }
@@ -78,7 +79,7 @@ bool survey_open(struct survey *survey, json_t *definition, const double *costs,
     struct shard_cost *each = calloc(survey->count + 1, sizeof *each);
     survey->at = malloc((survey->count + 1) * sizeof *survey->at);
     for (size_t i = 0; survey->at && i < survey->count; i++) survey->at[i] = -1;
-    bool ok = (each && survey->at && definition) || fail_memory(err);
+    bool ok = definition && ((each && survey->at) || fail_memory(err));
     if (ok && unrepeatable && survey->shard.count)
         ok = glint_fail(err, GLINT_ERROR_USAGE, "--shard: expected captures that each process can read, found stdin");
     if (ok) cut(survey, costs, each);

@@ -33,7 +33,8 @@ void survey_check(const struct shard *shard, const char *out, struct argp_state 
 
 /* The folder of a survey is `out`, and that of a share lies in it. */
 bool survey_place(struct survey *survey, const char *out, struct glint_error *err);
-/* Opens the journal, which belongs to a survey with the same definition (consumed) or none; and finds the share, by what each costs. Captures that are
+/* Opens the journal, which belongs to a survey with the same definition (consumed; NULL, with an error, if it could not be made) or none; and finds the share, by
+   what each costs. Captures that are
    `unrepeatable`, as those from stdin are, have no journal, and no shares. */
 bool survey_open(struct survey *survey, json_t *definition, const double *costs, bool unrepeatable,
                  struct glint_error *err);
