@@ -66,7 +66,7 @@ class Tests:
         assert "left out: shot/f.0001.exr: expected the hash 111" in run.stderr and "mean of 1 of 2" in run.stdout, run
 
     def test_a_sweep_has_figures_by_tag_and_goes_on_without_broken_captures(self):
-        tap.glint("sample", "street", "-o", "other.exr", "--size", "16x9", "--cube-size", "4", "--light", "1", "--truth", "1", folder=self.folder)
+        tap.glint("sample", "still_life", "-o", "other.exr", "--size", "16x9", "--cube-size", "4", "--truth", "1", folder=self.folder)
         with open(self.path("bad.exr"), "wb") as file:
             file.write(b"not an image")
         paths = {"true.exr": ["in", "dry"], "bad.exr": ["in"], "other.exr": ["dry"], "shot/f.0001.exr": ["dry"], "gone.exr": []}  # the fourth has no truth
@@ -81,10 +81,28 @@ class Tests:
             errors = [capture.get("errors", {"truth": {"all": {"rmse": None}}})["truth"]["all"]["rmse"] for capture in point["captures"]]
             assert [error is None for error in errors] == [False, True, False, True, True], errors
             assert abs(point["error"]["mean"] - (errors[0] + errors[2]) / 2) < 1e-12
-            assert point["tags"]["in"]["captures"] == 1 and point["tags"]["in"]["error"] == {"mean": errors[0], "worst": errors[0]}
-            assert point["tags"]["dry"]["captures"] == 2 and point["tags"]["dry"]["error"] == point["error"]
+            alone = {"mean": errors[0], "worst": errors[0], "low": None, "high": None}  # one shot has no interval
+            assert (point["tags"]["in"]["captures"], point["tags"]["in"]["shots"], point["tags"]["in"]["error"]) == (1, 1, alone)
+            assert (point["tags"]["dry"]["captures"], point["tags"]["dry"]["shots"], point["tags"]["dry"]["error"]) == (2, 2, point["error"])
+            # A bootstrap over two shots draws the same one twice in half of its resamples.
+            assert (point["error"]["low"], point["error"]["high"]) == (min(errors[0], errors[2]), max(errors[0], errors[2]))
+        self.check_beyond(points, "dry", (0, 2))
+        self.check_beyond(points, "in", (0,))
         run = tap.glint("sweep", "bad.exr", "gone.exr", "-o", "none", *words, folder=self.folder, status=1)
         assert "gone.exr: No such file" in run.stderr, run.stderr
+
+    @staticmethod
+    def check_beyond(points, tag, members):
+        """What a point's error is more than that of the best, in the same captures."""
+        errors = [[point["captures"][c]["errors"]["truth"]["all"]["rmse"] for c in members] for point in points]
+        best = min(errors, key=sum)
+        for point, own in zip(points, errors):
+            differences, found = [a - b for a, b in zip(own, best)], point["tags"][tag]["beyond_best"]
+            assert abs(found["value"] - sum(differences) / len(members)) < 1e-12, (tag, found, differences)
+            if len(members) > 1:
+                assert abs(found["low"] - min(differences)) < 1e-12 and abs(found["high"] - max(differences)) < 1e-12, (tag, found, differences)
+            if tag == "dry":
+                assert point["beyond_best"] == found
 
     def test_set_files_that_are_none(self):
         capture = {"path": "shot/f.0001.exr"}

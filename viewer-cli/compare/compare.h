@@ -5,6 +5,7 @@
 #include "capture/missing.h"
 #include "options/args.h"
 #include "glint/judge.h"
+#include "groups/groups.h"
 #include "journal/survey.h"
 #include "io/progress.h"
 #include "draw/view/sheet.h"
@@ -152,14 +153,12 @@ void contest_log_close(struct contest_log *log, bool finished);
 
 /* ---- What is shown ---- */
 
-/* Captures that are shown whole, with pictures: all, or the worst of more. */
-enum { CONTEST_SHOWN = 10 };
 struct contest_table {
     const struct contest *contest;
     const struct contest_log *log;
     const char *const *captures;
     size_t capture_count;
-    size_t shown[CONTEST_SHOWN]; /* which captures these are */
+    size_t shown[CAPTURES_SHOWN]; /* which captures these are */
     size_t shown_count;
     bool rows; /* there are more captures */
 };
@@ -186,7 +185,7 @@ struct contest_work {
     struct contest_log log;
     struct contest_table table;
     struct contest_overall *overall; /* NULL for one capture */
-    struct contest_pictures pictures[CONTEST_SHOWN];
+    struct contest_pictures pictures[CAPTURES_SHOWN];
 };
 /* Of a shard it makes the results alone. */
 bool contest_compare(struct contest *contest, struct contest_work *work, struct glint_error *err);

@@ -11,19 +11,13 @@
 
 /* ---- Runs ---- */
 
-/* Whether the capture is the one that its set means. */
-static bool check_hash(const struct list *captures, size_t i, struct glint_capture *capture, struct glint_error *err) {
-    char hash[33];
-    return !captures->set || (glint_capture_hash(capture, hash, err) && capture_set_check(captures, i, hash, err));
-}
-
 /* Runs all presets on a capture; or draws its pictures only, where showings is NULL. */
 static bool run_capture(struct contest *contest, const struct list *captures, size_t i, struct showing *showings,
                         struct contest_pictures *pictures, struct glint_error *err) {
     struct pipe pipe;
     const char *file = pipe_input(&pipe, captures->items[i], err);
     struct glint_capture *capture = file ? glint_capture_open(file, NULL, err) : NULL;
-    const bool ok = capture && check_hash(captures, i, capture, err) &&
+    const bool ok = capture && capture_set_check_open(captures, i, capture, err) &&
                     (showings ? contest_run(contest, capture, showings, pictures, err)
                               : contest_picture(contest, capture, pictures, err));
     glint_capture_close(&capture);
@@ -100,7 +94,7 @@ static struct contest_pictures place(const struct contest *contest, struct conte
 }
 
 static bool begin_pictures(const struct contest *contest, struct contest_work *work, struct glint_error *err) {
-    const size_t count = work->captures->count < CONTEST_SHOWN ? work->captures->count : CONTEST_SHOWN;
+    const size_t count = work->captures->count < CAPTURES_SHOWN ? work->captures->count : CAPTURES_SHOWN;
     if (!work->folder) return true;
     if (!sheet_init(&work->sheet, (uint32_t)contest->count + 1, CONTEST_ROWS * (uint32_t)count, err) ||
         !make_folders(work->folder, err))
@@ -125,7 +119,7 @@ static bool draw_missing(struct contest *contest, struct contest_work *work, str
 /* All captures that have results, or the worst of more. */
 static void choose_shown(struct contest_work *work) {
     struct contest_table *t = &work->table;
-    for (size_t i = 0; i < t->capture_count && t->shown_count < CONTEST_SHOWN; i++) {
+    for (size_t i = 0; i < t->capture_count && t->shown_count < CAPTURES_SHOWN; i++) {
         const size_t capture = t->rows ? work->overall->order[i] : i;
         if (work->log.states[capture] == CONTEST_DONE) t->shown[t->shown_count++] = capture;
     }
@@ -175,14 +169,14 @@ bool contest_compare(struct contest *contest, struct contest_work *work, struct 
                                          .log = &work->log,
                                          .captures = work->captures->items,
                                          .capture_count = count,
-                                         .rows = count > CONTEST_SHOWN};
+                                         .rows = count > CAPTURES_SHOWN};
     if (!begin_pictures(contest, work, err) || !judge_all(contest, work, err) || !find_overall(work, err)) return false;
     choose_shown(work);
     return draw_missing(contest, work, err) && write_all(work, err) && contest_log_check(&work->log, err);
 }
 
 void contest_work_finish(struct contest_work *work, bool finished) {
-    for (size_t k = 0; k < CONTEST_SHOWN; k++) json_decref(work->pictures[k].rows);
+    for (size_t k = 0; k < CAPTURES_SHOWN; k++) json_decref(work->pictures[k].rows);
     if (work->overall) contest_overall_finish(work->overall);
     free(work->overall);
     contest_log_close(&work->log, finished);

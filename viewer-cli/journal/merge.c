@@ -16,9 +16,9 @@
 #include "journal/shard.h"
 #include "record.h"
 
-/* The place of a result in the order of one process: its capture, or its run of replay, then its round, then its point. Those that a line lacks come first. */
-enum { KEYS = 4 };
-static const char *const key_names[KEYS] = {"capture", "run", "round", "point"};
+/* The place of a result in the order of one process: its phase, its capture, or its run of replay, then its round, then its point. Those that a line lacks come first. */
+enum { KEYS = 5 };
+static const char *const key_names[KEYS] = {"phase", "capture", "run", "round", "point"};
 
 struct merge_part {
     const char *folder;

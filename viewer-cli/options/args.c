@@ -253,6 +253,29 @@ json_t *json_text(const char *text) {
     return json_stringn_nocheck(text, strlen(text));
 }
 
+/* The list is found by the line break before its name, which no string has. */
+void json_put_list(FILE *out, json_t *object, const char *list, size_t count, json_put_item put, void *user,
+                   size_t indent, size_t spaces) {
+    const size_t flags = JSON_INDENT(indent) | (indent > 1 ? JSON_REAL_PRECISION(9) : 0), inner = spaces + 2 * indent;
+    char *text = object ? record_text(object, flags) : NULL, mark[128];
+    snprintf(mark, sizeof mark, "\n%*s\"%s\": []", (int)indent, "", list);
+    char *cut = text ? strstr(text, mark) : NULL;
+    if (cut) {
+        char *end = cut + strlen(mark) - 1;
+        *end = '\0';
+        json_put_text(out, text, spaces);
+        for (size_t i = 0; i < count; i++) {
+            fprintf(out, "%s\n%*s", i ? "," : "", (int)inner, "");
+            put(out, user, i, indent, inner);
+        }
+        if (count) fprintf(out, "\n%*s", (int)(spaces + indent), "");
+        fputc(']', out);
+        json_put_text(out, end + 1, spaces);
+    } else memory_note();
+    free(text);
+    json_decref(object);
+}
+
 json_t *json_number(double value) {
     return isfinite(value) ? json_real(value) : json_null();
 }

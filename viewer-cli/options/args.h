@@ -104,6 +104,10 @@ void json_put_text(FILE *out, const char *text, size_t spaces);
 void json_put(FILE *out, json_t *json, size_t indent, size_t spaces);
 /* A JSON text of any bytes, such as a path; one that is not UTF-8 cannot be written as JSON. */
 json_t *json_text(const char *text);
+/* Puts an object whose member `list` is empty, and into that list `count` items, each by a call of `put`, which has to write one value. */
+typedef void (*json_put_item)(FILE *out, void *user, size_t i, size_t indent, size_t spaces);
+void json_put_list(FILE *out, json_t *object, const char *list, size_t count, json_put_item put, void *user,
+                   size_t indent, size_t spaces);
 /* A JSON number; null if it is not finite. */
 json_t *json_number(double value);
 json_t *json_numbers(const double *values, size_t count);

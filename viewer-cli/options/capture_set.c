@@ -12,8 +12,8 @@
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
-#include "glint/capture.h"
 #include "glint/exr.h"
 #include "journal/journal.h"
 
@@ -237,4 +237,17 @@ bool capture_set_check(const struct list *captures, size_t i, const char *hash, 
     return !expected || !strcmp(expected, hash) ||
            glint_fail(err, GLINT_ERROR_FORMAT, "%s: expected the hash %s, as its set says, found %s",
                       captures->items[i], expected, hash);
+}
+
+bool capture_set_check_open(const struct list *captures, size_t i, struct glint_capture *capture,
+                            struct glint_error *err) {
+    char hash[33];
+    return !capture_set_hash(captures, i) ||
+           (glint_capture_hash(capture, hash, err) && capture_set_check(captures, i, hash, err));
+}
+
+bool capture_set_fails_alone(const struct list *captures, size_t i, const struct glint_error *own) {
+    const bool gone = own->code == GLINT_ERROR_IO && access(captures->items[i], F_OK) != 0 && errno == ENOENT;
+    return gone || own->code == GLINT_ERROR_FORMAT || own->code == GLINT_ERROR_LIMIT ||
+           own->code == GLINT_ERROR_UNSUPPORTED;
 }

@@ -2,6 +2,7 @@
 #ifndef GLINT_VIEWER_CAPTURE_SET_H
 #define GLINT_VIEWER_CAPTURE_SET_H
 
+#include "glint/capture.h"
 #include "options/args.h"
 
 /* Replaces every folder and every set file (.json) in the list by its captures: of a folder those of its set.json, or else its captures
@@ -16,5 +17,10 @@ json_t *capture_set_all_tags(const struct list *captures);
 const char *capture_set_hash(const struct list *captures, size_t i);
 /* Whether the capture has the hash that its set file says; true if that says none. */
 bool capture_set_check(const struct list *captures, size_t i, const char *hash, struct glint_error *err);
+/* The same for a capture that is open: of one whose set file says no hash, nothing is read. */
+bool capture_set_check_open(const struct list *captures, size_t i, struct glint_capture *capture,
+                            struct glint_error *err);
+/* Whether a failure is the capture's own, and other captures may do: it is not the lack of memory, space or a device, which may be there the next time. */
+bool capture_set_fails_alone(const struct list *captures, size_t i, const struct glint_error *own);
 
 #endif
