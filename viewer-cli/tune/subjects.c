@@ -1,8 +1,6 @@
 /* Loads the captures, and evaluates and times pipelines on them. */
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
-#include <unistd.h>
 
 #include "glint/sort.h"
 #include "options/capture_set.h"
@@ -32,17 +30,17 @@ static bool find_target(struct tune *tune, struct tune_subject *subject, struct 
     return ok;
 }
 
-/* Reading a large capture for its hash takes long: of a set of many, a shard reads those that it works on. */
-static bool check_hash(const struct tune *tune, size_t s, struct glint_error *err) {
-    char hash[33];
-    return s >= tune->captures.count || !capture_set_hash(&tune->captures, s) ||
-           (glint_capture_hash(tune->subjects[s].capture, hash, err) &&
-            capture_set_check(&tune->captures, s, hash, err));
+/* The list that has the subject, and its place there. */
+static const struct list *list_of(const struct tune *tune, size_t s, size_t *place) {
+    *place = tune->subjects[s].held_out ? s - tune->captures.count : s;
+    return tune->subjects[s].held_out ? &tune->held_out : &tune->captures;
 }
 
 bool tune_load_subject(struct tune *tune, size_t s, uint32_t resamples, struct glint_error *err) {
     struct tune_subject *subject = &tune->subjects[s];
     struct glint_judge_options options = answer_args_judge(&tune->against, tune->folder, s);
+    size_t place;
+    const struct list *list = list_of(tune, s, &place);
     if (subject->judge) return true;
     options.all = tune->all;
     options.metrics = GLINT_METRICS_CHEAP | 1u << tune->metric;
@@ -50,7 +48,8 @@ bool tune_load_subject(struct tune *tune, size_t s, uint32_t resamples, struct g
     options.keep_resampled = resamples != 0;
     options.seed = 1;
     if (!tune->against.truth) progress_phase(tune->progress, "reference, %.24s", base_name(subject->path));
-    const bool ok = (subject->capture = glint_capture_open(subject->path, NULL, err)) && check_hash(tune, s, err) &&
+    const bool ok = (subject->capture = glint_capture_open(subject->path, NULL, err)) &&
+                    capture_set_check_open(list, place, subject->capture, err) &&
                     (subject->judge = glint_judge_create(tune->device, &options, err)) &&
                     glint_judge_load(subject->judge, subject->capture, err) && find_target(tune, subject, err);
     if (!ok) tune_unload_subject(tune, s);
@@ -78,9 +77,9 @@ size_t tune_live(const struct tune *tune) {
 }
 
 bool tune_fails_alone(const struct tune *tune, size_t s, const struct glint_error *own) {
-    const bool gone = own->code == GLINT_ERROR_IO && access(tune->subjects[s].path, F_OK) != 0 && errno == ENOENT;
-    return tune->subject_count > 1 && (gone || own->code == GLINT_ERROR_FORMAT || own->code == GLINT_ERROR_LIMIT ||
-                                       own->code == GLINT_ERROR_UNSUPPORTED);
+    size_t place;
+    const struct list *list = list_of(tune, s, &place);
+    return tune->subject_count > 1 && capture_set_fails_alone(list, place, own);
 }
 
 bool tune_judge(struct tune *tune, struct tune_subject *subject, const struct glint_pipeline *pipeline,
