@@ -96,7 +96,8 @@ static void find_folder(struct arguments *a, struct argp_state *state) {
 
 static void check_study(struct arguments *a, struct argp_state *state) {
     if (!a->operands.count) argp_error(state, "no %s given", a->command->operand ? a->command->operand : "capture");
-    if (!a->out) argp_error(state, "no output given: -o %s", a->command->rounds ? "NAME.json" : "FOLDER");
+    if (!a->out)
+        argp_error(state, "no output %s", a->command->rounds ? "given: -o NAME.json" : "folder given: -o FOLDER");
     if (a->command->rounds) find_folder(a, state);
     if (!a->shards) a->shards = 8;
     if (!a->slurm) argp_error(state, "expected the system that runs the shards: --slurm");

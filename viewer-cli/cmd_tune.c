@@ -89,6 +89,8 @@ static const struct example examples[] = {
      "--vary screen_trace.steps",
      "also chooses between variants, each with its own parameters"},
     {"glint tune street.exr -o cheap.json --error 105%", "minimizes the time while the error grows by at most 5 %"},
+    {"glint tune frames/ -o half.json --budget-fetches 50% --shard 1/4; glint merge half.tune",
+     "does so with three other processes, --shard 2/4 to 4/4, that share the evaluations; then writes the preset"},
     {"glint report half.tune -o half.html", "writes the result page as a single file"},
     {0},
 };
@@ -401,7 +403,11 @@ const struct command cmd_tune = {
         "error of some per cent; therefore the result is timed again against the start. If it exceeds the budget or "
         "leaves a part of it unused, the search continues with corrected times; the preset is the point with the "
         "least error that meets the budget in the final timing. Every evaluation is stored at once: the same command "
-        "resumes an interrupted search, and the preset file then contains the best point so far.",
+        "resumes an interrupted search, and the preset file then contains the best point so far. With --shard, several "
+        "processes run the same search at the same time, and share out the evaluations of each round: any of them may "
+        "be "
+        "missing, late or killed, and the others go on. glint merge FOLDER then makes the final comparison and the "
+        "preset.",
     .options = options,
     .targets = targets,
     .operand = "capture",

@@ -108,6 +108,18 @@ class Tests:
             assert self.words("every.sh", SLURM_ARRAY_TASK_ID="2")[1:] == [word.replace("X", out) for word in expected]
             assert "no " in glint("batch", words[0], "-o", "none", "--slurm", status=2).stderr
 
+    def test_of_tune_the_preset_is_the_output_and_its_folder_the_batch_s(self):
+        for more, folder in (((), "half.tune"), (("--folder", "in here"), "in here")):
+            glint("batch", "tune", "s", "-o", "half.json", "--budget-fetches=50%", *more, "--slurm", "--no-submit", "--shards=3")
+            for name in ("shard", "merge"):
+                with open(f"{folder}/{name}.sbatch", encoding="utf-8") as file, open(f"{name}.sh", "w", encoding="utf-8") as script:
+                    script.write(file.read().replace(GLINT, os.path.join(self.fakes, "words")))
+            words = self.words("shard.sh", SLURM_ARRAY_TASK_ID="2")[1:]
+            assert words[:3] == ["tune", "--shard=2/3", f"--folder={folder}"] and words[-2:] == ["--output=half.json", "s"] and "--budget-fetches=50%" in words, words
+            assert self.words("merge.sh")[1:] == ["merge", folder]
+        assert "expected NAME.json" in glint("batch", "tune", "s", "-o", "half", "--slurm", status=2).stderr
+        assert "-o NAME.json" in glint("batch", "tune", "s", "--slurm", status=2).stderr
+
     def words(self, script, **environment):
         subprocess.run(["bash", script], check=True, env={**os.environ, **environment})
         with open(os.path.join(self.fakes, "given"), encoding="utf-8") as file:
