@@ -144,6 +144,31 @@ class Tests:
             timed = ("index.html", "page.json", "table.csv")
             assert one.keys() == out.keys() and not [name for name in one if one[name] != out[name] and name not in timed], (one.keys(), out.keys())
 
+    def test_a_search_in_rounds(self):
+        """More shards than run at a time: those that wait in the queue are not waited for. The result is that of one process, but for the command that it names."""
+        frames = sorted(f"shot/{name}" for name in os.listdir(self.shot) if name.startswith("room.0"))[:3]
+        words = ["tune", *frames, "-o", "half.json", "-p", tap.PLAIN, "--budget-fetches", "60%", "--reference", "truth", "--tries", "20", "--repeat", "0",
+                 "--vary", "screen_trace.steps=2..64", "--vary", "cubemap_trace.steps_hq=4..64"]
+        found = {}
+        for name in ("one", "many"):
+            os.makedirs(f"rounds/{name}")
+            os.symlink("../../shot", f"rounds/{name}/shot")
+        glint(*words, folder="rounds/one")
+        glint("batch", *words, "--slurm", "--shards=4", folder="rounds/many")
+        status = self.wait("rounds/many/half.tune")
+        assert status["merge"]["done"] and {s["state"] for s in status["shards"]} == {"completed"}, (status, self.logs("rounds/many/half.tune"))
+        for name in ("one", "many"):
+            with open(f"rounds/{name}/half.json", encoding="utf-8") as file:
+                found[name] = {**timeless.contents(f"rounds/{name}/half.tune", *OWN), "preset": json.load(file)}
+            found[name]["preset"]["provenance"].pop("command")
+            found[name]["page.json"]["facts"] = [fact for fact in found[name]["page.json"]["facts"] if "command" not in fact]
+            found[name].pop("half.html")
+        assert found["one"].keys() == found["many"].keys(), found["one"].keys() ^ found["many"].keys()
+        differing = [name for name in found["one"] if found["one"][name] != found["many"][name]]
+        assert not differing, differing
+        counted = [(line["capture"], str(line.get("values"))) for k in range(4) for line in map(json.loads, lines(f"rounds/many/half.tune/shards/{k + 1}-of-4/log.jsonl"))]
+        assert len(counted) == len(set(counted)) == status["results"], counted
+
     def test_a_cancelled_batch_goes_on(self):
         """Names are hard, and scripts are changed before they are submitted."""
         odd = "odd 'x' \"y\" $z\n"

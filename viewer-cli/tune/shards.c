@@ -1,7 +1,6 @@
-/* The shards of a search. Each runs the same search, which asks for the same points in the same order whoever evaluates them; and they share out each batch of
-   evaluations. Who evaluates a point on a capture holds a lock while he does, which ends with his process, however that ends; and appends the figures to his journal before he gives it
-   back. All read the journals of all. Each shard begins with its own share of a batch, cut by cost, and then helps the others, so that a batch ends, whether all shards run or
-   one of them. */
+/* The shards of a search. Each shard runs the same search, which asks for the same points in the same order whichever shard evaluates them, and they share out each batch of
+   evaluations. A shard locks a point on a capture while it evaluates it, and appends the figures to its own journal before it unlocks it; the lock also ends with the process. Each shard
+   reads the journals of all. It begins with its own share of a batch, cut by cost, and then helps the others, so that a batch ends whether all shards run or only one. */
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -16,7 +15,7 @@
 #include "inside.h"
 #include "tune/tune.h"
 
-/* A journal of another shard, as far as it is read. */
+/* The journal of another shard, and how far it is read. */
 struct peer {
     struct shard shard;
     off_t at;
@@ -26,7 +25,7 @@ struct tune_shards {
     struct peer *peers;
     size_t count;
     struct shard_cost *costs; /* of each capture */
-    int claims;               /* the file whose bytes are locked; its name is CLAIMS in the folder of shards */
+    int claims;               /* the file CLAIMS in the folder of shards, whose bytes are locked */
     double waited;            /* seconds for which no other shard appended anything while this one had nothing to do */
 };
 static const char CLAIMS[] = "claims";
@@ -72,7 +71,7 @@ static bool read_lines(struct tune *tune, struct peer *peer, FILE *log, const ch
     return ok && next != JOURNAL_FAILED;
 }
 
-/* What the shard appended since. One that was killed may have left a part of a line, which is read when it is whole. */
+/* Reads what the shard has appended since. A part of a line, which a kill leaves, is not read. */
 static bool read_peer(struct tune *tune, struct peer *peer, bool *some, struct glint_error *err) {
     char path[4096];
     struct stat info;
@@ -105,7 +104,7 @@ static bool add_peer(struct tune_shards *shards, struct shard shard, struct glin
     return true;
 }
 
-/* Of one process, which makes the result of all: the shards that there are. */
+/* For the process that makes the result of all shards: those that the folder has. */
 static bool find_peers(struct tune *tune, const char *folder, struct glint_error *err) {
     DIR *entries = opendir(folder);
     bool ok = true;
@@ -155,7 +154,7 @@ void tune_shards_close(struct tune *tune) {
 
 enum claim { CLAIM_FAILED, CLAIM_HELD, CLAIM_MINE };
 
-/* Locks or unlocks the byte that stands for this work. Who has the same byte by chance only waits. */
+/* Locks or unlocks the byte that stands for this work. Two pieces of work that share a byte by chance are only done one after the other. */
 static enum claim claim(const struct tune *tune, size_t capture, const json_t *values, bool take,
                         struct glint_error *err) {
     char *key = tune_point_key(capture, values);
@@ -172,7 +171,7 @@ static enum claim claim(const struct tune *tune, size_t capture, const json_t *v
     return CLAIM_FAILED;
 }
 
-/* Does the work unless another shard does; *held if one does. What he finished just now is in his journal, which is why it is read again. */
+/* Does the work, unless another shard is doing it (*held) or has just finished it, which its journal tells. */
 static bool try_work(struct tune *tune, size_t capture, const json_t *values, bool *held, struct glint_error *err) {
     bool some = false;
     const enum claim mine = claim(tune, capture, values, true, err);
@@ -198,19 +197,19 @@ struct batch {
     size_t begin, end;    /* this shard's share */
 };
 
-/* The i-th work that this shard looks at: its share, and then, from their ends, those of the others. */
+/* The i-th piece of work that this shard looks at: its own share in order, then the others' shares backwards, since their owners begin at the front. */
 static size_t work_at(const struct batch *batch, size_t i) {
     const size_t own = batch->end - batch->begin;
     return i < own ? batch->begin + i : (batch->begin + batch->count - 1 - (i - own)) % batch->count;
 }
 
-/* Captures of others' shares take time to load, so that they are helped with what this shard has loaded; and with all, if nobody has got on with it for a while. */
+/* Loading a capture takes time. Therefore this shard helps others with captures that it has loaded, and with others only when no shard has appended anything for a while. */
 static bool may_work(const struct tune *tune, const struct batch *batch, size_t i, size_t capture) {
     enum { PATIENCE_SECONDS = 3 };
     return i < batch->end - batch->begin || tune->subjects[capture].judge || tune->shards->waited >= PATIENCE_SECONDS;
 }
 
-/* One pass over all work: *left of which is not known, *worked if some was done. */
+/* Goes over all work once. *left: pieces that are still missing; *worked: whether some was done. */
 static bool work_through(struct tune *tune, const struct batch *batch, size_t *left, bool *worked,
                          struct glint_error *err) {
     for (size_t i = 0; i < batch->count; i++) {

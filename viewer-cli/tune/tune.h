@@ -156,6 +156,24 @@ bool tune_time_in_turns(struct tune *tune, struct tune_subject *subject, struct 
                         struct tune_times times[TUNE_CONTENDERS], struct glint_error *err);
 bool tune_report(void *user, const char *what, double done); /* a glint_progress; user: the tune */
 
+/* work.c */
+/* Begins the journal, or resumes it. --vary's axes must be made before it. */
+bool tune_open(struct tune *tune, struct glint_error *err);
+/* Receives a line of a journal, own or another shard's; false if it is none of this search. */
+bool tune_keep_line(void *user, json_t *line);
+/* Whether all lines so far are of these axes, which may be made after the journal is opened. */
+bool tune_check_lines(const struct tune *tune, struct glint_error *err);
+/* Decodes the texts of values. */
+void tune_values_of(const struct tune *tune, const json_t *texts, double *values);
+/* A piece of work that shards share out: the start on a capture (`values` NULL), or the point of these values, which are texts as in the journal. */
+bool tune_is_known(const struct tune *tune, size_t capture, const json_t *values);
+/* Does it and keeps the result; a shard appends it to its journal. A capture of several that cannot be read is left out. */
+bool tune_do(struct tune *tune, size_t capture, const json_t *values, struct glint_error *err);
+/* Appends to the journal what came of the start on a capture, unless it is there. */
+bool tune_note_beginning(struct tune *tune, size_t capture, struct glint_error *err);
+/* The name of such work, malloc'd; NULL without memory. */
+char *tune_point_key(size_t capture, const json_t *values);
+
 /* shards.c */
 /* Reads what the shards of the folder have done; of a shard those of the same search, of the whole search all. */
 bool tune_shards_open(struct tune *tune, struct glint_error *err);
@@ -165,20 +183,8 @@ void tune_shards_close(struct tune *tune);
 bool tune_share(struct tune *tune, const json_t *points, struct glint_error *err);
 
 /* try.c */
-/* Begins the journal, or resumes it. --vary's axes must be made before it. */
-bool tune_open(struct tune *tune, struct glint_error *err);
-/* Receives a line of a journal, own or another shard's; false if it is none of this search. */
-bool tune_keep_line(void *user, json_t *line);
-/* Runs the start once on each capture, unless the journal has what came of it. A capture of several that cannot be read is left out. */
+/* Runs the start once on each capture, unless the journal has what came of it. */
 bool tune_begin_captures(struct tune *tune, struct glint_error *err);
-/* Whether all lines so far are of these axes, which may be made after the journal is opened. */
-bool tune_check_lines(const struct tune *tune, struct glint_error *err);
-/* Work that shards share: the start on a capture, for `values` NULL, or the point of these values, as the journal has them. */
-bool tune_is_known(const struct tune *tune, size_t capture, const json_t *values);
-/* Does it, and keeps the line, a shard in its journal. */
-bool tune_do(struct tune *tune, size_t capture, const json_t *values, struct glint_error *err);
-/* The name of such work, malloc'd; NULL without memory. */
-char *tune_point_key(size_t capture, const json_t *values);
 /* Evaluates these values, or finds them in the journal. */
 bool tune_evaluate(struct tune *tune, const double *values, struct tune_figures *figures, struct glint_error *err);
 /* Evaluates points that are needed next together with the other shards; does nothing without shards. A glint_search_announce; user: the tune. */
