@@ -2,6 +2,7 @@
 import fcntl
 import json
 import os
+import select
 import shutil
 import signal
 import subprocess
@@ -88,21 +89,21 @@ class Tests:
 
     def test_shards_make_what_one_process_makes(self):
         """Two run at the same time, until one is killed in the middle, and the other goes on alone; the third is started when all is done."""
-        killed = self.waits_for_locks("1/3")
-        second = self.start("2/3")
+        killed = self.waits_for_locks(2)
+        second = self.start("1/3")
         while killed.poll() is None and len(self.lines(1)) + len(self.lines(2)) < len(self.names) + (len(self.names) - 1) * int(sys.argv[3]) // 2:
             time.sleep(0.002)
         killed.send_signal(signal.SIGKILL)
         assert killed.wait() in (-signal.SIGKILL, 0), killed.stderr.read()  # 0: it was faster
-        before = self.lines(1)
-        with open(self.log(1), "ab") as file:
+        before = self.lines(2)
+        with open(self.log(2), "ab") as file:
             file.write(b'{"error":0.1,"cost":2,"capture":0,"val')  # as a kill in the middle of a write leaves it
         assert second.wait() == 0, second.stderr.read()
         run = tap.glint("merge", "many/found.tune", folder=self.folder, status=2)
         assert "is not done" in run.stderr or "missing" in run.stderr, run.stderr
-        first, third = self.start("1/3"), self.start("3/3")
-        assert first.wait() == 0 and third.wait() == 0, (first.stderr.read(), third.stderr.read())
-        assert self.lines(1) == before and not self.lines(3)
+        again, third = self.start("2/3"), self.start("3/3")
+        assert again.wait() == 0 and third.wait() == 0, (again.stderr.read(), third.stderr.read())
+        assert self.lines(2) == before and not self.lines(3)
         works = [json.dumps([line["capture"], line.get("values")]) for number in (1, 2, 3) for line in map(json.loads, self.lines(number))]
         points = sum("values" in line for line in self.whole["log.jsonl"])
         assert len(works) == len(set(works)) == len(self.names) + (len(self.names) - 1) * points, works
@@ -117,17 +118,21 @@ class Tests:
             assert file.read() == other.read()
         self.other_searches_are_refused()
 
-    def waits_for_locks(self, shard):
+    def waits_for_locks(self, number):
         """The shard, started while somebody else works on all that there is to do: it does nothing before that ends."""
         folder = self.path("many", "found.tune", "shards")
         os.makedirs(folder)
         with open(os.path.join(folder, "claims"), "wb") as claims:
             fcntl.lockf(claims, fcntl.LOCK_EX)
-            process = self.start(shard)
-            while process.poll() is None and not os.path.exists(self.log(1)):
+            process = self.start(f"{number}/3")
+            while process.poll() is None and not os.path.exists(self.log(number)):
                 time.sleep(0.01)
-            time.sleep(1)
-            assert process.poll() is None and not self.lines(1)
+            said = b""
+            while b"waiting for" not in said and process.poll() is None:
+                process.send_signal(signal.SIGUSR1)  # so that it prints its progress
+                if select.select([process.stderr], [], [], 0.05)[0]:
+                    said += os.read(process.stderr.fileno(), 4096)
+            assert b"waiting for" in said and not self.lines(number), (said, self.lines(number))
         return process
 
     def other_searches_are_refused(self):
