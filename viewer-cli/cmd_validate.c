@@ -19,7 +19,7 @@ struct arguments {
 
 /* clang-format off */
 static const struct argp_option options[] = {
-    {"output", 'o', "FOLDER", 0, SURVEY_OUTPUT, 0},
+    {"output", 'o', "FOLDER", 0, "A " SURVEY_OUTPUT, 0},
     SHARD_OPTION,
     {"json",   'j', NULL,     0, "Print JSON", 0},
     {0},
