@@ -123,7 +123,9 @@ A sweep of {points} points on {captures:,} captures, in {nodes:,} shards:
 
 - **What breaks first** is the last row: `glint merge` puts any number of journals together in the same memory, but the command that makes tables of them holds all results. A study of more than some
   10⁵ results is better swept as several sets, or its merged `log.jsonl` read by other programs: a JSON object a line.
-- A journal of a shard has at most 256 MiB, which is {most:,.0f} results.
+- A journal has any size: it is read line by line, and a line has at most 64 MiB.
+- `glint lint`, `validate` and `check` ask the file system for the sizes of the captures of other shares, and open none of them that a set file lists. They hold a row of their table for each capture;
+  `glint compare` holds 24 bytes for each preset on each capture, and reads the rest back from the journal.
 - **Opening files** is what a shared file system notices: {opens:.0e} openings within the first minutes. Fewer, longer shards have fewer: a shard opens every capture of the set once, however small its share.
 - The folder `shards` of a study has {nodes:,} entries, and each of them about as many files as it has pictures; `--no-pictures` leaves these out.
 - Slurm takes arrays of up to `MaxArraySize` jobs (1,001 unless configured), and every shard is one.
@@ -144,7 +146,7 @@ def page(args):
                        open_there=sets["open"]["each_s"] * CAPTURES, opens=CAPTURES * NODES, hash_ms=1e3 * (sets["hash"]["each_s"] - sets["open"]["each_s"]), large=record["large_bytes"] / 1e6,
                        hash_there=(sets["hash"]["each_s"] - sets["open"]["each_s"]) * CAPTURES, bytes_there=record["large_bytes"] * CAPTURES / 1e12, line=round(line), journal=line * results / 1e9,
                        journal_shard=line * results / NODES / 1e6, rate=rate, merge_mib=small["memory_mib"], merge_mib_large=large["memory_mib"], merge_there=results / rate, again_ms=1e3 * again, kib=kib,
-                       again_there=again * results, gib=kib * results / 1024**2, most=(1 << 28) / line)
+                       again_there=again * results, gib=kib * results / 1024**2)
     (ROOT / "docs/scale.md").write_text(text)
 
 
