@@ -67,6 +67,7 @@ static const struct example examples[] = {
      "draws permutations until the shares are known to ± 5 %"},
     {"glint blame street.exr -o blame --interval 1",
      "refines the results in the folder; known pipelines are not run again"},
+    {"glint blame shots/ -o blame --shard 3/8", "does the third of eight shares, in blame/shards/3-of-8"},
     {"glint passes screen_trace", "shows the reference of a slot"},
     {0},
 };
@@ -252,7 +253,11 @@ const struct command cmd_blame = {
         "value) is the mean change of error by a player over all orders in which players can be replaced; shares add "
         "up to the error of the preset minus the error of its reference. A player with a negative share improves the "
         "image. Any metric can be used; symmetric, relative_mse and flip are means over pixels. Fog is off, because "
-        "the truth has none. Each capture is replayed without the history of previous frames, except with --shot.",
+        "the truth has none. Each capture is replayed without the history of previous frames, except with --shot. Of "
+        "several captures the folder and the output have figures of all and of those with each tag, with 95 % "
+        "intervals "
+        "(bootstrap over shots), and the captures with the largest errors first, ten of them with pictures; one that "
+        "cannot be read is left out, and the exit status is then 1.",
     .options = options,
     .targets = targets,
     .operand = "capture",

@@ -259,7 +259,10 @@ const struct command cmd_sweep = {
         "parameter also charts of error and cost against it with the knee (the value beyond which larger "
         "ones reduce the error less), points.csv, "
         "points.json, pictures, and log.jsonl, to which each result is appended as soon as it is known: the same "
-        "command resumes an interrupted sweep. Each capture is replayed without the history of previous frames. "
+        "command resumes an interrupted sweep. Of several captures it has errors of all and of those with each tag, "
+        "with "
+        "95 % intervals (bootstrap over shots), and of more than ten the worst first, ten of them with pictures. Each "
+        "capture is replayed without the history of previous frames. "
         "Times are measured after a warm-up with shaders without diagnostics; passes that several points share are "
         "timed once a round.",
     .options = options,

@@ -42,8 +42,8 @@ struct blame_capture {
     struct blame_look *looks; /* until the shares are known */
     size_t look_count, look_room;
     struct blame_round *rounds; /* [round · timed_count + timed coalition]; NULL before the first */
-    bool failed;                /* it has no results, for the reason at: */
-    int64_t failed_at;
+    bool failed;                /* it has no results */
+    int64_t failed_at;          /* the line that says why; -1: none, or that of another shard */
 };
 
 /* Figures over the captures with results: of all, and of those with each tag. */

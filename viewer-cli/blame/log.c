@@ -77,9 +77,8 @@ static bool keep_line(void *user, json_t *line) {
         return json_is_integer(r) && round >= 0 && round <= UINT32_MAX &&
                keep_time(blame, (size_t)capture, (uint32_t)coalition, round, line);
     if (json_is_string(json_object_get(line, "failed"))) {
-        if (!of->failed) of->failed_at = blame->journal.at;
-        of->failed = true;
-        return true;
+        if (of->failed_at < 0) of->failed_at = blame->journal.at;
+        return of->failed = true;
     }
     return json_is_object(json_object_get(line, "errors")) && keep_look(of, (uint32_t)coalition, blame->journal.at);
 }
@@ -99,7 +98,7 @@ void blame_forget_looks(struct blame_capture *capture) {
 
 char *blame_failure(const struct blame *blame, size_t capture) {
     struct glint_error err = {0};
-    if (!blame->of[capture].failed) return NULL;
+    if (blame->of[capture].failed_at < 0) return NULL;
     json_t *line = journal_read((struct journal *)&blame->journal, blame->of[capture].failed_at, &err);
     const char *failure = json_string_value(json_object_get(line, "failed"));
     char *text = strdup(failure ? failure : err.message);
@@ -113,6 +112,7 @@ bool blame_open(struct blame *blame, const struct list *shaders, struct glint_er
     blame->journal =
         (struct journal){.folder = blame->out, .kind = "blame", .reread = true, .keep = keep_line, .user = blame};
     if (!blame->of) return fail_memory(err);
+    for (size_t c = 0; c < blame->captures.count; c++) blame->of[c].failed_at = -1;
     return blame_cut(blame, err) && (blame->definition = define(blame, shaders, err)) &&
            journal_open(&blame->journal, blame->definition, err);
 }

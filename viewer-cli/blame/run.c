@@ -186,8 +186,9 @@ static bool fails_alone(const struct work *work, const struct glint_error *own) 
 /* Of a capture that is divided between shards, that with the first coalition says that it cannot be read. */
 static bool place_failure(const struct work *work, const struct glint_error *own, struct glint_error *err) {
     const uint32_t coalition = work->begun ? work->coalition : 0;
-    if (!blame_works_on(work->blame, work->capture, coalition)) return true;
-    return place_line(work, coalition, work->begun ? work->done : 0, false, json_pack("{s:s}", "failed", own->message),
+    work->blame->of[work->capture].failed = true;
+    return !blame_works_on(work->blame, work->capture, coalition) ||
+           place_line(work, coalition, work->begun ? work->done : 0, false, json_pack("{s:s}", "failed", own->message),
                       err);
 }
 
