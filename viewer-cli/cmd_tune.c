@@ -328,7 +328,8 @@ static bool find_folders(struct tune *tune, char common[4096], char own[4096], s
 static enum status report_tune(const struct arguments *a) {
     const struct tune *tune = &a->tune;
     enum status status = STATUS_DONE;
-    if (tune->shard.count) return shard_report(&a->record, "evaluations", tune_live(tune) * tune->found.count, a->json);
+    if (tune->shard.count)
+        return shard_report(&a->record, "evaluations", tune->captures.count + json_object_size(tune->single), a->json);
     if (a->json) status = print_json(tune_json(tune));
     else tune_print(tune);
     for (size_t s = 0; s < tune->subject_count; s++) {
