@@ -27,7 +27,7 @@ struct survey {
 #define SURVEY_RESULT "results.json"
 #define SURVEY_OUTPUT                                                                                                  \
     "folder for " SURVEY_RESULT ", which has what --json prints; an interrupted command goes on from its journal "     \
-                                "there"
+    "there"
 /* A share needs a folder. To be called when all is parsed. */
 void survey_check(const struct shard *shard, const char *out, struct argp_state *state);
 
