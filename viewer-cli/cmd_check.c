@@ -21,7 +21,7 @@ static const struct argp_option options[] = {
     {"baseline", KEY_BASELINE, "DIR", 0, "The approved run, or the folder of the approved runs if RUN is a folder of runs", 0},
     {"approve",  KEY_APPROVE,  NULL,  0, "Print what changed, and make RUN the new baseline; the previous one is kept as DIR~", 0},
     SHARD_OPTION,
-    DIFF_OPTIONS("FILE.png|FOLDER", "Of one run: write " DIFF_HEAT ". Of a folder of runs: " SURVEY_OUTPUT ", and the table alone is printed"),
+    DIFF_OPTIONS("FILE.png|FOLDER", "Of one run: write " DIFF_HEAT ". Of a folder of runs: a " SURVEY_OUTPUT "; the table alone is then printed"),
     {0},
 };
 /* clang-format on */

@@ -26,7 +26,7 @@ static const struct argp_option options[] = {
     {"fix",      KEY_FIX,      NULL, 0, "Write a copy that fixes the certain findings: with corrected declarations, and with the sky texels of cube maps as FORMAT.md requires. All other pixels stay as they are. A fix that would make another comparison worse is left out. Needs -o", 0},
     {"list",     KEY_LIST,     NULL, 0, "List all possible findings by name", 0},
     {"markdown", KEY_MARKDOWN, NULL, 0, "Print the list as Markdown, with how each finding is measured and what corrects it", 0},
-    {"output",   'o',          "F2|FOLDER", 0, "With --fix, the copy that it writes. Without: " SURVEY_OUTPUT, 0},
+    {"output",   'o',          "F2|FOLDER", 0, "With --fix, the copy that it writes; without, a " SURVEY_OUTPUT, 0},
     SHARD_OPTION,
     OVERWRITE_OPTION,
     {"json",     'j',          NULL, 0, "Print JSON", 0},

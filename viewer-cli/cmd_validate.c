@@ -7,6 +7,7 @@
 #include "io/table.h"
 #include "journal/survey.h"
 #include "options/args.h"
+#include "options/capture_set.h"
 #include "record.h"
 
 struct arguments {
@@ -18,7 +19,7 @@ struct arguments {
 
 /* clang-format off */
 static const struct argp_option options[] = {
-    {"output", 'o', "FOLDER", 0, SURVEY_OUTPUT, 0},
+    {"output", 'o', "FOLDER", 0, "A " SURVEY_OUTPUT, 0},
     SHARD_OPTION,
     {"json",   'j', NULL,     0, "Print JSON", 0},
     {0},
@@ -59,27 +60,31 @@ static void on_violation(void *user, const char *rule, const char *message) {
 }
 
 /* The notes of a valid capture. A file of cube maps alone has no frame. */
-static bool add_notes(const char *file, json_t *line) {
-    struct glint_capture *capture = glint_capture_open(file, NULL, NULL);
-    const bool ok = !capture || json_object_set_new(line, "notes", frame_notes_json(glint_capture_frame(capture))) == 0;
+static bool add_notes(const char *file, json_t *line, struct glint_error *err) {
+    if (!capture_set_may_hold(file)) return true;
+    struct glint_capture *capture = glint_capture_open(file, NULL, err);
+    const bool ok =
+        capture &&
+        (json_object_set_new(line, "notes", frame_notes_json(glint_capture_frame(capture))) == 0 || fail_memory(err));
     glint_capture_close(&capture);
     return ok;
 }
 
 static json_t *validate_file(void *user, size_t i, struct glint_error *err) {
     const struct list *files = user;
-    json_t *violations = json_array(), *line;
+    json_t *violations = json_array(), *line = NULL;
     struct glint_error own = {0};
     struct pipe pipe;
     size_t count = 0;
     const char *file = pipe_input(&pipe, files->items[i], &own);
-    if (file && glint_capture_validate(file, NULL, on_violation, &violations, &count, &own)) {
-        line = json_pack("{s:o}", "violations", violations);
-        if (line && !count && !add_notes(file, line)) line = record_if(false, line);
-    } else {
-        json_decref(violations);
+    bool ok = file && glint_capture_validate(file, NULL, on_violation, &violations, &count, &own);
+    if (ok) line = json_pack("{s:O}", "violations", violations);
+    if (ok && line && !count) ok = add_notes(file, line, &own);
+    if (!ok) {
+        json_decref(line);
         line = own.code == GLINT_ERROR_MEMORY ? NULL : json_pack("{s:o}", "error", json_text(own.message));
     }
+    json_decref(violations);
     pipe_finish(&pipe);
     if (!line) fail_memory(err);
     return line;

@@ -70,6 +70,7 @@ class Tests:
         merged = tap.glint("merge", f"{name}-cut", status=status)
         assert (merged.stdout, merged.stderr) == (written.stdout, written.stderr)
         assert contents(f"{name}-cut", "shards") == contents(f"{name}-one")
+        assert json.loads(tap.glint("batch", "status", f"{name}-cut", "--json").stdout)["merge"]["done"]
         again = tap.glint("merge", f"{name}-cut", "--json", status=status)
         assert (again.stdout, again.stderr) == (plain.stdout, plain.stderr)
         return written
@@ -115,6 +116,41 @@ class Tests:
             with open(f"compare-cut/shards/{number}-of-2/log.jsonl", encoding="utf-8") as file:
                 logs.append([json.loads(line)["capture"] for line in file])
         assert sum(logs, []) == [0, 1, 2, 3] and min(map(len, logs)) == 2
+
+    # ---- Shares ----
+
+    def shares(self, words, out):
+        """What the two shares do."""
+        for number in (1, 2):
+            tap.glint(*words, "-o", out, "--shard", f"{number}/2")
+        logs = []
+        for number in (1, 2):
+            with open(f"{out}/shards/{number}-of-2/log.jsonl", encoding="utf-8") as file:
+                logs.append([line.get("capture", line.get("run")) for line in map(json.loads, file)])
+        return logs
+
+    def write_garbage(self, folder, **sizes):
+        os.makedirs(folder, exist_ok=True)
+        for name, size in sizes.items():
+            with open(f"{folder}/{name}.exr", "wb") as file:
+                file.write(b"x" * size)
+
+    def test_shares_are_cut_by_the_bytes_of_files(self):
+        self.write_garbage("bytes", a=3000, b=1000, c=1000, d=1000)
+        assert self.shares(["validate", "bytes"], "bytes-cut") == [[0], [1, 2, 3]]
+        with open("runs/broken/more", "wb") as file:  # which no image is in
+            file.write(b"x" * 1000000)
+        assert self.shares(CHECK, "bytes-check") == [[0], [1, 2, 3]]
+        os.remove("runs/broken/more")
+
+    def test_shares_of_compare_are_cut_by_pixels(self):
+        self.write_garbage("pixels", b=500000, c=500000, d=500000)
+        shutil.copy("set/room.exr", "pixels/a.exr")
+        shutil.copy(tap.PLAIN, "short.json")
+        presets = f"{tap.PLAIN},short.json"
+        assert self.shares(["compare", "pixels", "--presets", presets, *COMPARE[4:]], "pixels-cut") == [[0], [1, 2, 3]]
+        with open("pixels-cut/shards/1-of-2/shard.json", encoding="utf-8") as file:
+            assert presets in json.load(file)["arguments"], "as they were typed"
 
     # ---- Going on ----
 

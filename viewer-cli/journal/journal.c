@@ -115,10 +115,25 @@ bool journal_open(struct journal *journal, const json_t *definition, struct glin
     return read_log(journal, path, err);
 }
 
+/* Appends all of it, or nothing. */
+static bool write_whole(int log, off_t at, const char *text, size_t length) {
+    for (size_t done = 0; done < length;) {
+        const ssize_t wrote = write(log, text + done, length - done);
+        if (wrote > 0) done += (size_t)wrote;
+        else if (wrote == 0 || errno != EINTR) {
+            const int reason = wrote == 0 ? ENOSPC : errno;
+            if (ftruncate(log, at) != 0) return false;
+            errno = reason;
+            return false;
+        }
+    }
+    return true;
+}
+
 static bool write_line(struct journal *journal, const char *text, size_t length, struct glint_error *err) {
     const char *folder = journal->folder ? journal->folder : "a temporary file for results";
     const off_t at = lseek(journal->log, 0, SEEK_END);
-    if (at < 0 || write(journal->log, text, length) != (ssize_t)length)
+    if (at < 0 || !write_whole(journal->log, at, text, length))
         return glint_fail(err, GLINT_ERROR_IO, "%s%s: %s", folder, journal->folder ? "/log.jsonl" : "",
                           strerror(errno));
     journal->at = at;
@@ -141,8 +156,8 @@ bool journal_append(struct journal *journal, json_t *line, struct glint_error *e
 json_t *journal_read(struct journal *journal, int64_t at, struct glint_error *err) {
     struct journal_line line = {0};
     const char *path = journal->folder ? journal->folder : "the temporary file of results";
-    if (!journal->back) journal->back = output_stream(journal->log, "rb");
     errno = 0;
+    if (!journal->back) journal->back = output_stream(journal->log, "rb");
     const bool found = journal->back && fseeko(journal->back, at, SEEK_SET) == 0;
     if (!found) glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
     const enum journal_next next = found ? journal_next_line(journal->back, path, &line, err) : JOURNAL_FAILED;

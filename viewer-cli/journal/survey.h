@@ -26,7 +26,7 @@ struct survey {
 /* SURVEY_OUTPUT is the help of -o of a command that writes results.json, and SURVEY_RESULT its name. */
 #define SURVEY_RESULT "results.json"
 #define SURVEY_OUTPUT                                                                                                  \
-    "Folder for " SURVEY_RESULT ", which has what --json prints. An interrupted command goes on from its journal "     \
+    "folder for " SURVEY_RESULT ", which has what --json prints; an interrupted command goes on from its journal "     \
     "there"
 /* A share needs a folder. To be called when all is parsed. */
 void survey_check(const struct shard *shard, const char *out, struct argp_state *state);

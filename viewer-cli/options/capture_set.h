@@ -8,6 +8,8 @@
 /* Replaces every folder and every set file (.json) in the list by its captures: of a folder those of its set.json, or else its captures
    *.exr by name, and of a set file those that it lists, in its order. Other arguments stay. */
 bool capture_set_expand(struct list *captures, struct glint_error *err);
+/* False for a file that can be read and is no capture, such as one with cube maps that captures share. */
+bool capture_set_may_hold(const char *path);
 /* The tags of a capture, a JSON array; NULL for one without. */
 const json_t *capture_set_tags(const struct list *captures, size_t i);
 bool capture_set_has_tag(const struct list *captures, size_t i, const char *tag);
