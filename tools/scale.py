@@ -49,7 +49,7 @@ def measure_sets(glint, folder, digest):
         for count in counts:
             write_set(folder / f"{name}{count}.json", folder / "tiny.exr", count, known)
             shard = f"1/{count}"
-            seconds.append(statistics.median(run([glint, "sweep", f"{name}{count}.json", "-o", f"out-{name}-{count}", *PLAIN, "--shard", shard], folder)["wall_s"] for _ in range(3)))
+            seconds.append(statistics.median(run([glint, "sweep", f"{name}{count}.json", "-o", f"out-{name}-{count}", *PLAIN, "--shard", shard], folder)["cpu_s"] for _ in range(3)))
         found[name] = {"start_s": seconds[0], "each_s": (seconds[1] - seconds[0]) / (counts[1] - counts[0])}
     return found
 
@@ -109,7 +109,7 @@ def measure(args):
 PAGE = """# Many captures on many machines
 
 What limits a study of {captures:,} captures on {nodes:,} machines, from what one machine with {cores} cores and a local disk takes. Written by `tools/scale.py page` from a record that
-`tools/scale.py measure build/viewer-cli/glint -o RECORD.json` makes; do not edit. Figures in the column "here" are measured, those in "there" are products of them: a file system that many
+`tools/scale.py measure build/viewer-cli/glint -o RECORD.json` makes; do not edit. Figures in the column "here" are measured, in seconds of the processor, those in "there" are products of them: a file system that many
 machines share answers more slowly, by what its own round trip takes.
 
 A sweep of {points} points on {captures:,} captures, in {nodes:,} shards:
@@ -142,8 +142,8 @@ def page(args):
     fewer, more = (record["whole"][key] for key in sorted(record["whole"], key=int))
     difference = [int(key) for key in sorted(record["whole"], key=int)]
     kib = (more["memory_mib"] - fewer["memory_mib"]) * 1024 / (difference[1] - difference[0])
-    again = (more["wall_s"] - fewer["wall_s"]) / (difference[1] - difference[0])
-    results, rate = CAPTURES * POINTS, 1e6 / large["wall_s"]
+    again = (more["cpu_s"] - fewer["cpu_s"]) / (difference[1] - difference[0])
+    results, rate = CAPTURES * POINTS, 1e6 / large["cpu_s"]
     text = PAGE.format(captures=CAPTURES, nodes=NODES, points=POINTS, cores=record["cores"], start=sets["open"]["start_s"], open_ms=1e3 * sets["open"]["each_s"],
                        open_there=sets["open"]["each_s"] * CAPTURES, opens=CAPTURES * NODES, hash_ms=1e3 * (sets["hash"]["each_s"] - sets["open"]["each_s"]), large=record["large_bytes"] / 1e6,
                        hash_there=(sets["hash"]["each_s"] - sets["open"]["each_s"]) * CAPTURES, bytes_there=record["large_bytes"] * CAPTURES / 1e12, line=round(line), journal=line * results / 1e9,

@@ -100,6 +100,7 @@ class Tests:
     def test_every_command_with_shards_has_scripts(self):
         for k, (words, expected) in enumerate(((["lint", "a.exr"], ["lint", "--shard=2/3", "--output=X", "a.exr"]), (["validate", "s/", "a"], ["validate", "--shard=2/3", "--output=X", "s/", "a"]),
                                                (["compare", "s", "--presets", "a,b"], ["compare", "--shard=2/3", "--output=X", "--presets=a,b", "s"]),
+                                               (["blame", "s", "--repeat", "0"], ["blame", "--shard=2/3", "--output=X", "--repeat=0", "s"]),
                                                (["check", "r", "--baseline=b", "-fail", "0.1"], ["check", "--shard=2/3", "--output=X", "--baseline=b", "--fail=0.1", "r"]))):
             out = f"every{k}"
             glint("batch", *words, "-o", out, "--slurm", "--no-submit", "--shards=3")

@@ -143,7 +143,7 @@ static void add_changes(const struct sweep *sweep, const struct sweep_front *fro
         }
     if (json_array_size(pictures)) {
         page_text(blocks, "text", "Difference between neighbouring points, |a − b| / (a + b):");
-        json_array_append(blocks, json_pack("{s:O}", "pictures", pictures));
+        json_array_append_new(blocks, json_pack("{s:O}", "pictures", pictures));
     }
     json_decref(pictures);
 }
