@@ -225,6 +225,7 @@ class Tests:
 
     def test_a_folder_is_no_configuration_of_colours(self):
         assert "expected a file, found a folder" in glint("view", "good", "-o", "x.png", "--ocio", "good", status=1, folder=self.folder)
+        assert "/proc/self/mem: it cannot be read" in glint("view", "good", "-o", "x.png", "--ocio", "/proc/self/mem", status=1, folder=self.folder)
 
     def test_a_configuration_of_colours_does_not_explode(self):
         spaces = "\n  - !<ColorSpace>\n    name: a0\n    from_scene_reference: &a0 !<CDLTransform> {slope: [1, 1, 1]}\n"
