@@ -48,7 +48,7 @@ def below(folder, *suffixes):
 
 
 def small_capture(folder, name="tiny.exr"):
-    tap.glint("sample", "street", "-o", os.path.join(folder, name), "--size", "16x9", "--cube-size", "8")
+    tap.glint("sample", "street", "--light=1", "-o", os.path.join(folder, name), "--size", "16x9", "--cube-size", "8")
 
 
 def small_run(folder):
@@ -92,7 +92,7 @@ class Shot(Kind):
     commands = [("report shot -o out.html", None), ("info shot/f.0001", None), ("check good --baseline shot", (0, 1, 2, 3, 4))]
 
     def make(self, folder):
-        tap.glint("sample", "street", "-o", os.path.join(folder, "f.exr"), "--size", "16x9", "--cube-size", "8", "--frames", "2")
+        tap.glint("sample", "street", "--light=1", "-o", os.path.join(folder, "f.exr"), "--size", "16x9", "--cube-size", "8", "--frames", "2")
         tap.glint("replay", "f.0001.exr", "f.0002.exr", "-p", tap.PLAIN, "-o", "shot", folder=folder)
         shutil.copytree(os.path.join(folder, "shot"), os.path.join(folder, "good"))
 
@@ -317,7 +317,7 @@ class Fix(Kind):
     commands = [("lint wrong.exr --fix -o fixed.exr", None), ("lint right.exr --fix -o fixed.exr", None)]
 
     def make(self, folder):
-        tap.glint("sample", "street", "-o", os.path.join(folder, "right.exr"), "--size", "64x36", "--cube-size", "8")
+        tap.glint("sample", "street", "--light=1", "-o", os.path.join(folder, "right.exr"), "--size", "64x36", "--cube-size", "8")
         tap.glint("set", "right.exr", "-o", "wrong.exr", "depth=reversed", folder=folder)
 
     def targets(self, folder):
