@@ -51,7 +51,7 @@ class Tests:
     @functools.cached_property
     def shot(self):
         os.mkdir("shot")
-        glint("sample", "room", "-o", "shot/room.exr", f"--frames={CAPTURES}", "--size=16x9", "--cube-size=8", "--truth=1")
+        glint("sample", "room", "--light=1", "-o", "shot/room.exr", f"--frames={CAPTURES}", "--size=16x9", "--cube-size=8", "--truth=1")
         return "shot"
 
     @functools.cached_property

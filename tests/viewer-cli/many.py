@@ -25,8 +25,8 @@ class Tests:
     def __init__(self, folder, count):
         self.folder, self.count = folder, count
         for scene in SCENES:
-            tap.glint("sample", scene, "-o", f"{scene}.exr", "--size", "16x9", "--cube-size", "4", "--truth", "1", folder=folder)
-        tap.glint("sample", "room", "-o", "large.exr", "--size", "32x18", "--cube-size", "8", folder=folder)
+            tap.glint("sample", scene, "--light=1", "-o", f"{scene}.exr", "--size", "16x9", "--cube-size", "4", "--truth", "1", folder=folder)
+        tap.glint("sample", "room", "--light=1", "-o", "large.exr", "--size", "32x18", "--cube-size", "8", folder=folder)
         tap.glint("set", "large.exr", "-o", "wrong.exr", "normalSpace=view", folder=folder)
         shutil.copy(tap.PLAIN, self.path("short.json"))
         self.fill("few", count // 10)

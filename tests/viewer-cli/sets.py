@@ -12,7 +12,7 @@ class Tests:
     def __init__(self, folder):
         self.folder = folder
         os.mkdir(self.path("shot"))
-        tap.glint("sample", "room", "-o", "shot/f.exr", "--size", "16x9", "--cube-size", "4", "--frames", "3", folder=folder)
+        tap.glint("sample", "room", "--light=1", "-o", "shot/f.exr", "--size", "16x9", "--cube-size", "4", "--frames", "3", folder=folder)
 
     def path(self, *names):
         return os.path.join(self.folder, *names)
@@ -67,8 +67,8 @@ class Tests:
         assert "left out: shot/f.0001.exr: expected the hash 111" in run.stderr and "mean of 1 of 2" in run.stdout, run
 
     def test_a_sweep_has_figures_by_tag_and_goes_on_without_broken_captures(self):
-        tap.glint("sample", "room", "-o", "true.exr", "--size", "16x9", "--cube-size", "4", "--truth", "1", folder=self.folder)
-        tap.glint("sample", "street", "-o", "other.exr", "--size", "16x9", "--cube-size", "4", "--truth", "1", folder=self.folder)
+        tap.glint("sample", "room", "--light=1", "-o", "true.exr", "--size", "16x9", "--cube-size", "4", "--truth", "1", folder=self.folder)
+        tap.glint("sample", "street", "--light=1", "-o", "other.exr", "--size", "16x9", "--cube-size", "4", "--truth", "1", folder=self.folder)
         with open(self.path("bad.exr"), "wb") as file:
             file.write(b"not an image")
         paths = {"true.exr": ["in", "dry"], "bad.exr": ["in"], "other.exr": ["dry"], "shot/f.0001.exr": ["dry"], "gone.exr": []}  # the fourth has no truth

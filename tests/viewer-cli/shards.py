@@ -23,7 +23,7 @@ class Tests:
         for name in ("set", "uneven"):
             os.mkdir(self.path(name))
         for scene in SCENES:
-            tap.glint("sample", scene, "-o", f"set/{scene}.exr", "--size", "16x9", "--cube-size", "4", folder=folder)
+            tap.glint("sample", scene, "--light=1", "-o", f"set/{scene}.exr", "--size", "16x9", "--cube-size", "4", folder=folder)
         self.glint("sweep", "set", "-o", "whole", *ARGUMENTS)
         self.whole = contents(self.path("whole"))
         assert len(self.whole["log.jsonl"]) == 6 and len([name for name in self.whole if name.startswith("pictures/")]) > 6
@@ -69,7 +69,7 @@ class Tests:
 
     def test_shards_are_cut_by_their_cost(self):
         """A capture of many pixels takes the share of many small ones, and is not cut in its last part, whose reference would be traced twice."""
-        tap.glint("sample", "street", "-o", "uneven/a.exr", "--size", "48x27", "--cube-size", "4", folder=self.folder)
+        tap.glint("sample", "street", "--light=1", "-o", "uneven/a.exr", "--size", "48x27", "--cube-size", "4", folder=self.folder)
         for i in range(4):
             shutil.copy(self.path("set", "room.exr"), self.path("uneven", f"b{i}.exr"))
         run = self.glint("sweep", "uneven", "-o", "uneven-cut", *ARGUMENTS, "--shard", "2/2", "--json", "--no-pictures")
