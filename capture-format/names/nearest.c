@@ -14,14 +14,13 @@ static size_t min_distance(size_t a, size_t b) {
 
 /* FAR if it cannot be below `limit`. */
 static size_t edit_distance(const char *a, const char *b, size_t limit) {
-    size_t na = strlen(a), nb = strlen(b), least = 0, before;
+    size_t na = strlen(a), nb = strlen(b);
     if (na > LONGEST || nb > LONGEST) return FAR;
     size_t row[3][LONGEST + 1];
     for (size_t j = 0; j <= nb; j++) row[0][j] = j;
     for (size_t i = 1; i <= na; i++) {
         size_t *now = row[i % 3], *above = row[(i + 2) % 3], *above2 = row[(i + 1) % 3];
-        before = least;
-        least = now[0] = i;
+        size_t least = now[0] = i;
         for (size_t j = 1; j <= nb; j++) {
             int ca = tolower((unsigned char)a[i - 1]), cb = tolower((unsigned char)b[j - 1]);
             now[j] = min_distance(min_distance(now[j - 1], above[j]) + 1, above[j - 1] + (ca != cb));
@@ -29,7 +28,7 @@ static size_t edit_distance(const char *a, const char *b, size_t limit) {
                 now[j] = min_distance(now[j], above2[j - 2] + 1);
             least = min_distance(least, now[j]);
         }
-        if (least >= limit && before >= limit) return FAR; /* what follows comes of these two rows, and is no less */
+        if (least >= limit) return FAR; /* and no later row has less, as a swap adds one */
     }
     return row[na % 3][nb];
 }
