@@ -63,7 +63,7 @@ def listing(folder):
 
 def names_a_file(text, folder, environment):
     """Whether the message has the name of a file or folder there, or of a variable."""
-    names = {name for root, folders, files in os.walk(folder) for name in files + [f"{name}/" for name in folders]} | set(environment) | {v for v in environment.values() if v}
+    names = {name for root, folders, files in os.walk(folder) for name in files + [name + end for name in folders for end in "/:"]} | set(environment) | {v for v in environment.values() if v}
     return any(name in text for name in names) or re.search("--[a-z]+", text)
 
 
