@@ -63,7 +63,6 @@ bool run_prepare(struct run *run, struct glint_error *err) {
     const struct graph *graph = run->graph;
     uint32_t sets = 1, images = 0;
     bool quick = false;
-    programs_begin_run(&run->engine->device->programs, run->gpu);
     for (size_t p = 0; p < graph->pass_count; p++) {
         struct step *step = &run->steps[p];
         const struct glint_pass *pass = graph->passes[p].pass;

@@ -173,6 +173,19 @@ bool run_writer_recover(const char *folder) {
     return is_file(folder, "run.json");
 }
 
+bool glint_run_is_unfinished(const char *folder, bool shot) {
+    DIR *entries = is_folder(folder) && !run_writer_recover(folder) ? opendir(folder) : NULL;
+    bool unfinished = entries != NULL;
+    for (const struct dirent *entry; unfinished && (entry = readdir(entries));) {
+        char path[PATH_SIZE];
+        if (!strcmp(entry->d_name, ".") || !strcmp(entry->d_name, "..") || !strcmp(entry->d_name, &NEW[1])) continue;
+        unfinished = shot && snprintf(path, sizeof path, "%s/%s", folder, entry->d_name) < PATH_SIZE &&
+                     glint_run_is_unfinished(path, false);
+    }
+    if (entries) closedir(entries);
+    return unfinished;
+}
+
 /* run.json moves first, as in a replacement: it says what has to be removed, until everything is. */
 bool glint_run_remove(const char *folder, struct glint_error *err) {
     char staging[PATH_SIZE];

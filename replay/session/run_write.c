@@ -160,9 +160,10 @@ static bool check_not_inputs(const struct glint_replay *replay, const char *fold
 bool run_finish_record(struct glint_replay *replay, json_t *root, struct glint_error *err) {
     char hash[33];
     if (!frame_source_hash(&replay->source, hash, err)) return false;
+    const char *path = glint_capture_path(replay->source.capture);
     const int failed =
         json_object_set_new(root, "capture",
-                            json_pack("{ssss}", "path", glint_capture_path(replay->source.capture), "xxh3_128", hash)) |
+                            json_pack("{ss?ss}", "path", record_can_hold(path) ? path : NULL, "xxh3_128", hash)) |
         json_object_set_new(
             root, "seconds",
             json_pack("{sfsfsfsfsf}", "read", replay->source.seconds[PHASE_READ], "upload",

@@ -212,11 +212,20 @@ static struct module module_of(const struct gpu *gpu, const struct spirv *spirv,
                  : (struct module){spirv->unprobed, spirv->unprobed_bytes, spirv->from != NULL};
 }
 
+/* What the driver gets. The caller frees it; NULL: out of memory. */
+static uint32_t *words_of(const struct gpu *gpu, struct module from, size_t *bytes) {
+    uint32_t *opaque = NULL;
+    if (gpu->info.is_cpu && !(opaque = spirv_opaque(from.words, from.bytes, &from.bytes))) return NULL;
+    uint32_t *words = spirv_exact(opaque ? opaque : from.words, from.bytes, bytes);
+    free(opaque);
+    return words;
+}
+
 static bool create_pipeline(struct program *program, struct gpu *gpu, struct module from,
                             const struct constants *constants, bool some_layers, const char *name,
                             struct glint_error *err) {
     VkShaderModuleCreateInfo module_info = {.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
-    uint32_t *words = spirv_exact(from.words, from.bytes, &module_info.codeSize);
+    uint32_t *words = words_of(gpu, from, &module_info.codeSize);
     if (!words) return glint_fail(err, GLINT_ERROR_MEMORY, "%s: out of memory", name);
     module_info.pCode = words;
     VkShaderModule module;
@@ -269,7 +278,6 @@ static struct program *find_program(struct programs *programs, struct gpu *gpu, 
         if (found->key == key) {
             *at = found->next;
             found->next = programs->first;
-            found->uses++;
             return programs->first = found;
         }
         if (count == KEPT) {
@@ -281,32 +289,6 @@ static struct program *find_program(struct programs *programs, struct gpu *gpu, 
         }
     }
     return NULL;
-}
-
-/* The most uses of a program, so that all of them together have few enough: those that are used more than the others go first. Few uses are not
-   worth compiling it again. */
-static uint32_t most_uses(const struct programs *programs) {
-    enum { LEAST = 32, ONE = 128, ALL = 1024 };
-    uint32_t sum = 0, count = 0;
-    for (const struct program *program = programs->first; program; program = program->next)
-        sum += program->uses, count++;
-    if (sum <= ALL || sum / count >= ONE) return ONE;
-    return sum / count > LEAST ? sum / count : LEAST;
-}
-
-/* Lavapipe 22.3 keeps a copy of the shader for each dispatch whose uniform values differ from those of the one before, until the pipeline is
-   destroyed: 100 to 500 KB a use, megabytes a frame. */
-void programs_begin_run(struct programs *programs, struct gpu *gpu) {
-    if (!gpu->info.is_cpu) return;
-    const uint32_t most = most_uses(programs);
-    for (struct program **at = &programs->first, *old; (old = *at);) {
-        if (old->uses < most) {
-            at = &old->next;
-            continue;
-        }
-        *at = old->next;
-        program_destroy(old, gpu);
-    }
 }
 
 static uint64_t program_key(const struct glint_pass *pass, const struct constants *constants, uint64_t module) {

@@ -45,7 +45,6 @@ struct program {
     VkPipelineLayout layout;
     VkPipeline pipeline;
     bool generic; /* reads parameters from memory: set 2 */
-    uint32_t uses;
     struct program *next;
 };
 
@@ -66,8 +65,6 @@ void programs_finish(struct programs *programs, struct gpu *gpu);
 bool pipeline_create_patiently(struct gpu *gpu, const VkComputePipelineCreateInfo *info,
                                const struct constants *constants, const char *name, VkPipeline *pipeline,
                                struct glint_error *err);
-/* Before the first program of a run is asked for: none may be in use. */
-void programs_begin_run(struct programs *programs, struct gpu *gpu);
 /* Finds or creates the program of a pass with these constants, which differ between its phases. With `quick` it is a generic one unless there
    is one for the values of the parameters already. */
 struct program *programs_get(struct programs *programs, struct gpu *gpu, const struct glint_pass *pass,

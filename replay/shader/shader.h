@@ -48,6 +48,9 @@ void spirv_find_uses(struct spirv *spirv);
 /* exact.c: a copy of a module in which each operation on floats is rounded by itself. The caller frees it; NULL: out of memory. */
 uint32_t *spirv_exact(const uint32_t *words, size_t bytes, size_t *exact_bytes);
 
+/* opaque.c: a copy of a module in which no branch depends on uniform values alone, as far as a driver can see. The caller frees it; NULL: out of memory. */
+uint32_t *spirv_opaque(const uint32_t *words, size_t bytes, size_t *opaque_bytes);
+
 /* generic.c: a copy of a module that reads parameters from memory: member i of the uniform block in set SPIRV_VALUES_SET, 32 bits at 4 i bytes,
    takes the place of the specialization constant ids[i], for each bit i of `parameters`. *turned receives the bits of those that it replaced:
    the others stay specialization constants. The caller frees it; NULL: out of memory. */

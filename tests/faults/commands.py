@@ -69,7 +69,7 @@ COMMANDS = {
     "sweep": "sweep tiny.exr -p plain.json --vary screen_trace.steps=4,8 --repeat 0 --reference truth -o out",
     "tune": "tune tiny.exr -p plain.json --vary screen_trace.steps=4..32 --budget-fetches 50% --repeat 0 --reference truth -o out.json",
     "blame": "blame tiny.exr -p plain.json --rays 16 --player-rays 16 --exact 0 --permutations 2 --repeat 0 --reference truth -o out",
-    "selftest": "selftest --quick --only functions",
+    "selftest": "selftest --quick --only expm1",
     "live": "live tiny.exr -p plain.json -o runs",  # serving.py
     # libraries.c
     "library pack": "pack loose/manifest.json out.exr",
@@ -80,7 +80,7 @@ COMMANDS = {
 }
 
 # A fault of these takes many replays: in a sample they have fewer, or are left to longer runs.
-LONG = {"replay SHOT", "replay --against", "library replay"}
+LONG = {"replay SHOT", "replay --against", "library replay", "report"}
 LONGEST = {"compare", "live", "probe", "replay PART", "reference", "sweep", "tune", "blame", "stability", "explain", "selftest", "library reference"}
 
 

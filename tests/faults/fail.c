@@ -1,7 +1,7 @@
 /* A library to preload (LD_PRELOAD) that lets the n-th allocation, or the n-th system call of a kind, fail in a program of glint. What is
    asked for is a text of four words, "KIND NUMBER ERROR HOW":
 
-   KIND    alloc, thread, read, write, open, rename, sync, mmap, make (folders) or remove
+   KIND    alloc, thread, read, write, open, rename, sync, mmap, make (folders) or remove; or any, with 0: calls of each kind are counted
    NUMBER  the number of the call that fails, from 1; with 0 calls are only counted
    ERROR   the error's number (errno), 0 for what is usual for the kind, or "short": the call works with half of the bytes;
            "kill": the process ends by SIGKILL instead of making the call; "tear": it ends when the call has worked with half of the bytes
@@ -9,8 +9,8 @@
 
    It comes from the environment variable GLINT_FAIL, or a program serves many of them (fail_serve.c). GLINT_FAIL_REPORT names a file to
    which is written, a line each: "stack", and "OBJECT OFFSET" for each call of the stack of the first call that fails; when main returns
-   "calls N", "left OBJECT OFFSET" for each block that glint allocated and nobody freed, and "open N", the number of open files. The
-   numbers of stacks go, as 64 bits each, to a file of that name with .stacks. GLINT_FAIL_LOG names a file to which is written what
+   "calls KIND N", "left OBJECT OFFSET" for each block that glint allocated and nobody freed, and "open N", the number of open files. The
+   numbers of stacks go, as 64 bits each, to a file of that name with .KIND for each kind. GLINT_FAIL_LOG names a file to which is written what
    is renamed and synced, a line each: "rename FROM TO" ("over": TO was a file), "sync FILE".
 
    Calls are counted from the beginning of main to its end, in all threads. Only those that are made on behalf of glint count, as what the
@@ -28,15 +28,16 @@ enum { STACKS = 1 << 20, TEXT_BYTES = 16384 };
 
 static const char *const kind_names[FAIL_KINDS] = {"alloc",  "thread", "read", "write", "open",
                                                    "rename", "sync",   "mmap", "make",  "remove"};
+enum { ANY = FAIL_KINDS };
 static int kind = -1;
 static long number;
 static bool all, stacks;
 static char error_text[16];
 static const char *report_path, *log_path;
-static atomic_long calls;
+static atomic_long calls[FAIL_KINDS];
 static atomic_bool running, told;
 static _Thread_local bool inside __attribute__((tls_model("initial-exec")));
-static uint64_t hashes[STACKS];
+static uint64_t hashes[FAIL_KINDS][STACKS];
 static char text[TEXT_BYTES];
 
 /* Appends to the report at once, as the process may not live to the end of main. */
@@ -69,7 +70,7 @@ const void *fail_site(const void *caller) {
 }
 
 bool fail_watches(enum fail_kind which) {
-    return (int)which == kind || (log_path && (which == FAIL_RENAME || which == FAIL_SYNC));
+    return (int)which == kind || kind == ANY || (log_path && (which == FAIL_RENAME || which == FAIL_SYNC));
 }
 
 bool fail_all(void) {
@@ -77,12 +78,12 @@ bool fail_all(void) {
 }
 
 bool fail_now(enum fail_kind which, const void *site) {
-    if ((int)which != kind || !site || inside || !running) return false;
+    if (((int)which != kind && kind != ANY) || !site || inside || !running) return false;
     inside = true;
-    const long n = atomic_fetch_add(&calls, 1) + 1;
+    const long n = atomic_fetch_add(&calls[which], 1) + 1;
     const bool fails = number > 0 && (all ? n >= number : n == number);
     if (fails) tell_stack();
-    if (stacks && n <= STACKS) hashes[n - 1] = fail_stack_hash();
+    if (stacks && n <= STACKS) hashes[which][n - 1] = fail_stack_hash();
     inside = false;
     return fails;
 }
@@ -113,6 +114,7 @@ static void begin(const char *asked) {
     if (sscanf(asked, "%15s %ld %15s %15s", name, &number, error_text, how) != 4) return;
     for (int i = 0; i < FAIL_KINDS; i++)
         if (!strcmp(name, kind_names[i])) kind = i;
+    if (!strcmp(name, "any")) kind = ANY;
     all = !strcmp(how, "all");
     stacks = !strcmp(how, "stacks");
     const int file = open_report("", O_TRUNC);
@@ -129,16 +131,25 @@ void fail_begin(const char *asked, const char *path) {
     running = true;
 }
 
+static void write_stacks(enum fail_kind of) {
+    char suffix[16];
+    snprintf(suffix, sizeof suffix, ".%s", kind_names[of]);
+    const int file = open_report(suffix, O_TRUNC);
+    if (file < 0) return;
+    write_all(file, hashes[of], sizeof **hashes * (size_t)(calls[of] < STACKS ? calls[of] : STACKS));
+    close(file);
+}
+
 void fail_end(void) {
     if (!atomic_exchange(&running, false)) return;
+    const int counted = kind;
     kind = -1; /* what is written here is not counted */
     const int file = open_report("", O_APPEND);
     if (file < 0) return;
-    write_all(file, text, (size_t)snprintf(text, sizeof text, "calls %ld\n", (long)calls));
+    for (int i = 0; i < FAIL_KINDS; i++)
+        if (counted == i || counted == ANY) dprintf(file, "calls %s %ld\n", kind_names[i], (long)calls[i]);
     fail_left_write(file);
     close(file);
-    const int numbers = stacks ? open_report(".stacks", O_TRUNC) : -1;
-    if (numbers < 0) return;
-    write_all(numbers, hashes, sizeof *hashes * (size_t)(calls < STACKS ? calls : STACKS));
-    close(numbers);
+    for (int i = 0; i < FAIL_KINDS && stacks; i++)
+        if (counted == i || counted == ANY) write_stacks((enum fail_kind)i);
 }

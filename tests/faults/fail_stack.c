@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unwind.h>
 
 enum { OBJECTS = 256, FRAMES = 48 };
 enum owner { OWNER_OTHER, OWNER_GLINT, OWNER_CALLER, OWNER_SELF };
@@ -85,17 +86,27 @@ static bool excepted(const void *code) {
     return start && dladdr(code, &info) && info.dli_sname && !strncmp(info.dli_sname, start, strlen(start));
 }
 
+struct search {
+    const void *site;
+    int frames;
+};
+
+/* Ends where it is known who decides: most allocations are LLVM's, whose stacks are deep. */
+static _Unwind_Reason_Code search_frame(struct _Unwind_Context *context, void *user) {
+    struct search *search = user;
+    const void *code = (const void *)_Unwind_GetIP(context);
+    const enum owner owner = object_at(code).owner;
+    if (owner == OWNER_GLINT) search->site = code;
+    const bool ends = owner == OWNER_GLINT || owner == OWNER_OTHER || excepted(code) || ++search->frames == FRAMES;
+    return ends ? _URC_END_OF_STACK : _URC_NO_REASON;
+}
+
 const void *fail_stack_site(const void *caller) {
     const enum owner direct = caller ? object_at(caller).owner : OWNER_CALLER;
     if (direct != OWNER_CALLER) return direct == OWNER_GLINT ? caller : NULL;
-    void *frames[FRAMES];
-    const int count = backtrace(frames, FRAMES);
-    for (int i = 1; i < count; i++) {
-        const enum owner owner = object_at(frames[i]).owner;
-        if (owner == OWNER_GLINT) return frames[i];
-        if (owner == OWNER_OTHER || excepted(frames[i])) return NULL;
-    }
-    return NULL;
+    struct search search = {0};
+    _Unwind_Backtrace(search_frame, &search);
+    return search.site;
 }
 
 uint64_t fail_stack_hash(void) {

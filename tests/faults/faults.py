@@ -32,6 +32,7 @@ import tempfile
 sys.path.append(os.path.join(os.path.dirname(os.path.dirname(os.path.abspath(__file__))), "viewer-cli"))
 from commands import COMMANDS, KINDS, LONG, LONGEST, make_inputs
 import serving
+import tap
 from process import Process
 from serving import Serving
 from table import Table
@@ -57,25 +58,22 @@ class Command:
     """One command, and what it does without a fault."""
 
     def __init__(self, options, name, inputs, folder):
-        self.options, self.name, self.counted = options, name, {}
+        self.options, self.name = options, name
         library = name.startswith("library")
         self.program = options.program if library else options.glint
         make = Serving if name == "live" else Process
         self.process = make(self.program, options.library, COMMANDS[name].split(), library and JANSSON_READS, inputs, folder)
-        first, second = self.process.run(), self.process.run()
+        first = self.process.run("any", how="stacks" if options.stacks or options.record else "once")
         assert first.status == 0, (name, first.status, first.err)
+        self.stacks = {kind: self.count(kind, first) for kind, *_ in KINDS.values()}
+        second = self.process.run()
         self.varies = {"": first.out != second.out}
         self.varies.update({path: first.files[path] != second.files.get(path) for path in first.files})
         self.whole = first
 
-    def count(self, kind):
-        """The outcome of a run without a fault in which calls of this kind are counted, and the stack of each, which takes long; 0 in a sample."""
-        if kind not in self.counted:
-            sample = not self.options.stacks and not self.options.record
-            outcome = self.process.run(kind, how="once" if sample else "stacks")
-            assert outcome.status == 0, (self.name, kind, outcome.err)
-            self.counted[kind] = outcome, [0] * outcome.calls() if sample else self.process.stacks()
-        return self.counted[kind]
+    def count(self, kind, outcome):
+        """The stack of each call of this kind, of a run without a fault; in a sample 0, as they take long."""
+        return self.process.stacks(kind) if self.options.stacks or self.options.record else [0] * outcome.calls(kind)
 
     def same(self, path, one, other):
         if one is None or other is None:
@@ -100,11 +98,11 @@ class Command:
         whole, grows = self.whole.files, self.name in GROWS
         return self.name in KEEPS and before.keys() <= files.keys() and all(path in whole and (grows or self.same(path, files[path], whole[path])) for path in new)
 
-    def leaked(self, outcome, kind):
+    def leaked(self, outcome):
         """What is left at the end and was not left without the fault."""
         if not re.search("^calls ", outcome.report, re.M) or UNENDED in outcome.err:
             return []
-        left = sorted((collections.Counter(outcome.left()) - collections.Counter(self.count(kind)[0].left())).elements())
+        left = sorted((collections.Counter(outcome.left()) - collections.Counter(self.whole.left())).elements())
         return [] if len(left) < 3 and any(self.forgets(outcome, line, *names) for line in left for names in FORGETFUL) else left
 
     def forgets(self, outcome, line, library, function):
@@ -112,7 +110,7 @@ class Command:
         own = any(library in path for path, _ in outcome.stack()[:2])
         return own and line.startswith("left") and self.functions([line.split()[1:]], 1)[0].startswith(function)
 
-    def judge(self, outcome, kind, words, once="once"):
+    def judge(self, outcome, words, once="once"):
         """What is bad about it, or None."""
         whole = self.whole
         if outcome.status is None:
@@ -131,7 +129,7 @@ class Command:
         said = outcome.err + outcome.out.decode(errors="replace") * (self.name in {"validate", "validate SHOT", *ROWS})
         if outcome.status and not re.search(words, said):
             return "does not say why"
-        return "leaks" if self.leaked(outcome, kind) else None
+        return "leaks" if self.leaked(outcome) else None
 
     def functions(self, frames, most):
         """The names and places of what is glint's own of these calls."""
@@ -146,10 +144,10 @@ class Command:
                 break
         return lines or ["?"]
 
-    def explained(self, outcome, kind):
+    def explained(self, outcome):
         """The call that failed and who made it, and what leaked."""
         text = " < ".join(self.functions(outcome.stack(), 5))
-        leaked = collections.Counter(self.leaked(outcome, kind))
+        leaked = collections.Counter(self.leaked(outcome))
         for line, times in list(leaked.items())[:6]:
             words = line.split()
             text += f"; left {times}: " + (self.functions([words[1:]], 1)[0] if words[0] == "left" else line)
@@ -202,7 +200,7 @@ def arguments():
     parser.add_argument("program", type=os.path.abspath)
     parser.add_argument("--all", action="store_true", dest="everything", help="every call")
     parser.add_argument("--stacks", type=int, choices=(1, 2, 3), help="the first, last and middle call of each stack of calls")
-    parser.add_argument("--samples", type=int, default=20, help="faults of a command, about")
+    parser.add_argument("--samples", type=int, default=14, help="faults of a command, about")
     parser.add_argument("--only", default="")
     parser.add_argument("--from", type=int, dest="begin")
     parser.add_argument("--to", type=int, dest="end")
@@ -224,18 +222,18 @@ def try_kind(options, table, command, label, seed):
     kind, error, once, words = KINDS[label]
     if samples(options, command.name, label) == 0:
         return
-    stacks = command.count(kind)[1]
+    stacks = command.stacks[kind]
     chosen = numbers(options, command.name, label, stacks, seed)
     table.begin(command.name, label, len(stacks), len(set(stacks) - {0}), how(options))
     for number in chosen:
         outcome = command.process.run(kind, number, error, once)
         if not outcome.stack():  # threads: fewer calls this time
             continue
-        bad = command.judge(outcome, kind, words, once)
-        table.add(command.name, label, number, bad, lambda: command.explained(outcome, kind))
+        bad = command.judge(outcome, words, once)
+        table.add(command.name, label, number, bad, lambda: command.explained(outcome))
         if bad and options.where:
             print(f"# {command.name}: {label} {number} of {len(stacks)}: {bad}, exit {outcome.status}: {outcome.err[-200:].strip()!r}; "
-                  f"{command.explained(outcome, kind)}", flush=True)
+                  f"{command.explained(outcome)}", flush=True)
 
 
 def try_command(options, table, name, inputs, folder):
@@ -261,10 +259,10 @@ def main():
         names = [name for name in COMMANDS if options.only.split(":")[0] in ("", name) and samples(options, name, "alloc") != 0]
         print(f"1..{len(names)}", flush=True)
         for i, name in enumerate(names, 1):
-            before = table.bad()
+            before, start = table.bad(), tap.cpu_seconds()
             try_command(options, table, name, inputs, folder)
             table.write()
-            print(f"{'ok' if table.bad() == before else 'not ok'} {i} - {name}", flush=True)
+            print(f"{'ok' if table.bad() == before else 'not ok'} {i} - {name}\n# {tap.cpu_seconds() - start:.1f} s of CPU", flush=True)
     finally:
         shutil.rmtree(folder)
         table.print()

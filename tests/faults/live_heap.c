@@ -1,5 +1,5 @@
 /* A library to preload (LD_PRELOAD) that counts the memory which threads of glint hold: the bytes that they allocated and nobody has freed. Threads that the Vulkan driver
-   started are left out, as Lavapipe keeps memory of its own for as long as a pipeline exists. The layer of fault_layer.c asks for the sum. */
+   started are left out, as what they hold changes from moment to moment. The layer of fault_layer.c asks for the sum. */
 #include <dlfcn.h>
 #include <pthread.h>
 #include <stdbool.h>

@@ -35,8 +35,8 @@ class Outcome:
     def __init__(self, status, out, err, files, report):
         self.status, self.out, self.err, self.files, self.report = status, out, err, files, report
 
-    def calls(self):
-        return int(re.search("^calls ([0-9]+)$", self.report, re.M).group(1))
+    def calls(self, kind):
+        return int(re.search(f"^calls {kind} ([0-9]+)$", self.report, re.M).group(1))
 
     def left(self):
         """The blocks and open files at the end, or nothing if the process ended before."""
@@ -132,6 +132,6 @@ class Process:
         self.marks = marks(self.folder)
         return found
 
-    def stacks(self):
-        """A number for the stack of each call that the last run counted."""
-        return array.array("Q", contents(self.report + ".stacks"))
+    def stacks(self, kind):
+        """A number for the stack of each call of this kind that the last run counted."""
+        return array.array("Q", contents(f"{self.report}.{kind}"))

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "fixture.h"
+#include "listing.h"
 #include "program.h"
 #include "unit.h"
 
@@ -25,33 +26,6 @@ static struct places places_of(const struct glint_pass *pass) {
         places.parameters |= UINT64_C(1) << place++;
     }
     return places;
-}
-
-enum { LINE = 8192, LINES_MAX = 20000 };
-/* The lines that spirv-dis writes of a module, which spirv-val finds valid. */
-struct listing {
-    char *lines[LINES_MAX];
-    size_t count;
-};
-static void list(void **state, const uint32_t *words, size_t bytes, struct listing *listing) {
-    const struct fixture *fixture = *state;
-    char command[600], path[256];
-    static char line[LINE];
-    snprintf(path, sizeof path, "%s/generic.spv", fixture->folder);
-    FILE *file = fopen(path, "wb");
-    assert_true(file && fwrite(words, bytes, 1, file) == 1 && fclose(file) == 0);
-    snprintf(command, sizeof command, "spirv-val --target-env vulkan1.3 %s && spirv-dis --raw-id --no-indent %s", path,
-             path);
-    assert_non_null(file = popen(command, "r"));
-    listing->count = 0;
-    while (fgets(line, sizeof line, file)) {
-        assert_true(listing->count < LINES_MAX);
-        assert_non_null(listing->lines[listing->count++] = strdup(line));
-    }
-    assert_int_equal(pclose(file), 0);
-}
-static void list_free(struct listing *listing) {
-    while (listing->count) free(listing->lines[--listing->count]);
 }
 
 /* Bits of the parameters whose constants are in the module. */
@@ -88,7 +62,7 @@ static void check_module(void **state, const struct glint_pass *pass, const uint
     size_t generic_bytes;
     uint32_t *generic = spirv_generic(words, bytes, places.ids, places.parameters, &turned, &generic_bytes);
     assert_non_null(generic);
-    list(state, words, bytes, &before), list(state, generic, generic_bytes, &after);
+    list(*state, words, bytes, &before), list(*state, generic, generic_bytes, &after);
     const uint64_t had = constants_in(&before, &places), has = constants_in(&after, &places);
     assert_true((turned & ~places.parameters) == 0 && (had & ~turned) == has && (had | turned) == had);
     for (uint32_t place = FIRST_PLACE; place < SPIRV_PLACES; place++) {
@@ -157,7 +131,7 @@ static void check_users_shader(void **state, const char *text, const char *stay)
         fail_msg("%s: %s", text, err.message);
     uint32_t *generic = spirv_generic(spirv.words, spirv.bytes, places.ids, places.parameters, &turned, &bytes);
     assert_non_null(generic);
-    list(state, generic, bytes, &listing);
+    list(*state, generic, bytes, &listing);
     const uint64_t left = constants_in(&listing, &places);
     for (uint32_t place = FIRST_PLACE; place < SPIRV_PLACES; place++)
         if (left >> place & 1) strcat(strcat(names, places.names[place]), " ");

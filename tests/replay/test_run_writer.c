@@ -130,6 +130,30 @@ static void an_interrupted_removal_is_completed(void **state) {
     assert_true(glint_run_remove(folder, &err));
 }
 
+/* Catches: a run or a file of the user that is taken for what an interrupted process left, a whole run that is, and a name that can never be used
+   again after an interruption. */
+static void an_unfinished_run_is_told_from_all_others(void **state) {
+    char inner[256], staging[300];
+    assert_false(glint_run_is_unfinished(old_run(state, "finished"), false));
+    const char *folder = new_folder(state, "unfinished");
+    assert_true(glint_run_is_unfinished(folder, false) && glint_run_is_unfinished(folder, true));
+    snprintf(inner, sizeof inner, "%s/frame", folder);
+    snprintf(staging, sizeof staging, "%s/.glint-new", inner);
+    assert_true(mkdir(inner, 0777) == 0 && mkdir(staging, 0777) == 0);
+    write_text(staging, "new.exr", "half");
+    assert_true(glint_run_is_unfinished(inner, false) && exists(staging, "new.exr"));
+    assert_true(glint_run_is_unfinished(folder, true) && !glint_run_is_unfinished(folder, false));
+    write_text(inner, "mine.txt", "mine");
+    assert_false(glint_run_is_unfinished(inner, false) || glint_run_is_unfinished(folder, true));
+    /* A whole run that only had to be moved. */
+    write_new(staging);
+    assert_false(glint_run_is_unfinished(inner, false));
+    expect_run(inner, true);
+    snprintf(inner, sizeof inner, "%s/file", folder);
+    write_text(folder, "file", "mine");
+    assert_false(glint_run_is_unfinished(inner, false) || glint_run_is_unfinished("/nowhere", false));
+}
+
 /* Catches: files that are moved out of another folder, or removed there, because a run folder says so. */
 static void a_link_is_not_followed(void **state) {
     struct glint_error err = {0};
@@ -227,6 +251,7 @@ int main(void) {
         cmocka_unit_test(a_run_replaces_another_at_once),
         cmocka_unit_test(an_interrupted_replacement_is_completed),
         cmocka_unit_test(an_interrupted_removal_is_completed),
+        cmocka_unit_test(an_unfinished_run_is_told_from_all_others),
         cmocka_unit_test(a_link_is_not_followed),
         cmocka_unit_test(one_process_at_a_time_writes),
         cmocka_unit_test(a_folder_made_for_the_lock_goes_with_it),

@@ -3,6 +3,7 @@ import base64
 import contextlib
 import json
 import os
+import pathlib
 import re
 import shutil
 import subprocess
@@ -109,7 +110,7 @@ class Browser:
     def open(self, path):
         for said in (self.messages, self.requests, self.dialogs):
             said.clear()
-        self.call("Page.navigate", url="file://" + os.path.abspath(path))
+        self.call("Page.navigate", url=pathlib.Path(os.path.abspath(path)).as_uri())
         while self.notice(self.receive()) != "Page.loadEventFired":
             pass
 

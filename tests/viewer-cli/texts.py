@@ -6,35 +6,15 @@ import os
 import struct
 import subprocess
 import sys
-import unicodedata
 import xml.dom.minidom
 
 import tap
 from browser import run_tests
+from corpus import CORPUS, MARK, SCRIPT_END, hidden
 from live import Live
 from terminal_codes import without_codes
 
 GLINT = os.path.abspath(sys.argv[1])
-MARK = "FORGED"  # begins a line only if a stranger's line break does
-
-# As names of files and as texts. No slash and no NUL, which no name of a file has.
-CORPUS = {
-    "escape": f"a\x1b[31mb\x1b]0;t\x07c\x9bd\x1bP1;2q~\x1b\\",
-    "lines": f"a\n{MARK} b\r{MARK} c\x0b\x0c\x85\u2028{MARK} d",
-    "bidi": "gpj\u202eexe\u2066\u2069\u200f\u061c\ufeff\U000e0041",
-    "markup": "<img src=x onerror=alert(1)><&lt;![CDATA[]]><!-- -->\"'`--><script>alert(2)<",
-    "shell": "$(touch $PWNED)`touch $PWNED`;'\\''\"!!&|>x #\\",
-    "formats": "%s%n%99999d{}${x}=cmd|' C'!A0 javascript:alert(1)",
-    "dash": "--help -rf",
-    "bytes": b"\xff\xc0\x9b\xed\xa0\x80 cut \xe2\x82".decode(errors="surrogateescape"),
-    "long": "n" * 240,
-}
-SCRIPT_END = "</script><script>alert(3)</script><svg onload=alert(4)>\x1b[31m\x7f\x9b\u202e\n"  # in texts, where a slash may be
-
-
-def hidden(text):
-    """Characters that may not be printed: controls, marks of direction, and what has no width but joiners."""
-    return [c for c in text if c != "\n" and (unicodedata.category(c) in ("Cc", "Cs", "Zl", "Zp") or (unicodedata.category(c) == "Cf" and c not in "\u200c\u200d"))]
 
 
 def shown(data, *about):
@@ -126,6 +106,12 @@ class Tests:
             self.glint("info", f"{text}/no", statuses=(1, 2))
             self.glint(text, statuses=(2,))
             self.glint("view", f"--{text}", statuses=(0, 2))
+        self.glint("replay", self.linked(f"{CORPUS['bytes']}.exr"), "-o", "unnamed", "--preset", tap.PLAIN)
+        with open(self.path("unnamed/run.json"), encoding="utf-8") as file:
+            assert json.load(file)["capture"]["path"] is None  # JSON has no such text
+        self.glint("info", "unnamed")
+        self.glint("report", "unnamed", "-o", "u.html")
+        assert "not UTF-8" in self.glint("explain", "unnamed", "8,6", "-o", "u2.html", statuses=(1,)).err
 
     def test_names_in_pictures(self):
         for name, text in CORPUS.items():

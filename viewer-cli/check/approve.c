@@ -179,20 +179,28 @@ static bool replace(const char *fresh, const char *baseline, const char *kept, s
     return ok;
 }
 
-static bool remove_contents(const char *folder, struct glint_error *err) {
-    DIR *entries = opendir(folder);
-    bool ok = entries || fail_at(folder, err);
-    for (const struct dirent *entry; entries && (entry = readdir(entries));)
+static bool remove_contents(DIR *entries, const char *folder, struct glint_error *err) {
+    bool ok = true;
+    rewinddir(entries);
+    for (const struct dirent *entry; (entry = readdir(entries));)
         if (strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0 &&
             unlinkat(dirfd(entries), entry->d_name, 0) != 0)
             ok = fail_at(folder, err);
-    if (entries) closedir(entries);
     return ok;
 }
 
-/* Locks the folder of the copy, and clears what a process left there that was killed: the old baseline, if that has its place neither as the baseline
-   nor as the one before it (between the two steps of `exchange`), or a copy that is of no use any more. */
-static struct glint_folder_lock *begin_copy(const char *fresh, const char *kept, struct glint_error *err) {
+/* Whether the folder has not been moved elsewhere. */
+static bool has_name(DIR *entries, const char *folder) {
+    struct stat opened, named;
+    return fstat(dirfd(entries), &opened) == 0 && lstat(folder, &named) == 0 && opened.st_dev == named.st_dev &&
+           opened.st_ino == named.st_ino;
+}
+
+/* Locks the folder of the copy and opens it, so that it can be removed without memory or another descriptor. Clears what a process left there that was
+   killed: the old baseline, if that has its place neither as the baseline nor as the one before it (between the two steps of `exchange`), or a copy
+   that is of no use any more. */
+static struct glint_folder_lock *begin_copy(const char *fresh, const char *kept, DIR **entries,
+                                            struct glint_error *err) {
     char record[PATH_SIZE];
     struct glint_folder_lock *lock = join(record, fresh, "/run.json", err) ? glint_folder_lock(fresh, err) : NULL;
     if (lock && access(record, F_OK) == 0 && access(kept, F_OK) != 0) {
@@ -200,7 +208,9 @@ static struct glint_folder_lock *begin_copy(const char *fresh, const char *kept,
         glint_folder_unlock(&lock);
         if (moved) lock = glint_folder_lock(fresh, err);
     }
-    if (lock && !remove_contents(fresh, err)) glint_folder_unlock(&lock);
+    *entries = lock ? opendir(fresh) : NULL;
+    if (lock && !*entries) fail_at(fresh, err);
+    if (lock && !(*entries && remove_contents(*entries, fresh, err))) glint_folder_unlock(&lock);
     return lock;
 }
 
@@ -209,7 +219,8 @@ static struct glint_folder_lock *begin_copy(const char *fresh, const char *kept,
 static bool approve(const char *run, const char *baseline, const json_t *files, struct glint_error *err) {
     char fresh[PATH_SIZE], kept[PATH_SIZE];
     if (!join(fresh, baseline, ".new~", err) || !join(kept, baseline, "~", err)) return false;
-    struct glint_folder_lock *lock = begin_copy(fresh, kept, err), *old = NULL;
+    DIR *entries = NULL;
+    struct glint_folder_lock *lock = begin_copy(fresh, kept, &entries, err), *old = NULL;
     bool ok = lock && (access(baseline, F_OK) != 0 || (old = glint_folder_lock(baseline, err))) &&
               copy_run(run, fresh, files, err);
     if (ok && memory_ran_out())
@@ -218,7 +229,8 @@ static bool approve(const char *run, const char *baseline, const json_t *files, 
     const bool again = ok && is_same_run(fresh, baseline, files);
     ok = ok && (again || replace(fresh, baseline, kept, err)) &&
          (glint_path_sync_folder(baseline) || fail_at(baseline, err));
-    if (lock && (again || !ok) && remove_contents(fresh, NULL)) rmdir(fresh);
+    if (lock && (again || !ok) && has_name(entries, fresh) && remove_contents(entries, fresh, NULL)) rmdir(fresh);
+    if (entries) closedir(entries);
     glint_folder_unlock(&old);
     glint_folder_unlock(&lock);
     return ok;

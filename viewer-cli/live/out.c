@@ -74,7 +74,8 @@ struct writing {
 static bool work_write(struct live *live, void *user, struct glint_error *err) {
     struct writing *w = user;
     struct stat info;
-    if (lstat(w->folder, &info) == 0)
+    const bool shot = state_first_frame(live, &w->state) != w->state.capture;
+    if (lstat(w->folder, &info) == 0 && !glint_run_is_unfinished(w->folder, shot))
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: exists; expected the name of a new folder", w->folder);
     if (!glint_make_folder(live->out, err)) return false;
     const bool ok = write_state(live, &w->state, w->folder, err);

@@ -116,6 +116,10 @@ bool run_source_read(struct run_source *source, const char *folder, struct glint
     bool ok = json && find_file(source->capture, folder, json_object_get(capture, "path"), err) &&
               find_file(source->history, folder, json_object_get(json, "history"), err) &&
               find_file(source->inputs, folder, json_object_get(json, "inputs"), err);
+    if (ok && !source->capture[0])
+        ok = glint_fail(err, GLINT_ERROR_FORMAT,
+                        "%s/run.json: capture.path: expected a path, found none, as where the path was not UTF-8",
+                        folder);
     if (ok && !(source->pipeline = rebuild(json, &cause)))
         ok = glint_fail(err, cause.code, "%s/run.json: %s", folder, cause.message);
     source->all = json_is_true(json_object_get(json, "all"));

@@ -425,6 +425,9 @@ const struct glint_run_image *glint_run_find(const struct glint_run *run, const 
 /* Removes run.json and then the images that it lists; what an interrupted removal leaves, the next removal or run removes. It is no error if the
    folder holds no run. */
 bool glint_run_remove(const char *folder, struct glint_error *err);
+/* Whether the folder, or with `shot` each of the folders in it, has nothing but what is left when a process ends before it has written a whole run,
+   so that a new run loses nothing. A whole run that had yet to get its place gets it. */
+bool glint_run_is_unfinished(const char *folder, bool shot);
 /* Replaces `folder`/run.json atomically. */
 bool glint_run_write_json(const char *folder, const char *text, struct glint_error *err);
 /* Reads an image as GLINT_F32, GLINT_U32 or its stored type, which keeps every bit: colours as they are encoded. */
