@@ -26,7 +26,17 @@ bool row_is_dispatch(const struct glint_row *row) {
     return row->kind == GLINT_ROW_DISPATCH || row->kind == GLINT_ROW_DISPATCH_LEVELS;
 }
 bool row_is_image(const struct glint_row *row) {
-    return row_is_sampled(row) || glint_row_is_output(row);
+    return row_is_sampled(row) || glint_row_is_output(row) || row->kind == GLINT_ROW_WRITE_LEVELS;
+}
+uint32_t row_levels(const struct glint_row *row, bool is_cpu) {
+    return row->chain && !is_cpu ? (uint32_t)row->chain : 1;
+}
+uint32_t pass_block(const struct glint_pass *pass, bool is_cpu) {
+    const struct glint_row *row = glint_pass_row(pass, GLINT_ROW_BLOCKS, NULL);
+    return row && is_cpu ? (uint32_t)row->first : 1;
+}
+uint32_t row_bindings(const struct glint_row *row) {
+    return row->kind == GLINT_ROW_WRITE_LEVELS ? (uint32_t)row->chain : 1;
 }
 const char *row_image(const struct glint_row *row) {
     return row->image ? row->image : row->name;
