@@ -26,12 +26,20 @@ struct target {
     struct glint_exr_kept kept; /* the part whose chunks it takes, or none */
 };
 
+/* Bytes that follow each other and have not been written yet: OpenEXRCore writes a header in hundreds of pieces of some bytes. */
+struct waiting {
+    uint8_t bytes[1 << 14];
+    size_t size;
+    uint64_t offset;
+};
+
 struct job {
     const char *path;
     struct target *targets;
     size_t target_count, chunk_count;
     exr_context_t context;
-    struct glint_exr_stream stream;
+    glint_file file;
+    struct waiting waiting;
     struct worker workers[GLINT_MAX_WORKERS];
     glint_mutex lock;
     glint_condition turn;
@@ -49,12 +57,34 @@ static bool job_fail(struct job *job, enum glint_code code, const char *part, co
     return false;
 }
 
+static bool write_waiting(struct job *job) {
+    struct waiting *waiting = &job->waiting;
+    const size_t size = waiting->size;
+    waiting->size = 0;
+    return !size || glint_file_write(job->file, waiting->bytes, size, waiting->offset);
+}
+
+static exr_result_t complain_of_writing(exr_const_context_t context) {
+    glint_exr_complain(context, EXR_ERR_WRITE_IO, strerror(errno));
+    return EXR_ERR_WRITE_IO;
+}
+
+/* Chunks are written in turn, and headers before them: one call at a time. */
 static int64_t stream_write(exr_const_context_t context, void *user, const void *buffer, uint64_t size, uint64_t offset,
                             exr_stream_error_func_ptr_t error) {
     (void)error;
-    struct glint_exr_stream *stream = user;
-    if (glint_file_write(stream->file, buffer, size, offset)) return (int64_t)size;
-    glint_exr_complain(context, EXR_ERR_WRITE_IO, strerror(errno));
+    struct job *job = user;
+    struct waiting *waiting = &job->waiting;
+    const bool follows = offset == waiting->offset + waiting->size && size <= sizeof waiting->bytes - waiting->size,
+               fits = size <= sizeof waiting->bytes;
+    bool ok = follows || write_waiting(job);
+    if (ok && fits) {
+        if (!follows) waiting->offset = offset;
+        memcpy(waiting->bytes + waiting->size, buffer, size);
+        waiting->size += size;
+    } else ok = ok && glint_file_write(job->file, buffer, size, offset);
+    if (ok) return (int64_t)size;
+    complain_of_writing(context);
     return -1;
 }
 
@@ -246,7 +276,7 @@ static exr_result_t declare_part(struct job *job, size_t i, const struct glint_e
 static bool write_headers(struct job *job) {
     exr_context_initializer_t init = EXR_DEFAULT_CONTEXT_INITIALIZER;
     init.error_handler_fn = glint_exr_complain;
-    init.user_data = &job->stream;
+    init.user_data = job;
     init.write_fn = stream_write;
     init.alloc_fn = glint_exr_memory_take;
     init.free_fn = glint_exr_memory_free;
@@ -259,6 +289,7 @@ static bool write_headers(struct job *job) {
         rv = declare_part(job, i, job->targets[0].part, &what);
     }
     if (!rv) what = "header", rv = exr_write_header(job->context);
+    if (!rv && !write_waiting(job)) rv = complain_of_writing(job->context);
     if (glint_exr_memory_ran_out()) return job_fail(job, GLINT_ERROR_MEMORY, name, "out of memory");
     if (!rv) return true;
     char text[512];
@@ -314,7 +345,8 @@ static bool write_file(struct job *job, size_t chunk_bytes, uint32_t threads) {
     }
     ok = ok && glint_loop(job->chunk_count, workers, write_chunk, job);
     if (job->context) {
-        const exr_result_t rv = exr_finish(&job->context);
+        exr_result_t rv = exr_finish(&job->context);
+        if (!rv && !write_waiting(job)) rv = complain_of_writing(NULL);
         if (ok && rv)
             ok = job_fail(job, GLINT_ERROR_IO, job->targets[job->target_count - 1].part->name, glint_exr_complaint(rv));
     }
@@ -330,7 +362,7 @@ static bool write_file(struct job *job, size_t chunk_bytes, uint32_t threads) {
 bool glint_exr_write_file(const char *path, const struct glint_exr_part *parts, size_t count,
                           const struct glint_exr_write_options *options, struct glint_error *err) {
     struct glint_arena arena = {0};
-    struct job job = {.path = path, .stream = {.file = GLINT_NO_FILE, .path = path}};
+    struct job job = {.path = path, .file = GLINT_NO_FILE};
     struct complete_file out;
     size_t chunk_bytes = 0;
     if (!count) return glint_fail(err, GLINT_ERROR_USAGE, "%s: expected at least one part, found none", path);
@@ -339,7 +371,7 @@ bool glint_exr_write_file(const char *path, const struct glint_exr_part *parts, 
     bool ok =
         plan_chunks(&job, parts, count, options->kept, &arena, &chunk_bytes, err) && complete_open(&out, path, err);
     if (ok) {
-        job.stream.file = out.file;
+        job.file = out.file;
         ok = write_file(&job, chunk_bytes, options->threads);
         if (!ok && err) *err = job.first;
         ok = complete_close(&out, ok, options->durable, err);

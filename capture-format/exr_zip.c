@@ -10,7 +10,17 @@
 static void split_parity(const uint8_t *in, size_t bytes, uint8_t *out) {
     const size_t even = (bytes + 1) / 2, odd = bytes / 2;
     uint8_t *second = out + even;
-    for (size_t i = 0; i < odd; i++) {
+    size_t i = 0;
+#ifdef __SSE2__
+    const __m128i low = _mm_set1_epi16(0xff);
+    for (; i + 16 <= odd; i += 16) {
+        const __m128i a = _mm_loadu_si128((const __m128i *)(const void *)(in + 2 * i));
+        const __m128i b = _mm_loadu_si128((const __m128i *)(const void *)(in + 2 * i + 16));
+        _mm_storeu_si128((__m128i *)(void *)(out + i), _mm_packus_epi16(_mm_and_si128(a, low), _mm_and_si128(b, low)));
+        _mm_storeu_si128((__m128i *)(void *)(second + i), _mm_packus_epi16(_mm_srli_epi16(a, 8), _mm_srli_epi16(b, 8)));
+    }
+#endif
+    for (; i < odd; i++) {
         out[i] = in[2 * i];
         second[i] = in[2 * i + 1];
     }
@@ -20,11 +30,42 @@ static void split_parity(const uint8_t *in, size_t bytes, uint8_t *out) {
 static void join_parity(const uint8_t *in, size_t bytes, uint8_t *out) {
     const size_t even = (bytes + 1) / 2, odd = bytes / 2;
     const uint8_t *second = in + even;
-    for (size_t i = 0; i < odd; i++) {
+    size_t i = 0;
+#ifdef __SSE2__
+    for (; i + 16 <= odd; i += 16) {
+        const __m128i a = _mm_loadu_si128((const __m128i *)(const void *)(in + i));
+        const __m128i b = _mm_loadu_si128((const __m128i *)(const void *)(second + i));
+        _mm_storeu_si128((__m128i *)(void *)(out + 2 * i), _mm_unpacklo_epi8(a, b));
+        _mm_storeu_si128((__m128i *)(void *)(out + 2 * i + 16), _mm_unpackhi_epi8(a, b));
+    }
+#endif
+    for (; i < odd; i++) {
         out[2 * i] = in[i];
         out[2 * i + 1] = second[i];
     }
     if (even > odd) out[2 * odd] = in[odd];
+}
+
+/* To the difference of each byte from the one before, biased by 128, in place. */
+static void take_differences(uint8_t *data, size_t bytes) {
+    size_t i = 1;
+    uint8_t before = data[0];
+#ifdef __SSE2__
+    const __m128i bias = _mm_set1_epi8(-128);
+    __m128i last = _mm_slli_si128(_mm_cvtsi32_si128(before), 15); /* the bytes before those of `now` */
+    for (; i + 16 <= bytes; i += 16) {
+        const __m128i now = _mm_loadu_si128((const __m128i *)(const void *)(data + i));
+        const __m128i shifted = _mm_or_si128(_mm_slli_si128(now, 1), _mm_srli_si128(last, 15));
+        _mm_storeu_si128((__m128i *)(void *)(data + i), _mm_add_epi8(_mm_sub_epi8(now, shifted), bias));
+        last = now;
+    }
+    before = (uint8_t)(_mm_extract_epi16(last, 7) >> 8);
+#endif
+    for (; i < bytes; i++) {
+        const uint8_t now = data[i];
+        data[i] = (uint8_t)(now - before + 128);
+        before = now;
+    }
 }
 
 /* From differences (biased by 128) back to bytes: a running sum, 16 at a time where the machine can. */
@@ -53,12 +94,7 @@ static void sum_differences(uint8_t *data, size_t bytes) {
 size_t glint_zip_pack(struct libdeflate_compressor *zip, const uint8_t *in, size_t bytes, uint8_t *scratch,
                       uint8_t *out) {
     split_parity(in, bytes, scratch);
-    uint8_t before = scratch[0];
-    for (size_t i = 1; i < bytes; i++) {
-        const uint8_t now = scratch[i];
-        scratch[i] = (uint8_t)(now - before + 128);
-        before = now;
-    }
+    take_differences(scratch, bytes);
     return libdeflate_zlib_compress(zip, scratch, bytes, out, bytes - 1);
 }
 

@@ -42,6 +42,7 @@ BINDING = 'layout(set = 0, binding = __LINE__) uniform $kind $image;'
 WRITTEN = 'layout(set = 0, binding = __LINE__) uniform writeonly $kind $image; const bool is_half_##$image = HALF_##$format;'
 OPTIONAL = BINDING + ' layout(constant_id = 1000 + __LINE__) const bool has_##$image = true;'
 LIST = OPTIONAL.replace('$kind', 'utextureBuffer').replace('$image', '$list')
+CHAIN = 5  # levels that WRITE_LEVELS and DISPATCH_CHAIN write in one dispatch
 # In C a DISPATCH_LIST is a READ of the list, too.
 READ_LIST = ('}, {.kind = GLINT_ROW_READ, .id = __LINE__, .name = #$list, .glsl = "utextureBuffer", .optional = true, '
              '.format = GLINT_FORMAT_R32UI, .size = GLINT_SIZE_LIST, .fallback = 0xFFFFFFFFu')
@@ -91,6 +92,12 @@ KINDS = [
          bindings=OPTIONAL, as_kind='READ'),
     Kind('READ_OWN', 'kind, name, image', 'All levels of an image that this pass writes, to read; `name` is the binding\'s.',
          row='.name = #$name, .image = #$image, .glsl = #$kind', bindings=BINDING.replace('$image', '$name')),
+    Kind('WRITE_LEVELS', 'kind, name, image',
+         'An image with levels that this pass writes, for dispatches that write several (DISPATCH_CHAIN): name[i] is level dispatch_level + i for i up '
+         'to 4. Nothing may be written to a level that the image has not.',
+         row=f'.name = #$name, .image = #$image, .glsl = #$kind, .chain = {CHAIN}',
+         bindings=f'layout(set = 0, binding = __LINE__) uniform writeonly $kind $name[{CHAIN}]; '
+                  f'const bool is_half_##$name[{CHAIN}] = bool[]({", ".join(["is_half_##$image"] * CHAIN)});'),
     Kind('HISTORY', 'kind, name, image',
          'The contents of an image of the pipeline, not of the capture, at the end of the previous frame, valid where frame.flags.x is 1; the '
          'image\'s fallback value if its pass was dropped in that frame. Otherwise one texel with that value. `name` is the binding\'s.',
@@ -142,6 +149,12 @@ KINDS = [
          'DISPATCH_LEVELS that counts from the finest level that is no wider than the parameter: 0 is that one, -1 the next finer; numbers '
          'beyond the existing levels are clamped to them.',
          row='.name = #$image, .assigned = #$width, .first = $first, .last = $last, .order = GLINT_ORDER_##$order', as_kind='DISPATCH_LEVELS'),
+    Kind('DISPATCH_CHAIN', 'image',
+         'Behind a DISPATCH over level 0, the other levels. On a GPU, where a dispatch takes longer than its work on small levels, each one writes the '
+         'level that it runs over and the next coarser ones, CHAIN = 5 in all (WRITE_LEVELS): the DISPATCH levels 0 to 4, then one dispatch levels 5 '
+         'to 9, and so on. On a CPU, where a barrier in a workgroup takes longer, CHAIN is 1: each level has its own dispatch.',
+         row=f'.name = #$image, .chain = {CHAIN}, .last = -1, .order = GLINT_ORDER_down',
+         bindings=f'layout(constant_id = __LINE__) const int CHAIN = {CHAIN};', as_kind='DISPATCH_LEVELS'),
     Kind('DISPATCH_LIST', 'list, range',
          'Behind a DISPATCH and instead of it when a pass makes this list: over the tiles of that range (shared/work_list.h), and with tile_works '
          'false over the others, to write what the images hold there. The shader gets its texel from tile_texel() (shared/work_list.glsl). Of '

@@ -49,7 +49,7 @@ def measure_sets(glint, folder, digest):
         for count in counts:
             write_set(folder / f"{name}{count}.json", folder / "tiny.exr", count, known)
             shard = f"1/{count}"
-            seconds.append(statistics.median(run([glint, "sweep", f"{name}{count}.json", "-o", f"out-{name}-{count}", *PLAIN, "--shard", shard], folder)["wall_s"] for _ in range(3)))
+            seconds.append(statistics.median(run([glint, "sweep", f"{name}{count}.json", "-o", f"out-{name}-{count}", *PLAIN, "--shard", shard], folder)["cpu_s"] for _ in range(3)))
         found[name] = {"start_s": seconds[0], "each_s": (seconds[1] - seconds[0]) / (counts[1] - counts[0])}
     return found
 
@@ -81,13 +81,15 @@ def measure_merge(glint, folder):
     return rows
 
 
-def measure_whole(glint, folder):
-    """What a whole sweep holds in memory: all its results."""
+def measure_whole(glint, folder, digest):
+    """Merges with the tables and the page that the command makes."""
     rows = {}
-    for count in (25, 100):
-        write_set(folder / f"whole{count}.json", folder / "tiny.exr", count)
-        rows[count * POINTS] = run([glint, "sweep", f"whole{count}.json", "-o", f"whole-out{count}", *PLAIN], folder)
-        rows[count * POINTS]["again"] = run([glint, "sweep", f"whole{count}.json", "-o", f"whole-out{count}", *PLAIN], folder)
+    for count in (500, 5000):
+        write_set(folder / f"whole{count}.json", folder / "tiny.exr", count, digest)
+        run([glint, "sweep", f"whole{count}.json", "-o", f"whole-out{count}", *PLAIN, "--shard", f"1/{count}"], folder)
+        fake = folder / f"whole-fake{count}"
+        fake_shards(fake, next((folder / f"whole-out{count}" / "shards").iterdir()), count * POINTS)
+        rows[count * POINTS] = run([glint, "merge", fake], folder)
     return rows
 
 
@@ -99,7 +101,7 @@ def measure(args):
         digest = json.loads((folder / "run/run.json").read_text())["capture"]["xxh3_128"]
         run([glint, "sample", "street", "-o", "large.exr", "--size", "1920x1080", "--cube-size", "64"], folder)
         record = {"cores": os.cpu_count(), "large_bytes": (folder / "large.exr").stat().st_size, "sets": measure_sets(glint, folder, digest),
-                  "merge": measure_merge(glint, folder), "whole": measure_whole(glint, folder)}
+                  "merge": measure_merge(glint, folder), "whole": measure_whole(glint, folder, digest)}
     args.output.parent.mkdir(parents=True, exist_ok=True)
     args.output.write_text(json.dumps(record, indent=1) + "\n")
 
@@ -107,7 +109,7 @@ def measure(args):
 PAGE = """# Many captures on many machines
 
 What limits a study of {captures:,} captures on {nodes:,} machines, from what one machine with {cores} cores and a local disk takes. Written by `tools/scale.py page` from a record that
-`tools/scale.py measure build/viewer-cli/glint -o RECORD.json` makes; do not edit. Figures in the column "here" are measured, those in "there" are products of them: a file system that many
+`tools/scale.py measure build/viewer-cli/glint -o RECORD.json` makes; do not edit. Figures in the column "here" are measured, in seconds of the processor, those in "there" are products of them: a file system that many
 machines share answers more slowly, by what its own round trip takes.
 
 A sweep of {points} points on {captures:,} captures, in {nodes:,} shards:
@@ -119,11 +121,13 @@ A sweep of {points} points on {captures:,} captures, in {nodes:,} shards:
 | Without `hash` in the set file it reads each whole file, too: of small files (a 1080p capture has {large:.0f} MB) | {hash_ms:.2f} ms a capture | {hash_there:.0f} s a shard and {bytes_there:.0f} TB read by each: give hashes |
 | Journals | {line:,} bytes a result | {journal:.1f} GB in sum, {journal_shard:.1f} MB a shard |
 | `glint merge --journal-only` | {rate:,.0f} results a second, {merge_mib:.0f} MiB at 10⁵ and {merge_mib_large:.0f} MiB at 10⁶ results | {merge_there:.0f} s, the same memory |
-| Tables and page of the merged study, which are made in memory | {again_ms:.1f} ms and {kib:.1f} KiB a result | {again_there:.0f} s and {gib:.0f} GiB |
+| `glint merge` with the tables and the page, which read the results back from the merged journal | {again_ms:.2f} ms and {kib:.2f} KiB a result, {whole_mib:.0f} MiB at 10⁵ results | {again_there:.0f} s and {gib:.1f} GiB |
 
-- **What breaks first** is the last row: `glint merge` puts any number of journals together in the same memory, but the command that makes tables of them holds all results. A study of more than some
-  10⁵ results is better swept as several sets, or its merged `log.jsonl` read by other programs: a JSON object a line.
-- A journal of a shard has at most 256 MiB, which is {most:,.0f} results.
+- **What breaks first** is the last row: one process makes the tables of all shards, and holds some figures of each result for means, intervals and fronts. A study of more than some 10⁷ results is
+  better swept as several sets, or its merged `log.jsonl` read by other programs: a JSON object a line.
+- A journal has any size: it is read line by line, and a line has at most 64 MiB.
+- `glint lint`, `validate` and `check` ask the file system for the sizes of the captures of other shares, and open none of them that a set file lists. They hold a row of their table for each capture;
+  `glint compare` holds 24 bytes for each preset on each capture, and reads the rest back from the journal.
 - **Opening files** is what a shared file system notices: {opens:.0e} openings within the first minutes. Fewer, longer shards have fewer: a shard opens every capture of the set once, however small its share.
 - The folder `shards` of a study has {nodes:,} entries, and each of them about as many files as it has pictures; `--no-pictures` leaves these out.
 - Slurm takes arrays of up to `MaxArraySize` jobs (1,001 unless configured), and every shard is one.
@@ -137,14 +141,14 @@ def page(args):
     line = large["bytes"] / 1e6
     fewer, more = (record["whole"][key] for key in sorted(record["whole"], key=int))
     difference = [int(key) for key in sorted(record["whole"], key=int)]
-    kib = (more["again"]["memory_mib"] - fewer["again"]["memory_mib"]) * 1024 / (difference[1] - difference[0])
-    again = (more["again"]["wall_s"] - fewer["again"]["wall_s"]) / (difference[1] - difference[0])
-    results, rate = CAPTURES * POINTS, 1e6 / large["wall_s"]
+    kib = (more["memory_mib"] - fewer["memory_mib"]) * 1024 / (difference[1] - difference[0])
+    again = (more["cpu_s"] - fewer["cpu_s"]) / (difference[1] - difference[0])
+    results, rate = CAPTURES * POINTS, 1e6 / large["cpu_s"]
     text = PAGE.format(captures=CAPTURES, nodes=NODES, points=POINTS, cores=record["cores"], start=sets["open"]["start_s"], open_ms=1e3 * sets["open"]["each_s"],
                        open_there=sets["open"]["each_s"] * CAPTURES, opens=CAPTURES * NODES, hash_ms=1e3 * (sets["hash"]["each_s"] - sets["open"]["each_s"]), large=record["large_bytes"] / 1e6,
                        hash_there=(sets["hash"]["each_s"] - sets["open"]["each_s"]) * CAPTURES, bytes_there=record["large_bytes"] * CAPTURES / 1e12, line=round(line), journal=line * results / 1e9,
                        journal_shard=line * results / NODES / 1e6, rate=rate, merge_mib=small["memory_mib"], merge_mib_large=large["memory_mib"], merge_there=results / rate, again_ms=1e3 * again, kib=kib,
-                       again_there=again * results, gib=kib * results / 1024**2, most=(1 << 28) / line)
+                       again_there=again * results, gib=kib * results / 1024**2, whole_mib=more["memory_mib"])
     (ROOT / "docs/scale.md").write_text(text)
 
 

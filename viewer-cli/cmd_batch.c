@@ -23,6 +23,7 @@ struct arguments {
     const struct command *command; /* that is cut into shards, or NULL */
     const struct action *action;   /* on the folder of a batch, or NULL */
     struct list options;           /* of that command, malloc'd */
+    char *folder;                  /* `out`, where it is malloc'd */
 };
 
 /* Other than those of the commands whose options are passed on. */
@@ -47,6 +48,9 @@ static const struct example examples[] = {
     {"glint batch sweep shots/ -o steps --vary screen_trace.cells=8..512:log --slurm --sbatch=--time=2:00:00 "
      "--sbatch=--account=render",
      "passes options on to sbatch"},
+    {"glint batch lint shots/ -o linted --slurm --shards 32", "does so with another command that has --shard"},
+    {"glint batch tune shots/ -o half.json --budget-fetches 50% --slurm",
+     "tunes a preset, in the folder half.tune; its shards share out each round of evaluations"},
     {"glint batch status steps", "shows the state of each shard, and how far it is"},
     {"glint batch resubmit steps", "submits again what is not done and not in the queue"},
     {"glint batch cancel steps", "takes the jobs out of the queue; what they have done is kept"},
@@ -76,9 +80,25 @@ static void check_sbatch(const struct arguments *a, struct argp_state *state) {
         argp_error(state, "--partition: a line of a job script has no line breaks");
 }
 
+/* Of a command whose --folder names its folder, -o is an option like others. */
+static void find_folder(struct arguments *a, struct argp_state *state) {
+    static const char given[] = "--folder=";
+    char *output = NULL, *folder = NULL;
+    const char *dot = strrchr(a->out, '.');
+    if (!dot || strcmp(dot, ".json") != 0) argp_error(state, "-o %s: expected NAME.json", a->out);
+    for (size_t i = 0; i < a->options.count; i++)
+        if (!strncmp(a->options.items[i], given, strlen(given))) folder = strdup(a->options.items[i] + strlen(given));
+    if (!folder && asprintf(&folder, "%.*s.%s", (int)(dot - a->out), a->out, a->command->name) < 0) folder = NULL;
+    if (!folder || asprintf(&output, "--output=%s", a->out) < 0) argp_failure(state, 1, 0, "out of memory");
+    list_add(&a->options, output, state);
+    a->out = a->folder = folder;
+}
+
 static void check_study(struct arguments *a, struct argp_state *state) {
-    if (!a->operands.count) argp_error(state, "no %s given", a->command->operand);
-    if (!a->out) argp_error(state, "no output folder given: -o FOLDER");
+    if (!a->operands.count) argp_error(state, "no %s given", a->command->operand ? a->command->operand : "capture");
+    if (!a->out)
+        argp_error(state, "no output %s", a->command->rounds ? "given: -o NAME.json" : "folder given: -o FOLDER");
+    if (a->command->rounds) find_folder(a, state);
     if (!a->shards) a->shards = 8;
     if (!a->slurm) argp_error(state, "expected the system that runs the shards: --slurm");
     for (size_t i = 0; i < a->operands.count; i++)
@@ -96,10 +116,11 @@ static void keep_option(struct arguments *a, int key, const char *value, struct 
 }
 
 static void check_arguments(struct arguments *a, struct argp_state *state) {
+    char *names = a->command || a->action ? NULL : batch_studied_names();
     if (a->command) check_study(a, state);
     else if (!a->action)
-        argp_error(state, "expected sweep, status, resubmit or cancel%s%s", a->operands.count ? ", found " : "",
-                   a->operands.count ? a->operands.items[0] : "");
+        argp_error(state, "expected a command with --shard (%s), or status, resubmit or cancel%s%s", names ? names : "",
+                   a->operands.count ? ", found " : "", a->operands.count ? a->operands.items[0] : "");
     else if (a->operands.count != 1) argp_error(state, "expected one folder of a batch");
     else if (a->out || a->slurm || a->shards || a->gpus || a->partition || a->sbatch.count || a->wait)
         argp_error(state, "%s has no option but --json: the others are those of the job scripts", a->action->name);
@@ -145,6 +166,7 @@ static enum status tell_submitted(const struct arguments *a, const struct batch 
 
 static enum status run_study(const struct arguments *a, struct batch *batch, struct glint_error *err) {
     const struct batch_script script = {.output = a->out,
+                                        .option = a->command->rounds ? "folder" : "output",
                                         .options = a->options.items,
                                         .operands = a->operands.items,
                                         .partition = a->partition,
@@ -236,6 +258,7 @@ static enum status cmd_batch_run(int argc, char **argv) {
     const enum status status = a.action ? a.action->run(&a, &batch, &err) : run_study(&a, &batch, &err);
     batch_finish(&batch);
     for (size_t i = 0; i < a.options.count; i++) free((char *)a.options.items[i]);
+    free(a.folder);
     list_free(&a.options);
     list_free(&a.operands);
     list_free(&a.sbatch);
@@ -245,10 +268,11 @@ static enum status cmd_batch_run(int argc, char **argv) {
 
 const struct command cmd_batch = {
     .name = "batch",
-    .arguments = "sweep|status|resubmit|cancel F...|FOLDER",
-    .summary = "run a sweep in shards, as jobs of Slurm",
+    .arguments = "COMMAND|status|resubmit|cancel F...|FOLDER",
+    .summary = "run a study in shards, as jobs of Slurm",
     .description =
-        "glint batch sweep takes the arguments of glint sweep, cuts the sweep into shards, and submits them to Slurm "
+        "glint batch COMMAND takes the arguments of a command that has --shard, such as sweep, tune, compare, "
+        "lint, validate or check, cuts it into shards, and submits them to Slurm "
         "as a job array, and a "
         "job that merges their results and waits for them. FOLDER then contains the job scripts shard.sbatch and "
         "merge.sbatch, which can be changed and submitted by hand, batch.json (the jobs), logs, shards, and after the "

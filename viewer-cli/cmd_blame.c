@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include "command.h"
+#include "io/console.h"
 #include "blame/blame.h"
 #include "options/pass_names.h"
 #include "options/pipeline_args.h"
@@ -12,6 +13,7 @@ struct arguments {
     struct pipeline_args pipeline;
     const char *metric;
     bool json, progress;
+    char folder[4096]; /* of a shard */
 };
 
 enum {
@@ -45,6 +47,7 @@ static const struct argp_option options[] = {
     {"permutations", KEY_PERMUTATIONS, "N",       0, "Draw at most N permutations (default 200)", 0},
     {"seed",      KEY_SEED,      "N",             0, "Seed of the permutations (default 1)", 0},
     {"repeat",    KEY_REPEAT,    "N",             0, "Timed rounds after the shares are known; every round runs each pipeline once (default 3; 0: no times)", 0},
+    SHARD_OPTION,
     WHOLE_PIPELINE_OPTIONS("The pipeline"),
     PROGRESS_OPTION,
     {"json",      'j',           NULL,            0, "Print JSON, as in FOLDER/shares.json", 0},
@@ -64,6 +67,7 @@ static const struct example examples[] = {
      "draws permutations until the shares are known to ± 5 %"},
     {"glint blame street.exr -o blame --interval 1",
      "refines the results in the folder; known pipelines are not run again"},
+    {"glint blame shots/ -o blame --shard 3/8", "does the third of eight shares, in blame/shards/3-of-8"},
     {"glint passes screen_trace", "shows the reference of a slot"},
     {0},
 };
@@ -104,8 +108,12 @@ static error_t cmd_blame_parse(int key, char *arg, struct argp_state *state) {
             argp_error(state, "--interval %s: expected a percentage above 0 and up to 100", arg);
         blame->options.interval = 0.01 * percent;
         return 0;
+    case KEY_SHARD:
+        shard_parse(&blame->shard, arg, state);
+        return 0;
     case ARGP_KEY_END:
         if (blame->shot) split_shot(blame, state);
+        if (blame->shard.count && !blame->out) argp_error(state, "--shard: no output folder given: -o FOLDER");
         answer_args_check(&blame->against, blame->captures.count, state);
         return 0;
     }
@@ -140,8 +148,8 @@ static bool begin_blame(struct arguments *a, struct glint_error *err) {
 
 /* Prints the shares as soon as they are known, because times take at least as long again. */
 static bool attribute_error(struct blame *blame, bool json, bool *shown, struct glint_error *err) {
-    if (!blame_find_shares(blame, err)) return false;
-    if (!(blame->rounds ? blame_publish(blame, true, err) : blame_sum_up(blame, err))) return false;
+    if (!blame_find_shares(blame, err) || !blame_sum_up(blame, err) || !blame_draw(blame, err)) return false;
+    if (blame->rounds && !blame_publish(blame, true, err)) return false;
     progress_end(blame->progress);
     if (!json) blame_print_shares(blame);
     *shown = true;
@@ -150,16 +158,61 @@ static bool attribute_error(struct blame *blame, bool json, bool *shown, struct 
     return blame_publish(blame, true, err);
 }
 
+/* What one of several processes does: its part of the results, without what is made of all. */
+static enum status run_shard(struct blame *blame, const struct arguments *a, int argc, char **argv,
+                             struct glint_error *err) {
+    size_t all;
+    struct shard_record record = {.shard = blame->shard,
+                                  .folder = blame->out,
+                                  .results = blame_expected(blame, &all),
+                                  .argc = argc,
+                                  .argv = argv};
+    const bool ok = shard_begin(&record, err) && blame_find_shares(blame, err) && blame_find_times(blame, err) &&
+                    shard_write(&record, true, err);
+    progress_end(blame->progress);
+    return ok ? shard_report(&record, "results", all, a->json) : command_fail(&cmd_blame, err);
+}
+
+/* Captures without results. */
+static enum status report_failures(const struct blame *blame) {
+    enum status status = STATUS_DONE;
+    for (size_t c = 0; c < blame->captures.count; c++) {
+        char *failure = blame_failure(blame, c);
+        if (!failure) continue;
+        command_note(&cmd_blame, "left out: %s", failure);
+        free(failure);
+        status = STATUS_CHECK;
+    }
+    return status;
+}
+
 /* Writes and prints the results so far. */
 static void report_interrupted_blame(struct blame *blame, bool json, bool shown) {
     struct glint_error err = {0};
     if (!blame_publish(blame, true, &err)) command_note(&cmd_blame, "%s", err.message);
-    if (!json && !shown && blame_is_known(&blame->captured[0])) blame_print_shares(blame);
+    if (!json && !shown && blame_is_known(&blame->mean)) blame_print_shares(blame);
     if (!json && shown) blame_print_times(blame);
     if (!blame->out) return;
     char text[512];
     journal_describe_kept(&blame->journal, "results", text);
     command_note(&cmd_blame, "%s", text);
+}
+
+static enum status run_whole(struct blame *blame, const struct arguments *a, struct glint_error *err) {
+    bool shown = false;
+    const bool ok = attribute_error(blame, a->json, &shown, err);
+    progress_end(blame->progress);
+    if (!ok) {
+        const enum status status = command_fail(&cmd_blame, err);
+        if (err->code == GLINT_ERROR_INTERRUPTED) report_interrupted_blame(blame, a->json, shown);
+        return status;
+    }
+    if (a->json) {
+        console_plain(true);
+        blame_write_json(stdout, blame, 2);
+        putchar('\n');
+    } else blame_print_times(blame);
+    return report_failures(blame);
 }
 
 static enum status cmd_blame_run(int argc, char **argv) {
@@ -168,18 +221,17 @@ static enum status cmd_blame_run(int argc, char **argv) {
                                     .options = {.exact = 8, .interval = 0.02, .permutations = 200, .seed = 1}}};
     struct glint_error err = {0};
     struct progress progress;
-    bool shown = false;
     command_parse(&cmd_blame, argc, argv, &a);
     struct blame *blame = &a.blame;
     progress_begin(&progress);
     blame->progress = &progress;
     progress.lines = a.progress;
-    const bool ok = begin_blame(&a, &err) && attribute_error(blame, a.json, &shown, &err);
-    progress_end(&progress);
+    bool ok = !blame->shard.count || shard_folder(&blame->shard, blame->out, a.folder, &err);
+    if (ok && blame->shard.count) blame->out = a.folder;
+    ok = ok && begin_blame(&a, &err);
     enum status status = ok ? STATUS_DONE : command_fail(&cmd_blame, &err);
-    if (!ok && err.code == GLINT_ERROR_INTERRUPTED && blame->captured) report_interrupted_blame(blame, a.json, shown);
-    if (ok && a.json) status = print_json(blame_json(blame));
-    else if (ok) blame_print_times(blame);
+    if (ok) status = blame->shard.count ? run_shard(blame, &a, argc, argv, &err) : run_whole(blame, &a, &err);
+    progress_end(&progress);
     struct glint_device *device = blame->device;
     blame_finish(blame);
     if (device) glint_device_destroy(&device);
@@ -201,7 +253,11 @@ const struct command cmd_blame = {
         "value) is the mean change of error by a player over all orders in which players can be replaced; shares add "
         "up to the error of the preset minus the error of its reference. A player with a negative share improves the "
         "image. Any metric can be used; symmetric, relative_mse and flip are means over pixels. Fog is off, because "
-        "the truth has none. Each capture is replayed without the history of previous frames, except with --shot.",
+        "the truth has none. Each capture is replayed without the history of previous frames, except with --shot. Of "
+        "several captures the folder and the output have figures of all and of those with each tag, with 95 % "
+        "intervals "
+        "(bootstrap over shots), and the captures with the largest errors first, ten of them with pictures; one that "
+        "cannot be read is left out, and the exit status is then 1.",
     .options = options,
     .targets = targets,
     .operand = "capture",

@@ -12,7 +12,10 @@ struct arguments {
     struct list captures, presets, settings;
     const char *out, *device, *effect;
     uint32_t rounds, limit_s;
-    bool json, every; /* every: no presets are named */
+    struct shard shard;
+    struct shard_record record;    /* of a shard */
+    char folder[4096], result[64]; /* of a shard */
+    bool json, every;              /* every: no presets are named */
 };
 
 enum { KEY_PRESETS = 256, KEY_REPEAT };
@@ -24,6 +27,7 @@ static const struct argp_option options[] = {
     EFFECTS_OPTION,
     {"set",     KEY_SET,     "PRESET:SLOT.PARAM=VALUE", 0, "Set a parameter of one preset; glint passes SLOT lists them", 0},
     {"repeat",  KEY_REPEAT,  "N",          0, "Timed rounds; every round runs each preset once (default 3)", 0},
+    SHARD_OPTION,
     DEVICE_OPTION, LIMIT_OPTION,
     {"json",    'j',         NULL,         0, "Print JSON", 0},
     {0},
@@ -35,6 +39,8 @@ static const struct example examples[] = {
      "compares two presets on two scenes, with pictures"},
     {"glint compare frames/ --presets mafia3,mine.json -o compared",
      "compares two presets over a folder of captures: which is better, by how much, and in which it is worst"},
+    {"glint compare frames/ -o compared --shard 3/8",
+     "does a share of it, one of eight; glint merge compared puts them together"},
     {"glint compare street.exr --presets mafia3,mine.json --repeat 20", "compares a preset file with another preset"},
     {"glint compare street.exr --presets kf2,mafia3 --set kf2:resolve.blur=0", "changes one parameter of a preset"},
     {"glint sample street -o street.exr --truth 16", "makes a capture with a truth, which errors need"},
@@ -62,8 +68,9 @@ static char *cmd_compare_values(int key) {
 
 static error_t cmd_compare_parse(int key, char *arg, struct argp_state *state) {
     struct arguments *a = state->input;
-    (void)arg;
+    if (key == KEY_SHARD) return shard_parse(&a->shard, arg, state), 0;
     if (key != ARGP_KEY_END) return ARGP_ERR_UNKNOWN;
+    survey_check(&a->shard, a->out, state);
     a->every = a->presets.count == 0;
     for (size_t i = 0; a->every && glint_preset(i); i++)
         if (strcmp(glint_preset(i), "reference") != 0) list_add(&a->presets, glint_preset(i), state);
@@ -75,7 +82,7 @@ static enum status report_failures(const struct contest_table *table) {
     const size_t presets = table->contest->count;
     size_t captures = 0, failed = 0;
     for (size_t c = 0; c < table->capture_count; c++) {
-        const bool read = table->log->entries[c].state == CONTEST_DONE;
+        const bool read = table->log->states[c] == CONTEST_DONE;
         captures += !read;
         for (size_t p = 0; read && p < presets; p++) {
             const struct showing *s = contest_showing(table, c, p);
@@ -114,68 +121,101 @@ static void print_effect_json(struct json_out *json, const struct contest_work *
     if (!json->several) putchar('\n');
 }
 
-static void note_kept(const struct contest_log *log) {
-    char text[512];
-    if (!log->journal.folder) return;
-    journal_describe_kept(&log->journal, "results", text);
-    command_note(&cmd_compare, "%s", text);
+static void print_table(const struct contest_work *work, struct json_out *json) {
+    if (json->wanted) print_effect_json(json, work);
+    else if (work->table.shown_count) contest_print(&work->table);
+    if (!json->wanted && work->overall) contest_print_overall(&work->table, work->overall);
 }
 
-/* Compares the results of one effect. Its journal stays if `keep`, until all effects are compared; *done becomes false if this one is not. */
-static enum status compare(struct contest *contest, const struct arguments *a, const char *folder, bool keep,
-                           struct json_out *json, bool *done, struct glint_error *err) {
-    struct contest_work work = {.captures = &a->captures, .folder = folder[0] ? folder : NULL};
+/* What goes on while effects are compared. */
+struct comparing {
+    struct contest *contest;
+    struct arguments *a;
+    const struct glint_effect *effects[EFFECTS_MAX];
+    size_t count, done; /* effects, and those that were compared without an error */
+    bool begun;         /* shard.json is written */
+    struct json_out json;
+};
+
+/* Compares the results of one effect. The journals of several stay until all are compared. */
+static enum status compare(struct comparing *c, const struct glint_effect *effect, const char *folder,
+                           struct glint_error *err) {
+    struct contest *contest = c->contest;
+    struct contest_work work = {.captures = &c->a->captures,
+                                .folder = folder[0] ? folder : NULL,
+                                .shard = c->a->shard,
+                                .record = c->begun ? NULL : &c->a->record,
+                                .effects = c->count};
     struct progress progress;
     struct missing missing = {0};
+    contest_judge(contest, effect);
     progress_begin(&progress);
     contest->progress = &progress;
     contest->missing = &missing;
-    const bool ok = contest_compare(contest, &work, err);
+    bool ok = contest_compare(contest, &work, err);
     progress_end(&progress);
+    c->done += ok;
+    c->begun = !work.record;
+    if (ok && c->a->shard.count && c->done == c->count) ok = shard_write(&c->a->record, true, err);
     enum status status = ok ? STATUS_DONE : command_fail(&cmd_compare, err);
-    if (!ok && err->code == GLINT_ERROR_INTERRUPTED) note_kept(&work.log);
+    if (!ok && err->code == GLINT_ERROR_INTERRUPTED) survey_note_kept(&work.log.survey);
     missing_note(&cmd_compare, &missing, 0);
-    if (ok && json->wanted) print_effect_json(json, &work);
-    else if (ok) {
-        if (work.table.shown_count) contest_print(&work.table);
-        if (work.overall) contest_print_overall(&work.table, work.overall);
+    if (ok && !c->a->shard.count) {
+        print_table(&work, &c->json);
+        status = report_failures(&work.table);
     }
-    if (ok && status == STATUS_DONE) status = report_failures(&work.table);
-    contest_work_finish(&work, ok && !keep);
-    *done = *done && ok;
+    contest_work_finish(&work, ok && c->count == 1);
     return status;
 }
 
-/* One effect after the other. JSON is an object if there is one, else a list of them. */
-static enum status compare_all(struct contest *contest, const struct arguments *a, struct glint_error *err) {
-    const struct glint_effect *effects[EFFECTS_MAX];
-    const struct glint_pipeline **pipelines = calloc(contest->all_count + 1, sizeof *pipelines);
-    for (size_t i = 0; pipelines && i < contest->all_count; i++) pipelines[i] = contest->all[i].pipeline;
-    const struct effect_search search = {a->effect, pipelines, contest->all_count, false, &a->captures};
-    const size_t count = pipelines ? effects_find(&search, effects, err) : 0;
+static size_t find_effects(struct comparing *c, struct glint_error *err) {
+    const size_t presets = c->contest->all_count;
+    const struct glint_pipeline **pipelines = calloc(presets + 1, sizeof *pipelines);
+    for (size_t i = 0; pipelines && i < presets; i++) pipelines[i] = c->contest->all[i].pipeline;
+    const struct effect_search search = {c->a->effect, pipelines, presets, false, &c->a->captures};
+    if (pipelines) c->count = effects_find(&search, c->effects, err);
     free(pipelines);
+    return c->count;
+}
+
+/* The last file of the last effect is what is there when all is. */
+static void describe_shard(struct comparing *c, int argc, char **argv) {
+    struct arguments *a = c->a;
+    if (c->count > 1) snprintf(a->result, sizeof a->result, "%s/index.html", c->effects[c->count - 1]->name);
+    a->record = (struct shard_record){
+        .shard = a->shard, .folder = a->out, .argc = argc, .argv = argv, .result = c->count > 1 ? a->result : NULL};
+}
+
+static void remove_journals(const struct comparing *c) {
+    char folder[4096];
+    for (size_t e = 0; e < c->count; e++)
+        if (effect_folder(c->a, c->effects[e], true, folder, NULL)) journal_remove(folder, cmd_compare.name);
+}
+
+/* One effect after the other. JSON is an object if there is one, else a list of them. */
+static enum status compare_all(struct comparing *c, int argc, char **argv, struct glint_error *err) {
+    const struct arguments *a = c->a;
     struct glint_folder_lock *lock = NULL;
-    if (!count || (count > 1 && a->out && !(lock = glint_folder_lock(a->out, err))))
-        return command_fail(&cmd_compare, err);
-    struct json_out json = {a->json, count > 1, 0};
     enum status status = STATUS_DONE;
-    bool done = true;
-    for (size_t e = 0; e < count && status != STATUS_INTERRUPTED; e++) {
+    const bool several = find_effects(c, err) > 1;
+    if (!c->count || (several && a->out && !(lock = glint_folder_lock(a->out, err))))
+        return command_fail(&cmd_compare, err);
+    describe_shard(c, argc, argv);
+    c->json = (struct json_out){a->json, several, 0};
+    for (size_t e = 0; e < c->count && status != STATUS_INTERRUPTED; e++) {
         char folder[4096];
-        contest_judge(contest, effects[e]);
-        if (count > 1 && !a->json) printf("%s%s\n\n", e ? "\n" : "", effects[e]->title);
-        const enum status own = effect_folder(a, effects[e], count > 1, folder, err)
-                                    ? compare(contest, a, folder, count > 1, &json, &done, err)
+        if (several && !a->json && !a->shard.count) printf("%s%s\n\n", e ? "\n" : "", c->effects[e]->title);
+        const enum status own = effect_folder(a, c->effects[e], several, folder, err)
+                                    ? compare(c, c->effects[e], folder, err)
                                     : command_fail(&cmd_compare, err);
         if (own > status) status = own;
     }
-    for (size_t e = 0; a->out && done && count > 1 && e < count; e++) {
-        char folder[4096];
-        if (effect_folder(a, effects[e], true, folder, err)) contest_log_remove(folder);
-    }
-    if (json.written) puts("\n]");
+    const bool whole = c->done == c->count;
+    if (a->out && whole && several && !a->shard.count) remove_journals(c);
+    if (c->json.written) puts("\n]");
     glint_folder_unlock(&lock);
-    return status;
+    if (!whole || !a->shard.count || status != STATUS_DONE) return status;
+    return shard_report(&a->record, "results", c->count * a->captures.count, a->json);
 }
 
 static enum status cmd_compare_run(int argc, char **argv) {
@@ -184,10 +224,13 @@ static enum status cmd_compare_run(int argc, char **argv) {
     struct glint_error err = {0};
     struct contest contest = {.rounds = a.rounds, .join = a.every, .skip = !a.effect};
     const struct glint_device_options device = {.select = a.device, .dispatch_limit_s = a.limit_s};
-    bool ok = contest_begin(&contest, a.presets.items, &a.settings, &err);
+    struct comparing comparing = {.contest = &contest, .a = &a};
+    bool ok = !a.shard.count || shard_folder(&a.shard, a.out, a.folder, &err);
+    if (ok && a.shard.count) a.out = a.folder;
+    ok = ok && contest_begin(&contest, a.presets.items, &a.settings, &err);
     if (ok) pipeline_note_fog(&cmd_compare, contest.all[0].pipeline, captures_fogged(&a.captures));
     ok = ok && (contest.device = glint_device_create(&device, &err)) != NULL;
-    enum status status = ok ? compare_all(&contest, &a, &err) : command_fail(&cmd_compare, &err);
+    enum status status = ok ? compare_all(&comparing, argc, argv, &err) : command_fail(&cmd_compare, &err);
     contest_finish(&contest);
     glint_device_destroy(&contest.device);
     list_free(&a.captures);

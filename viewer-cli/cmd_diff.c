@@ -8,7 +8,7 @@ struct arguments {
     struct diff_args diff;
 };
 
-static const struct argp_option options[] = {DIFF_OPTIONS, {0}};
+static const struct argp_option options[] = {DIFF_OPTIONS("FILE.png", "Write " DIFF_HEAT), {0}};
 static const struct example examples[] = {
     {"glint diff a.exr b.exr", "compares all parts and channels"},
     {"glint diff -fail 0.004 -failpercent 1 a.exr b.exr -o heat.png", "uses options of idiff, and writes a heat map"},

@@ -7,13 +7,15 @@
 #include "capture/depth_facts.h"
 #include "lint/lint.h"
 #include "lint/survey.h"
+#include "journal/survey.h"
 #include "io/pipe.h"
 #include "io/progress.h"
 #include "io/table.h"
 
 struct arguments {
     struct list captures;
-    const char *out;
+    const char *out, *copy; /* copy: the same, with --fix */
+    struct shard shard;
     bool json, fix, list, markdown, overwrite;
 };
 
@@ -24,7 +26,8 @@ static const struct argp_option options[] = {
     {"fix",      KEY_FIX,      NULL, 0, "Write a copy that fixes the certain findings: with corrected declarations, and with the sky texels of cube maps as FORMAT.md requires. All other pixels stay as they are. A fix that would make another comparison worse is left out. Needs -o", 0},
     {"list",     KEY_LIST,     NULL, 0, "List all possible findings by name", 0},
     {"markdown", KEY_MARKDOWN, NULL, 0, "Print the list as Markdown, with how each finding is measured and what corrects it", 0},
-    {"output",   'o',          "F2", 0, "The copy that --fix writes", 0},
+    {"output",   'o',          "F2|FOLDER", 0, "With --fix, the copy that it writes; without, a " SURVEY_OUTPUT, 0},
+    SHARD_OPTION,
     OVERWRITE_OPTION,
     {"json",     'j',          NULL, 0, "Print JSON", 0},
     {0},
@@ -33,7 +36,8 @@ static const struct argp_option options[] = {
 static const struct arg_target targets[] = {
     STORED(KEY_FIX, struct arguments, fix),
     STORED(KEY_LIST, struct arguments, list),
-    STORED_OUTPUT('o', struct arguments, out, OUTPUT_EXR),
+    STORED('o', struct arguments, out),
+    STORED_OUTPUT('o', struct arguments, copy, OUTPUT_EXR),
     STORED(KEY_OVERWRITE, struct arguments, overwrite),
     STORED('j', struct arguments, json),
     STORED_CAPTURES(struct arguments, captures),
@@ -43,6 +47,7 @@ static const struct example examples[] = {
     {"glint lint frame.exr", "lists the likely mistakes of a dump"},
     {"glint lint frame.exr --fix -o fixed.exr", "also writes a copy in which the certain ones are fixed"},
     {"glint lint frames/", "lists which captures of a folder have which mistakes, the worst first"},
+    {"glint lint frames/ -o linted", "keeps the list in a folder, and goes on from there when it is interrupted"},
     {"glint lint --list", "lists all mistakes that it can find"},
     {"glint lint --markdown > lint.md", "writes the same with how each is measured"},
     {0},
@@ -53,18 +58,30 @@ static bool is_one(const struct arguments *a) {
     return a->captures.count == 1 && !a->captures.set;
 }
 
+/* -o names a copy with --fix, else a folder. */
+static void check_output(struct arguments *a, struct argp_state *state) {
+    if (a->fix && !a->out) argp_error(state, "--fix and -o F2 must be used together");
+    if (a->fix && !is_one(a)) argp_error(state, "--fix: expected one capture");
+    if (a->fix && a->shard.count) argp_error(state, "--fix writes one copy, and has no shares: --shard");
+    if (!a->fix && a->out && output_is(a->out, OUTPUT_EXR))
+        argp_error(state, "-o %s: expected a folder; a copy is written with --fix", a->out);
+    if (a->fix) a->copy = a->out;
+    survey_check(&a->shard, a->out, state);
+}
+
 static error_t cmd_lint_parse(int key, char *arg, struct argp_state *state) {
     struct arguments *a = state->input;
-    (void)arg;
     switch (key) {
+    case KEY_SHARD:
+        shard_parse(&a->shard, arg, state);
+        return 0;
     case KEY_MARKDOWN:
         a->list = a->markdown = true;
         return 0;
     case ARGP_KEY_END:
         if (!a->captures.count && !a->list)
             argp_error(state, "no capture given; --list shows what can be found in one");
-        if (a->fix != (a->out != NULL)) argp_error(state, "--fix and -o must be used together");
-        if (a->fix && !is_one(a)) argp_error(state, "--fix: expected one capture");
+        check_output(a, state);
         return 0;
     }
     return ARGP_ERR_UNKNOWN;
@@ -150,11 +167,11 @@ static void print_findings(const char *path, const struct lint_findings *finding
 static bool write_fixed_copy(const struct arguments *a, const char *path, struct lint_findings *findings,
                              struct glint_error *err) {
     size_t fixed = 0;
-    if (!lint_fix(path, a->out, findings, &fixed, err)) return false;
+    if (!lint_fix(path, a->copy, findings, &fixed, err)) return false;
     for (size_t i = 0; i < findings->count && !a->json; i++)
         if (lint_is_fixable(&findings->items[i]) && findings->items[i].left_out)
             printf("%s is not fixed: another comparison would match less\n", findings->items[i].id);
-    if (!a->json) printf("%s: %zu finding%s fixed\n", name_text(a->out), fixed, fixed == 1 ? "" : "s");
+    if (!a->json) printf("%s: %zu finding%s fixed\n", name_text(a->copy), fixed, fixed == 1 ? "" : "s");
     return true;
 }
 
@@ -243,48 +260,70 @@ static enum status lint_one(const struct arguments *a) {
     return ok ? status : command_fail(&cmd_lint, &err);
 }
 
-/* One of many captures. What cannot be read is a row of its own; false for what concerns all. */
-static bool survey_capture(struct lint_survey *survey, const char *path, struct progress *progress,
-                           struct glint_error *err) {
+/* What goes on while many captures are read. */
+struct linting {
+    const struct list *captures;
+    struct progress *progress;
+    struct lint_survey rows;
+};
+
+/* One of many captures. What cannot be read is a line of its own; NULL for what concerns all. */
+static json_t *lint_capture(void *user, size_t i, struct glint_error *err) {
+    struct linting *linting = user;
     struct glint_error own = {0};
     struct pipe pipe;
     struct lint_agreement agreement;
+    json_t *line = NULL;
     struct lint_findings *findings = calloc(1, sizeof *findings);
-    if (!findings) return fail_memory(err);
-    const char *file = pipe_input(&pipe, path, &own);
+    if (!findings) return fail_memory(err), NULL;
+    progress_phase(linting->progress, "%zu of %zu", i + 1, linting->captures->count);
+    const char *file = pipe_input(&pipe, linting->captures->items[i], &own);
     struct glint_capture *capture = file ? glint_capture_open(file, NULL, &own) : NULL;
-    const bool read = capture && find_findings(capture, findings, &agreement, progress, &own);
-    bool ok = read || own.code != GLINT_ERROR_MEMORY || glint_fail(err, own.code, "%s", own.message);
-    if (ok)
-        ok = read ? lint_survey_add(survey, path, findings, err)
-                  : lint_survey_add_failed(survey, path, own.message, err);
+    const bool read = capture && find_findings(capture, findings, &agreement, linting->progress, &own);
+    if (!read && own.code == GLINT_ERROR_MEMORY) *err = own;
+    else if (!(line = read ? lint_survey_line(findings) : lint_survey_failure(own.message))) fail_memory(err);
     glint_capture_close(&capture);
     pipe_finish(&pipe);
     free(findings);
+    return line;
+}
+
+static bool take_capture(struct linting *linting, struct survey *survey, size_t i, struct glint_error *err) {
+    json_t *line = survey_take(survey, i, lint_capture, linting, err);
+    const bool ok =
+        line && (survey->shard.count || lint_survey_add(&linting->rows, linting->captures->items[i], line, err) ||
+                 (!err->code && survey_fail_line(survey, i, err)));
+    json_decref(line);
+    if (ok && progress_interrupted())
+        return glint_fail(err, GLINT_ERROR_INTERRUPTED, "interrupted after %zu of %zu captures", i + 1,
+                          linting->captures->count);
     return ok;
 }
 
-static enum status lint_many(const struct arguments *a) {
-    const struct list *captures = &a->captures;
+static enum status tell_many(const struct arguments *a, const struct survey *survey, struct linting *linting) {
+    if (a->shard.count) return shard_report(&survey->record, "captures", survey->count, a->json);
+    if (a->json) print_json(lint_survey_json(&linting->rows));
+    else lint_survey_print(&linting->rows);
+    return lint_survey_is_clean(&linting->rows) ? STATUS_DONE : STATUS_CHECK;
+}
+
+static enum status lint_many(const struct arguments *a, int argc, char **argv) {
     struct glint_error err = {0};
     struct progress progress;
-    struct lint_survey survey = {0};
-    bool ok = true;
+    struct linting linting = {.captures = &a->captures, .progress = &progress};
+    struct survey survey = {.command = &cmd_lint, .item = "capture", .shard = a->shard};
     progress_begin(&progress);
-    for (size_t i = 0; ok && i < captures->count; i++) {
-        progress_phase(&progress, "%zu of %zu", i + 1, captures->count);
-        ok = survey_capture(&survey, captures->items[i], &progress, &err);
-        if (ok && progress_interrupted())
-            ok = glint_fail(&err, GLINT_ERROR_INTERRUPTED, "interrupted after %zu of %zu captures", i + 1,
-                            captures->count);
-    }
+    bool ok = survey_begin_files(&survey, a->out, &a->captures, argc, argv, &err);
+    for (size_t i = survey.begin; ok && i < survey.end; i++) ok = take_capture(&linting, &survey, i, &err);
+    lint_survey_sort(&linting.rows);
+    ok = ok && survey_end_shard(&survey, &err);
+    if (ok && survey_has_result(&survey)) ok = survey_write_json(&survey, lint_survey_json(&linting.rows), &err);
     progress_end(&progress);
-    enum status status = ok && lint_survey_is_clean(&survey) ? STATUS_DONE : STATUS_CHECK;
-    lint_survey_sort(&survey);
-    if (ok && a->json) print_json(lint_survey_json(&survey));
-    else if (ok) lint_survey_print(&survey);
-    lint_survey_finish(&survey);
-    return ok ? status : command_fail(&cmd_lint, &err);
+    const enum status status = ok ? tell_many(a, &survey, &linting) : command_fail(&cmd_lint, &err);
+    if (!ok && err.code == GLINT_ERROR_INTERRUPTED) survey_note_kept(&survey);
+    survey_close(&survey, ok);
+    lint_survey_finish(&linting.rows);
+    return status;
 }
 
 static enum status cmd_lint_run(int argc, char **argv) {
@@ -293,7 +332,7 @@ static enum status cmd_lint_run(int argc, char **argv) {
     command_parse(&cmd_lint, argc, argv, &a);
     if (a.markdown) print_handbook_of_findings();
     else if (a.list) status = list_findings(a.json);
-    else status = is_one(&a) ? lint_one(&a) : lint_many(&a);
+    else status = is_one(&a) && (a.fix || !a.out) ? lint_one(&a) : lint_many(&a, argc, argv);
     list_free(&a.captures);
     return status;
 }

@@ -3,6 +3,7 @@
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -84,7 +85,8 @@ static bool expand(struct arguments *a, json_t *made, struct glint_error *err) {
 static enum status run_command(const struct arguments *a, const struct merge *merge, const char *out,
                                const struct command *command, struct glint_error *err) {
     const size_t given = json_array_size(merge->arguments);
-    const char *const added[] = {"-o", out, "--shard", "whole", a->json ? "--json" : NULL};
+    const char *const added[] = {command->rounds ? "--folder" : "-o", out, "--shard", "whole",
+                                 a->json ? "--json" : NULL};
     char **argv = calloc(given + 8, sizeof *argv);
     int argc = 0;
     if (!argv) return fail_memory(err), command_fail(&cmd_merge, err);
@@ -108,6 +110,14 @@ static enum status run_command(const struct arguments *a, const struct merge *me
     return status;
 }
 
+/* As many as the system lets a process have: the journals of all shards are read at the same time. */
+static void open_many_files(void) {
+    struct rlimit files;
+    if (getrlimit(RLIMIT_NOFILE, &files) != 0) return;
+    files.rlim_cur = files.rlim_max;
+    setrlimit(RLIMIT_NOFILE, &files);
+}
+
 static enum status merge_shards(const struct arguments *a, struct merge *merge, struct glint_error *err) {
     if (!merge_open(merge, &a->folders, err)) return command_fail(&cmd_merge, err);
     const struct command *command = command_find(merge->command);
@@ -116,7 +126,8 @@ static enum status merge_shards(const struct arguments *a, struct merge *merge, 
                    a->folders.items[0], merge->command);
         return command_fail(&cmd_merge, err);
     }
-    if (!merge_write(merge, a->out, err)) return command_fail(&cmd_merge, err);
+    open_many_files();
+    if (!(command->rounds ? merge_gather : merge_write)(merge, a->out, err)) return command_fail(&cmd_merge, err);
     if (a->only) {
         printf("%zu results of %zu shards are in %s\n", merge->results, merge->count, name_text(a->out));
         return STATUS_DONE;
@@ -153,7 +164,9 @@ const struct command cmd_merge = {
         "and "
         "pictures get a second name in the folder of the result, or are copied; and the command, which shard.json has, "
         "makes its tables, charts and page of them, in the folder in which it was run. All shards have to be there and "
-        "done: one that died goes on where it stopped when its command is run again.",
+        "done: one that died goes on where it stopped when its command is run again. Commands with --shard can be "
+        "merged: "
+        "what merge prints, and its exit status, are those of the command, such as 1 if glint lint has findings.",
     .options = options,
     .targets = targets,
     .operand = "folder",

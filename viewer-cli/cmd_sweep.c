@@ -6,7 +6,6 @@
 
 #include "command.h"
 #include "options/pipeline_args.h"
-#include "record.h"
 #include "sweep/sweep.h"
 #include "io/console.h"
 #include "io/output.h"
@@ -148,17 +147,15 @@ static bool begin_sweep(struct arguments *a, struct glint_error *err) {
            sweep_open(sweep, a->axes.items, sample, &a->pipeline.shader, err);
 }
 
-static bool write_tables(const struct sweep *sweep, struct glint_error *err) {
+static bool write_table(const struct sweep *sweep, const char *name, struct glint_error *err) {
     char path[4096];
-    json_t *json = sweep_json(sweep);
-    char *text = json ? record_text(json, JSON_INDENT(1)) : NULL, *csv = sweep_csv(sweep);
-    bool ok = (text && csv) || glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    ok = ok && sweep_path(sweep, "points.json", path, err) && output_text(path, text, err) &&
-         sweep_path(sweep, "points.csv", path, err) && output_text(path, csv, err);
-    free(csv);
-    free(text);
-    json_decref(json);
-    return ok;
+    struct output output;
+    if (!sweep_path(sweep, name, path, err) || !output_open(&output, path, err)) return false;
+    if (!strcmp(name, "points.csv")) sweep_write_csv(output.file, sweep);
+    else sweep_write_json(output.file, sweep, 1);
+    const bool whole = sweep->fault.code == GLINT_OK;
+    if (!whole) *err = sweep->fault;
+    return output_close(&output, whole, err);
 }
 
 /* Points that failed, and figures that are none. */
@@ -166,19 +163,21 @@ static enum status report_failures(const struct sweep *sweep) {
     enum status status = STATUS_DONE;
     for (size_t c = 0; c < sweep->captures.count; c++) {
         if (!sweep_broken(sweep, c)) continue;
-        command_note(&cmd_sweep, "left out: %s", sweep_broken(sweep, c));
+        char *failure = sweep_failure(sweep, c, 0);
+        command_note(&cmd_sweep, "left out: %s", failure ? failure : "");
+        free(failure);
         status = STATUS_CHECK;
     }
     for (size_t i = 0; i < sweep->captures.count * sweep->points; i++) {
-        if (sweep_broken(sweep, i / sweep->points)) continue;
-        const char *failed = json_string_value(json_object_get(sweep->rows[i].look, "failed"));
-        const double invalid = sweep_figure(&sweep->rows[i], "invalid");
-        if (!failed && !(invalid > 0)) continue;
-        char *point = sweep_point_text(sweep, i % sweep->points);
-        const char *capture = sweep->captures.items[i / sweep->points];
+        const size_t c = i / sweep->points, p = i % sweep->points;
+        const double invalid = sweep->rows[i].invalid;
+        if (sweep_broken(sweep, c) || (sweep->rows[i].state != SWEEP_FAILED && !(invalid > 0))) continue;
+        char *point = sweep_point_text(sweep, p), *failed = sweep_failure(sweep, c, p);
+        const char *capture = sweep->captures.items[c];
         if (failed) command_note(&cmd_sweep, "%s: %s: %s", capture, point, failed);
         else command_note(&cmd_sweep, "%s: %s: NaN or infinite in %.0f pixels", capture, point, invalid);
         free(point);
+        free(failed);
         status = STATUS_CHECK;
     }
     return status;
@@ -192,15 +191,17 @@ static void note_kept(const struct sweep *sweep) {
 
 /* What one of several processes does: its part of the results, without what is made of all. */
 static bool run_shard(struct sweep *sweep, int argc, char **argv, struct glint_error *err) {
-    const struct shard_record record = {
-        sweep->shard,           sweep->out, (sweep->end - sweep->begin) * (1 + (size_t)sweep->rounds),
-        sweep->journal.results, argc,       argv};
-    return shard_write(&record, false, err) && sweep_run(sweep, err) && shard_write(&record, true, err);
+    struct shard_record record = {.shard = sweep->shard,
+                                  .folder = sweep->out,
+                                  .results = (sweep->end - sweep->begin) * (1 + (size_t)sweep->rounds),
+                                  .argc = argc,
+                                  .argv = argv};
+    return shard_begin(&record, err) && sweep_run(sweep, err) && shard_write(&record, true, err);
 }
 
 static bool run_whole(struct sweep *sweep, struct glint_error *err) {
-    return sweep_run(sweep, err) && sweep_sum_up(sweep, err) && write_tables(sweep, err) &&
-           sweep_draw_fronts(sweep, err) && sweep_write_page(sweep, err);
+    return sweep_run(sweep, err) && sweep_sum_up(sweep, err) && write_table(sweep, "points.json", err) &&
+           write_table(sweep, "points.csv", err) && sweep_draw_fronts(sweep, err) && sweep_write_page(sweep, err);
 }
 
 static enum status report_shard(const struct arguments *a) {
@@ -232,8 +233,11 @@ static enum status cmd_sweep_run(int argc, char **argv) {
     if (!ok && err.code == GLINT_ERROR_INTERRUPTED) note_kept(sweep);
     missing_note(&cmd_sweep, &sweep->missing, 0);
     if (ok && shard) status = report_shard(&a);
-    else if (ok && a.json) status = print_json(sweep_json(sweep));
-    else if (ok) sweep_print(sweep);
+    else if (ok && a.json) {
+        console_plain(true);
+        sweep_write_json(stdout, sweep, 2);
+        putchar('\n');
+    } else if (ok) sweep_print(sweep);
     if (ok && status == STATUS_DONE && !shard) status = report_failures(sweep);
     sweep_finish(sweep);
     if (sweep->device) glint_device_destroy(&sweep->device);
@@ -255,7 +259,10 @@ const struct command cmd_sweep = {
         "parameter also charts of error and cost against it with the knee (the value beyond which larger "
         "ones reduce the error less), points.csv, "
         "points.json, pictures, and log.jsonl, to which each result is appended as soon as it is known: the same "
-        "command resumes an interrupted sweep. Each capture is replayed without the history of previous frames. "
+        "command resumes an interrupted sweep. Of several captures it has errors of all and of those with each tag, "
+        "with "
+        "95 % intervals (bootstrap over shots), and of more than ten the worst first, ten of them with pictures. Each "
+        "capture is replayed without the history of previous frames. "
         "Times are measured after a warm-up with shaders without diagnostics; passes that several points share are "
         "timed once a round.",
     .options = options,

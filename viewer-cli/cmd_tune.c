@@ -7,6 +7,7 @@
 #include "io/shell.h"
 #include "options/pass_names.h"
 #include "options/pipeline_args.h"
+#include "tune/overall.h"
 #include "tune/tune.h"
 
 struct arguments {
@@ -14,6 +15,7 @@ struct arguments {
     struct pipeline_args pipeline;
     const char *metric, *budget_ms, *budget_fetches, *error, *cost;
     bool json, overwrite;
+    struct shard_record record;
 };
 
 enum {
@@ -62,6 +64,7 @@ static const struct argp_option options[] = {
     {"seed",      KEY_SEED,      "N",            0, "Seed of the restarts of the search (default 1)", 0},
     {"rounds",    KEY_ROUNDS,    "N",            0, "Timed rounds of each evaluation, alternating with the start preset (default 3)", 0},
     {"repeat",    KEY_REPEAT,    "N",            0, "Timed rounds of the final comparison (default 15; 0: no times)", 0},
+    SHARD_OPTION,
     EFFECT_OPTION,
     {"reference", KEY_REFERENCE, "RUN|truth",    0, "Errors are measured against this: the run of glint reference (once for each capture, including the held-out ones), or "
         "the truth in the capture (default: a reference is traced once and kept in the folder)", 0},
@@ -86,6 +89,8 @@ static const struct example examples[] = {
      "--vary screen_trace.steps",
      "also chooses between variants, each with its own parameters"},
     {"glint tune street.exr -o cheap.json --error 105%", "minimizes the time while the error grows by at most 5 %"},
+    {"glint tune frames/ -o half.json --budget-fetches 50% --shard 1/4; glint merge half.tune",
+     "does so with three other processes, --shard 2/4 to 4/4, that share the evaluations; then writes the preset"},
     {"glint report half.tune -o half.html", "writes the result page as a single file"},
     {0},
 };
@@ -164,6 +169,9 @@ static error_t cmd_tune_parse(int key, char *arg, struct argp_state *state) {
     case KEY_OVER:
         tune->worst = arg_choice("over", arg, overs, state) == 1;
         return 0;
+    case KEY_SHARD:
+        shard_parse(&tune->shard, arg, state);
+        return 0;
     case ARGP_KEY_END:
         check_arguments(a, state);
         return 0;
@@ -177,6 +185,16 @@ static bool choose_metric(struct arguments *a, struct glint_error *err) {
         return glint_fail(err, GLINT_ERROR_USAGE, "--metric %s: expected an error, which is better when lower",
                           a->metric);
     return true;
+}
+
+/* Writes what there is to do: an equal share of about all evaluations. */
+static bool record_shard(struct arguments *a, bool first, struct glint_error *err) {
+    const struct tune *tune = &a->tune;
+    if (!tune->shard.count) return true;
+    a->record.shard = tune->shard;
+    a->record.folder = tune->folder;
+    a->record.results = (1 + (size_t)tune->tries) * tune->captures.count / tune->shard.count + 1;
+    return first ? shard_begin(&a->record, err) : shard_write(&a->record, false, err);
 }
 
 static bool begin_tune(struct arguments *a, struct glint_error *err) {
@@ -193,7 +211,10 @@ static bool begin_tune(struct arguments *a, struct glint_error *err) {
     /* What --vary names is checked before the reference is traced; without it, the axes depend on what ran. */
     const bool named = tune->vary.count > 0;
     if ((named && !tune_make_axes(tune, err)) || !(tune->device = pipeline_args_device(&a->pipeline, err)) ||
-        !glint_make_folder(tune->folder, err) || !tune_load(tune, err) || (!named && !tune_make_axes(tune, err)))
+        !tune_make_subjects(tune, err) || !tune_open(tune, err) || !record_shard(a, true, err))
+        return false;
+    if (!tune_shards_open(tune, err) || !tune_begin_captures(tune, err) || (!named && !tune_make_axes(tune, err)) ||
+        !tune_check_lines(tune, err))
         return false;
     if (!tune->axis_count)
         return glint_fail(err, GLINT_ERROR_USAGE,
@@ -206,13 +227,13 @@ static bool begin_tune(struct arguments *a, struct glint_error *err) {
                      "%u tries are few for %zu parameters, and may find little; without --tries it is %u, and --vary "
                      "tunes fewer",
                      tune->tries, tune->axis_count, usual);
-    return tune_open(tune, err);
+    return record_shard(a, false, err);
 }
 
 /* An interrupted search writes the best preset so far. */
 static enum status report_interrupted_tune(struct tune *tune) {
     struct glint_error err = {0};
-    const bool some = tune->found.count && tune->found.feasible;
+    const bool some = tune->found.count && tune->found.feasible && !tune->shard.count;
     if (some && !tune_write_preset(tune, &err)) return command_fail(&cmd_tune, &err);
     char text[512];
     journal_describe_kept(&tune->journal, "evaluations", text);
@@ -221,12 +242,22 @@ static enum status report_interrupted_tune(struct tune *tune) {
     return STATUS_INTERRUPTED;
 }
 
+/* A shard's part of the search. The final comparison and what follows need all of it, and times that are measured together (glint merge). */
+static bool run_shard(struct arguments *a, struct glint_error *err) {
+    struct tune *tune = &a->tune;
+    if (!tune_search(tune, err)) return false;
+    a->record.results = tune->journal.results;
+    return shard_write(&a->record, true, err);
+}
+
 static bool search_and_write(struct tune *tune, struct glint_error *err) {
     return tune_search(tune, err) && (tune->found.feasible || tune_fail_least(tune, err)) && tune_choose(tune, err) &&
-           tune_confirm(tune, err) && tune_write_preset(tune, err) && tune_write_page(tune, err);
+           tune_confirm(tune, err) && tune_sum_up(tune, err) && tune_write_preset(tune, err) &&
+           tune_write_page(tune, err);
 }
 
 void tune_finish(struct tune *tune) {
+    tune_overall_finish(tune);
     for (size_t i = 0; tune->measured && i < tune->subject_count * TUNE_CONTENDERS; i++)
         glint_metric_table_finish(&tune->measured[i].errors);
     for (size_t s = 0; tune->subjects && s < tune->subject_count; s++) tune_unload_subject(tune, s);
@@ -235,8 +266,18 @@ void tune_finish(struct tune *tune) {
     json_decref(tune->provenance);
     for (size_t a = 0; a < tune->axis_count; a++) free(tune->axes[a].texts);
     glint_search_result_finish(&tune->found);
+    /* A search that failed before its first result may be tried with other arguments. */
+    if (tune->journal.log > 0 && !tune->journal.results && !tune->shard.count)
+        journal_remove(tune->folder, tune->journal.kind);
     journal_close(&tune->journal);
+    tune_shards_close(tune);
+    json_decref(tune->definition);
+    json_decref(tune->single);
     json_decref(tune->lines);
+    for (size_t s = 0; tune->subjects && s < tune->subject_count; s++) {
+        json_decref(tune->subjects[s].slots);
+        free(tune->subjects[s].broken);
+    }
     free(tune->measured);
     free(tune->subjects);
     free(tune->axes);
@@ -249,48 +290,99 @@ void tune_finish(struct tune *tune) {
     for (size_t i = 0; i < sizeof lists / sizeof *lists; i++) list_free(lists[i]);
 }
 
+/* The number of arguments from here on that one process does not have that makes all: a share, or what glint merge adds. */
+static int count_of_shards(char **argv) {
+    const bool added = !strcmp(argv[0], "--folder") && argv[1] && argv[2] && argv[3] && !strcmp(argv[2], "--shard") &&
+                       !strcmp(argv[3], "whole");
+    if (added) return 4 + (argv[4] && !strcmp(argv[4], "--json"));
+    if (!strcmp(argv[0], "--shard")) return argv[1] ? 2 : 1;
+    return !strncmp(argv[0], "--shard=", strlen("--shard="));
+}
+
+/* As one process is called that makes all. */
 static char *command_line(int argc, char **argv) {
     char *text = NULL;
     size_t size = 0;
     FILE *out = open_memstream(&text, &size);
     if (!out) return NULL;
     fputs("glint tune", out);
-    for (int i = 1; i < argc; i++) {
+    for (int i = 1; i < argc;) {
+        const int skipped = count_of_shards(argv + i);
+        i += skipped;
+        if (skipped) continue;
         fputc(' ', out);
-        shell_word(out, argv[i]);
+        shell_word(out, argv[i++]);
     }
     fclose(out);
     return text;
 }
 
+/* PRESET.tune, and of a shard its own folder in it. */
+static bool find_folders(struct tune *tune, char common[4096], char own[4096], struct glint_error *err) {
+    snprintf(common, 4096, "%.*s.tune", (int)(strlen(tune->out) - strlen(".json")), tune->out);
+    tune->common = tune->folder ? tune->folder : common;
+    tune->folder = tune->shard.count ? own : tune->common;
+    return !tune->shard.count || shard_folder(&tune->shard, tune->common, own, err);
+}
+
+static enum status report_tune(const struct arguments *a) {
+    const struct tune *tune = &a->tune;
+    enum status status = STATUS_DONE;
+    if (tune->shard.count)
+        return shard_report(&a->record, "evaluations", tune->captures.count + json_object_size(tune->single), a->json);
+    if (a->json) status = print_json(tune_json(tune));
+    else tune_print(tune);
+    for (size_t s = 0; s < tune->subject_count; s++) {
+        if (!tune->subjects[s].broken) continue;
+        command_note(&cmd_tune, "left out: %s", tune->subjects[s].broken);
+        status = STATUS_CHECK;
+    }
+    if (tune->confirmed_within) return status;
+    command_note(&cmd_tune, "no evaluated point meets the limit in the final timing; %s contains the nearest one",
+                 tune->out);
+    return STATUS_CHECK;
+}
+
+/* The arguments as they were given, which parsing reorders and cuts into pieces; NULL without memory. Owned by `owner`. */
+static char **keep_arguments(int argc, char **argv, json_t *owner) {
+    char **kept = calloc((size_t)argc + 1, sizeof *kept);
+    for (int i = 0; kept && i < argc; i++) {
+        json_t *text = json_stringn_nocheck(argv[i], strlen(argv[i]));
+        kept[i] = (char *)json_string_value(text);
+        if (json_array_append_new(owner, text) == 0) continue;
+        free(kept);
+        return NULL;
+    }
+    return kept;
+}
+
 static enum status cmd_tune_run(int argc, char **argv) {
-    struct arguments a = {
-        .tune = {
-            .metric = GLINT_METRIC_RMSE, .seed = 1, .against = {.rays = GLINT_JUDGE_RAYS}, .rounds = 3, .repeat = 15}};
+    struct arguments a = {.tune = {.metric = GLINT_METRIC_RMSE,
+                                   .seed = 1,
+                                   .against = {.rays = GLINT_JUDGE_RAYS},
+                                   .rounds = 3,
+                                   .repeat = 15},
+                          .record = {.argc = argc, .result = "page.json"}};
     struct glint_error err = {0};
     struct progress progress;
     struct tune *tune = &a.tune;
-    char folder[4096], *line = command_line(argc, argv);
+    json_t *texts = json_array();
+    char common[4096], own[4096], *line = command_line(argc, argv), **kept = keep_arguments(argc, argv, texts);
     command_parse(&cmd_tune, argc, argv, &a);
-    snprintf(folder, sizeof folder, "%.*s.tune", (int)(strlen(tune->out) - strlen(".json")), tune->out);
-    if (!tune->folder) tune->folder = folder;
     tune->command_line = line ? line : "glint tune";
     tune->progress = &progress;
     progress_begin(&progress);
-    const bool ok = begin_tune(&a, &err) && search_and_write(tune, &err);
+    a.record.argv = kept;
+    const bool ok = (kept || fail_memory(&err)) && find_folders(tune, common, own, &err) && begin_tune(&a, &err) &&
+                    (tune->shard.count ? run_shard(&a, &err) : search_and_write(tune, &err));
     progress_end(&progress);
-    enum status status = ok                                    ? STATUS_DONE
-                         : err.code == GLINT_ERROR_INTERRUPTED ? report_interrupted_tune(tune)
-                                                               : command_fail(&cmd_tune, &err);
-    if (ok && a.json) status = print_json(tune_json(tune));
-    else if (ok) tune_print(tune);
-    if (ok && status == STATUS_DONE && !tune->confirmed_within) {
-        command_note(&cmd_tune, "no evaluated point meets the limit in the final timing; %s contains the nearest one",
-                     tune->out);
-        status = STATUS_CHECK;
-    }
+    const enum status status = ok                                    ? report_tune(&a)
+                               : err.code == GLINT_ERROR_INTERRUPTED ? report_interrupted_tune(tune)
+                                                                     : command_fail(&cmd_tune, &err);
     tune_finish(tune);
     pipeline_args_finish(&a.pipeline);
+    json_decref(texts);
+    free(kept);
     free(line);
     return status;
 }
@@ -312,12 +404,17 @@ const struct command cmd_tune = {
         "error of some per cent; therefore the result is timed again against the start. If it exceeds the budget or "
         "leaves a part of it unused, the search continues with corrected times; the preset is the point with the "
         "least error that meets the budget in the final timing. Every evaluation is stored at once: the same command "
-        "resumes an interrupted search, and the preset file then contains the best point so far.",
+        "resumes an interrupted search, and the preset file then contains the best point so far. With --shard, several "
+        "processes run the same search at the same time, and share out the evaluations of each round: any of them may "
+        "be "
+        "missing, late or killed, and the others go on. glint merge FOLDER then makes the final comparison and the "
+        "preset.",
     .options = options,
     .targets = targets,
     .operand = "capture",
     .parse = cmd_tune_parse,
     .examples = examples,
     .values = cmd_tune_values,
+    .rounds = true,
     .run = cmd_tune_run,
 };

@@ -28,6 +28,9 @@ struct command {
     /* Values that are known only at run time (encodings, scenes, views), appended to the help of an option; malloc'd,
        NULL for none. The function may be NULL. */
     char *(*values)(int key);
+    /* Shards share out rounds of work instead of doing a fixed part: they keep their results in --folder, which is NAME.COMMAND by default for an output
+       NAME.json; and with --shard whole the command reads the journals of all. */
+    bool rounds;
     enum status (*run)(int argc, char **argv);
 };
 

@@ -55,6 +55,11 @@ static bool is_hidden(uint32_t c) {
 
 size_t shown_piece(const char *text, size_t size, char piece[SHOWN_PIECE]) {
     uint32_t c = 0;
+    if (*text >= ' ' && *text <= '~') { /* most of all texts */
+        piece[0] = *text;
+        piece[1] = '\0';
+        return 1;
+    }
     const int length = decode(text, size, &c);
     if (length == CUT) return 0;
     if (length == INVALID || c < 0x20 || c == 0x7F) {

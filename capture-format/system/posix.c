@@ -1,9 +1,11 @@
 /* system.h for POSIX. */
+#define _GNU_SOURCE /* sched_getaffinity */
 #include "system.h"
 
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <sched.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -203,6 +205,8 @@ void glint_thread_join(struct glint_thread *thread) {
 }
 
 uint32_t glint_cores(void) {
+    cpu_set_t own; /* of a machine's cores a job of a cluster may have few */
+    if (sched_getaffinity(0, sizeof own, &own) == 0) return (uint32_t)CPU_COUNT(&own);
     const long cores = sysconf(_SC_NPROCESSORS_ONLN);
     return cores < 1 ? 1 : (uint32_t)cores;
 }

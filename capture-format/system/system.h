@@ -93,6 +93,7 @@ typedef pthread_cond_t glint_condition;
 /* *thread belongs to the running thread until it is joined. */
 bool glint_thread_start(struct glint_thread *thread, void (*work)(void *user), void *user);
 void glint_thread_join(struct glint_thread *thread);
+/* Those on which the process may run. */
 uint32_t glint_cores(void);
 
 void glint_mutex_init(glint_mutex *mutex);

@@ -37,9 +37,11 @@ static double bytes_of(const struct layout *layout, const struct blocks *blocks)
     return count * (blocks ? blocks->bytes : layout->format->bytes);
 }
 
-/* Replaces the file's bytes by the level's, which are `most` at most: a small file can say that it unpacks to gigabytes. */
+/* Replaces the file's bytes by the level's, which are `most` at most: a small file can say that it unpacks to gigabytes. A block of zstd has at
+   least 4 bytes, and unpacks to at most 128 KiB. */
 static bool unpack(struct image *image, const struct node *texture, const struct level *level, double most,
                    struct glint_error *err) {
+    enum { BLOCK_BYTES = 1 << 17, LEAST_BYTES = 4 };
     if ((double)level->unpacked > most)
         return node_fail(texture, err, GLINT_ERROR_FORMAT,
                          "zstd: expected at most the %.0f bytes of the level's texels, found %llu", most,
@@ -47,6 +49,9 @@ static bool unpack(struct image *image, const struct node *texture, const struct
     if (level->unpacked > IMAGE_MAX_BYTES)
         return node_fail(texture, err, GLINT_ERROR_LIMIT, "expected at most 4 GiB of pixels, found %llu bytes",
                          (unsigned long long)level->unpacked);
+    if (level->unpacked / BLOCK_BYTES > level->length / LEAST_BYTES)
+        return node_fail(texture, err, GLINT_ERROR_FORMAT, "zstd: expected %llu bytes, and %llu cannot hold as many",
+                         (unsigned long long)level->unpacked, (unsigned long long)level->length);
     uint8_t *data = malloc((size_t)level->unpacked + 1);
     if (!data) return node_no_memory(texture, err);
     const size_t done =

@@ -26,7 +26,17 @@ bool row_is_dispatch(const struct glint_row *row) {
     return row->kind == GLINT_ROW_DISPATCH || row->kind == GLINT_ROW_DISPATCH_LEVELS;
 }
 bool row_is_image(const struct glint_row *row) {
-    return row_is_sampled(row) || glint_row_is_output(row);
+    return row_is_sampled(row) || glint_row_is_output(row) || row->kind == GLINT_ROW_WRITE_LEVELS;
+}
+uint32_t row_levels(const struct glint_row *row, bool is_cpu) {
+    return row->chain && !is_cpu ? (uint32_t)row->chain : 1;
+}
+uint32_t pass_block(const struct glint_pass *pass, bool is_cpu) {
+    const struct glint_row *row = glint_pass_row(pass, GLINT_ROW_BLOCKS, NULL);
+    return row && is_cpu ? (uint32_t)row->first : 1;
+}
+uint32_t row_bindings(const struct glint_row *row) {
+    return row->kind == GLINT_ROW_WRITE_LEVELS ? (uint32_t)row->chain : 1;
 }
 const char *row_image(const struct glint_row *row) {
     return row->image ? row->image : row->name;
@@ -89,19 +99,18 @@ const struct glint_row *glint_pass_parameter(const struct glint_pass *pass, cons
 bool glint_slot_check(const char *slot, struct glint_error *err) {
     size_t count;
     const struct glint_pass *all = glint_passes(&count);
-    struct glint_nearest near = glint_nearest_to(slot);
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < count; i++)
         if (strcmp(all[i].slot, slot) == 0) return true;
-        glint_nearest_offer(&near, all[i].slot);
-    }
+    struct glint_nearest near = glint_nearest_to(slot);
+    for (size_t i = 0; i < count; i++) glint_nearest_offer(&near, all[i].slot);
     return glint_fail(err, GLINT_ERROR_USAGE, "there is no slot %s%s", slot, glint_nearest_or_known(&near));
 }
 
 bool glint_variant_check(const char *slot, const char *variant, struct glint_error *err) {
     size_t count;
     const struct glint_pass *all = glint_passes(&count);
-    struct glint_nearest near = glint_nearest_to(variant);
     if (glint_pass_find(slot, variant)) return true;
+    struct glint_nearest near = glint_nearest_to(variant);
     for (size_t i = 0; i < count; i++)
         if (strcmp(all[i].slot, slot) == 0) glint_nearest_offer(&near, all[i].variant);
     return glint_slot_check(slot, err) && glint_fail(err, GLINT_ERROR_USAGE, "slot %s has no variant %s%s", slot,

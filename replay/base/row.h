@@ -8,9 +8,14 @@ enum { PASS_IMAGES_MAX = 64 }; /* the maximum number of images that a pass reads
 #define HISTORY_PREFIX "history."
 
 bool row_is_sampled(const struct glint_row *row);
-bool row_is_image(const struct glint_row *row); /* an image that is bound to the shader: sampled, or an output */
+uint32_t row_bindings(const struct glint_row *row); /* of an image: levels of WRITE_LEVELS, else 1 */
+bool row_is_image(const struct glint_row *row);     /* an image that is bound to the shader: sampled, or written */
 const char *row_image(const struct glint_row *row);
 bool row_is_dispatch(const struct glint_row *row); /* DISPATCH or DISPATCH_LEVELS */
+
+uint32_t row_levels(const struct glint_row *row, bool is_cpu); /* that a dispatch of a row DISPATCH_LEVELS writes */
+/* The width in texels of the block that an invocation computes. */
+uint32_t pass_block(const struct glint_pass *pass, bool is_cpu);
 
 bool size_is_cube(enum glint_size_class size);  /* a cube map or an array of cube maps */
 bool size_is_array(enum glint_size_class size); /* an array with layers for each active cube map */

@@ -16,11 +16,11 @@ static void write_descriptors(const struct run *run, const struct step *step, co
         if (!row_is_image(row)) continue;
         const struct image *image = &run_bound(run, row)->image;
         const uint32_t coarsest = image->desc.levels - 1;
-        descriptor_set_image(run->gpu, dispatch->set, row->id, row_descriptor(row),
-                             row_is_sampled(row)
-                                 ? sampled_view(image, row->glsl)
-                                 : image->levels[dispatch->level < coarsest ? dispatch->level : coarsest],
-                             image->buffer_view);
+        for (uint32_t i = 0; i < row_bindings(row); i++) {
+            const uint32_t level = dispatch->level + i < coarsest ? dispatch->level + i : coarsest;
+            const VkImageView view = row_is_sampled(row) ? sampled_view(image, row->glsl) : image->levels[level];
+            descriptor_set_image(run->gpu, dispatch->set, row->id, i, row_descriptor(row), view, image->buffer_view);
+        }
     }
 }
 
@@ -42,7 +42,7 @@ static void access_images(const struct run *run, const struct glint_pass *pass, 
         bool own = false;
         for (size_t s = 0; s < pass->row_count && glint_row_is_output(row); s++)
             own |= pass->rows[s].kind == GLINT_ROW_READ_OWN && strcmp(row_image(&pass->rows[s]), row->name) == 0;
-        if (row_is_image(row) && row->kind != GLINT_ROW_READ_OWN)
+        if (row_is_image(row) && row->kind != GLINT_ROW_READ_OWN && row->kind != GLINT_ROW_WRITE_LEVELS)
             image_access(&run_bound(run, row)->image,
                          own                        ? IMAGE_SHADER_BOTH
                          : glint_row_is_output(row) ? IMAGE_SHADER_WRITE

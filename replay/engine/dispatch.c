@@ -19,7 +19,7 @@ static void add_dispatch(const struct run *run, struct step *step, uint32_t phas
                          const struct pooled *image, uint32_t level) {
     struct extent extent = image_extent(&image->image.desc, level);
     struct workgroup group = pass_workgroup(step->pass->pass);
-    const uint32_t block = block_width(run->sizes, step->pass->pass);
+    const uint32_t block = pass_block(step->pass->pass, run->sizes->is_cpu);
     group.width *= block, group.height *= block;
     if (image->image.desc.buffer) {
         extent = (struct extent){run->sizes->full[0], run->sizes->full[1]};
@@ -42,8 +42,8 @@ static void add_dispatch(const struct run *run, struct step *step, uint32_t phas
 static void add_level_dispatches(const struct run *run, struct step *step, uint32_t phase, const struct glint_row *row,
                                  const struct pooled *image) {
     uint32_t fine, coarse;
-    if (!dispatch_levels(step->pass, row, &image->image.desc, &fine, &coarse)) return;
-    for (uint32_t i = 0; i <= coarse - fine; i++)
+    if (!dispatch_levels(run->sizes, step->pass, row, &image->image.desc, &fine, &coarse)) return;
+    for (uint32_t i = 0; i <= coarse - fine; i += row_levels(row, run->sizes->is_cpu))
         add_dispatch(run, step, phase, row, image, row->order == GLINT_ORDER_up ? coarse - i : fine + i);
 }
 

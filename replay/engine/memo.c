@@ -94,8 +94,8 @@ static uint64_t mix_faces(uint64_t key, const struct run *run) {
 static bool step_key(struct run *run, struct step *step, struct glint_error *err) {
     const struct glint_pass *pass = step->pass->pass;
     if (!spirv_find(&step->spirv, &run->engine->device->shaders, step->pass->entry, err) ||
-        !constants_init(&step->constants, run->graph, step->pass, &step->spirv, run->options,
-                        block_width(run->sizes, pass), run->gpu->info.filters_together, err))
+        !constants_init(&step->constants, run->graph, step->pass, &step->spirv, run->options, run->gpu->info.is_cpu,
+                        run->gpu->info.filters_together, err))
         return false;
     uint64_t key = mix_number(step->spirv.hash, run->options->float_precision);
     /* The first constants switch diagnostics and probes on, which changes no other image; a user's shader may use them for anything. */

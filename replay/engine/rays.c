@@ -41,7 +41,7 @@ static bool describe_sum(const struct run *run, struct sum *sum, struct glint_er
     if (!descriptors_allocate(run->gpu, run->descriptors, &run->rays->program->images, sum->of->name, &sum->set, err))
         return false;
     for (uint32_t b = 0; b < BINDINGS; b++)
-        descriptor_set_image(run->gpu, sum->set, b, row_descriptor(&rows[b]), views[b], VK_NULL_HANDLE);
+        descriptor_set_image(run->gpu, sum->set, b, 0, row_descriptor(&rows[b]), views[b], VK_NULL_HANDLE);
     return true;
 }
 

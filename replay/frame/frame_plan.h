@@ -78,13 +78,12 @@ const struct glint_run_image *plan_stored_image(const struct frame_plan *plan, c
 bool plan_find_sizes(struct frame_plan *plan, struct glint_error *err);
 bool plan_describe(const struct frame_plan *plan, const struct graph_image *image, struct image_desc *desc,
                    struct glint_error *err);
-/* The width in texels of the block that an invocation computes; the number of tiles of a list (passes/shared/work_list.h). */
-uint32_t block_width(const struct frame_sizes *sizes, const struct glint_pass *pass);
+/* The number of tiles of a list (passes/shared/work_list.h). */
 uint32_t tile_count(const struct frame_sizes *sizes);
 
 /* levels.c: the finest and coarsest MIP level of a row DISPATCH_LEVELS, among those that the image has; false if there is none. */
-bool dispatch_levels(const struct graph_pass *pass, const struct glint_row *row, const struct image_desc *desc,
-                     uint32_t *first, uint32_t *last);
+bool dispatch_levels(const struct frame_sizes *sizes, const struct graph_pass *pass, const struct glint_row *row,
+                     const struct image_desc *desc, uint32_t *first, uint32_t *last);
 /* The number of texels of a dispatch over a MIP level of an image. */
 uint64_t dispatch_texels(const struct frame_sizes *sizes, const struct image_desc *desc, uint32_t level);
 

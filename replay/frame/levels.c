@@ -11,12 +11,13 @@ static int level_of_width(const struct graph_pass *pass, const struct image_desc
     return level;
 }
 
-bool dispatch_levels(const struct graph_pass *pass, const struct glint_row *row, const struct image_desc *desc,
-                     uint32_t *first, uint32_t *last) {
+bool dispatch_levels(const struct frame_sizes *sizes, const struct graph_pass *pass, const struct glint_row *row,
+                     const struct image_desc *desc, uint32_t *first, uint32_t *last) {
     const int count = (int)desc->levels;
     const bool swapped = (row->first < 0) == (row->last < 0) ? row->first > row->last : row->first < 0;
     int fine = swapped ? row->last : row->first, coarse = swapped ? row->first : row->last;
-    if (row->assigned) {
+    if (row->chain) fine = (int)row_levels(row, sizes->is_cpu), coarse = count - 1;
+    else if (row->assigned) {
         const int from = level_of_width(pass, desc, row->assigned);
         fine = from + row->first, coarse = from + row->last;
     } else {

@@ -41,11 +41,6 @@ static bool read_active(struct frame_plan *plan, const struct graph_image *image
     return true;
 }
 
-uint32_t block_width(const struct frame_sizes *sizes, const struct glint_pass *pass) {
-    const struct glint_row *row = glint_pass_row(pass, GLINT_ROW_BLOCKS, NULL);
-    return row && sizes->is_cpu ? (uint32_t)row->first : 1;
-}
-
 static uint32_t parts_of(uint32_t length, uint32_t part) {
     return (length + part - 1) / part;
 }

@@ -38,11 +38,12 @@ static void write_descriptor(struct gpu *gpu, VkWriteDescriptorSet write) {
     vkUpdateDescriptorSets(gpu->device, 1, &write, 0, NULL);
 }
 
-void descriptor_set_image(struct gpu *gpu, VkDescriptorSet set, uint32_t binding, VkDescriptorType type,
-                          VkImageView view, VkBufferView buffer) {
+void descriptor_set_image(struct gpu *gpu, VkDescriptorSet set, uint32_t binding, uint32_t element,
+                          VkDescriptorType type, VkImageView view, VkBufferView buffer) {
     const VkDescriptorImageInfo info = {.imageView = view, .imageLayout = VK_IMAGE_LAYOUT_GENERAL};
     write_descriptor(gpu, (VkWriteDescriptorSet){.dstSet = set,
                                                  .dstBinding = binding,
+                                                 .dstArrayElement = element,
                                                  .descriptorType = type,
                                                  .pImageInfo = &info,
                                                  .pTexelBufferView = &buffer});

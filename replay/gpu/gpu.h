@@ -112,8 +112,8 @@ bool descriptors_create(struct gpu *gpu, uint32_t sets, uint32_t images, bool va
                         struct glint_error *err);
 bool descriptors_allocate(struct gpu *gpu, VkDescriptorPool pool, const VkDescriptorSetLayout *layout, const char *name,
                           VkDescriptorSet *set, struct glint_error *err);
-void descriptor_set_image(struct gpu *gpu, VkDescriptorSet set, uint32_t binding, VkDescriptorType type,
-                          VkImageView view, VkBufferView buffer);
+void descriptor_set_image(struct gpu *gpu, VkDescriptorSet set, uint32_t binding, uint32_t element,
+                          VkDescriptorType type, VkImageView view, VkBufferView buffer);
 void descriptor_set_buffer(struct gpu *gpu, VkDescriptorSet set, uint32_t binding, VkDescriptorType type,
                            const struct host_buffer *buffer, VkDeviceSize size);
 

@@ -66,6 +66,9 @@ static void check_row(const struct glint_pass *pass, const struct glint_row *row
     } else if (row->kind == GLINT_ROW_READ_OWN) {
         expect(own, pass, "READ_OWN", row->image, "an image that the pass writes", faults);
         if (own) graph_check_kind(pass, row, own, faults);
+    } else if (row->kind == GLINT_ROW_WRITE_LEVELS) {
+        expect(own && size_has_levels(own->size) && !strcmp(own->glsl, row->glsl), pass, "WRITE_LEVELS", row->image,
+               "an image with levels that the pass writes, and its kind", faults);
     } else if (row->kind == GLINT_ROW_ACCUMULATE)
         expect(own && glint_size_is_picture(own->size) && !glint_format_is_uint(own->format) &&
                    glint_pass_row(pass, GLINT_ROW_PER_RAY, NULL),
@@ -85,6 +88,9 @@ static void check_row(const struct glint_pass *pass, const struct glint_row *row
                    "a numeric parameter of the pass", faults);
         expect(own && size_has_levels(own->size), pass, "DISPATCH_LEVELS", row->name,
                "an image with levels that the pass writes", faults);
+        if (row->chain)
+            expect(after_dispatch && glint_pass_row(pass, GLINT_ROW_WRITE_LEVELS, row->name), pass, "DISPATCH_CHAIN",
+                   row->name, "a DISPATCH before it and a row WRITE_LEVELS of the image", faults);
     }
 }
 

@@ -16,8 +16,10 @@ static uint64_t count_texels(const struct frame_plan *plan, const struct graph_p
         uint32_t first = 0, last = 0;
         if (!(image.row = graph_row(&plan->graph, row->name, &image.pass)) || !plan_describe(plan, &image, &desc, err))
             return 0;
-        if (row->kind == GLINT_ROW_DISPATCH_LEVELS && !dispatch_levels(entry, row, &desc, &first, &last)) continue;
-        for (uint32_t level = first; level <= last; level++) texels += dispatch_texels(&plan->sizes, &desc, level);
+        if (row->kind == GLINT_ROW_DISPATCH_LEVELS && !dispatch_levels(&plan->sizes, entry, row, &desc, &first, &last))
+            continue;
+        for (uint32_t level = first; level <= last; level += row_levels(row, plan->sizes.is_cpu))
+            texels += dispatch_texels(&plan->sizes, &desc, level);
     }
     return texels;
 }
@@ -44,7 +46,8 @@ static uint64_t count_made_faces(const struct frame_plan *plan, const struct gra
         uint8_t more[GLINT_SURVEY_CUBEMAPS];
         uint32_t first, last = 0;
         if (!image.row || !plan_describe(plan, &image, &desc, NULL)) return count_all_faces(plan, made->size);
-        if (row->kind == GLINT_ROW_DISPATCH_LEVELS && !dispatch_levels(entry, row, &desc, &first, &last)) continue;
+        if (row->kind == GLINT_ROW_DISPATCH_LEVELS && !dispatch_levels(&plan->sizes, entry, row, &desc, &first, &last))
+            continue;
         if (!plan_dispatched_faces(plan, entry, row, last, more)) return count_all_faces(plan, made->size);
         for (uint32_t i = 0; i < plan->sizes.active && i < GLINT_SURVEY_CUBEMAPS; i++) faces[i] |= more[i];
     }

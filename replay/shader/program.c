@@ -34,7 +34,7 @@ struct workgroup pass_workgroup(const struct glint_pass *pass) {
 }
 
 bool constants_init(struct constants *constants, const struct graph *graph, const struct graph_pass *graph_pass,
-                    const struct spirv *spirv, const struct glint_replay_options *options, uint32_t block, bool by_hand,
+                    const struct spirv *spirv, const struct glint_replay_options *options, bool is_cpu, bool by_hand,
                     struct glint_error *err) {
     *constants = (struct constants){.push_count = 1, .probed = spirv->probes && options->probe_count > 0};
     const struct glint_pass *pass = graph_pass->pass;
@@ -55,7 +55,10 @@ bool constants_init(struct constants *constants, const struct graph *graph, cons
             if (fits) constants->parameters |= UINT64_C(1) << (constants->count - 1);
         } else if (pass->rows[i].kind == GLINT_ROW_FACT)
             fits = add_constant(constants, pass->rows[i].id, !(graph_pass->false_facts >> facts++ & 1));
-        else if (pass->rows[i].kind == GLINT_ROW_BLOCKS) fits = add_constant(constants, pass->rows[i].id, block);
+        else if (pass->rows[i].kind == GLINT_ROW_BLOCKS)
+            fits = add_constant(constants, pass->rows[i].id, pass_block(pass, is_cpu));
+        else if (pass->rows[i].kind == GLINT_ROW_DISPATCH_LEVELS && pass->rows[i].chain)
+            fits = add_constant(constants, pass->rows[i].id, row_levels(&pass->rows[i], is_cpu));
         else if (pass->rows[i].optional) /* has_NAME, of OPTIONAL_READ and DISPATCH_LIST */
             fits = add_constant(constants, 1000 + pass->rows[i].id,
                                 graph_bound(graph, &pass->rows[i])->source != SOURCE_FALLBACK);
@@ -154,16 +157,18 @@ static bool check_limits(const struct gpu *gpu, const struct glint_pass *pass,
                          const VkDescriptorSetLayoutBinding *bindings, uint32_t count, const char *name,
                          struct glint_error *err) {
     const struct workgroup group = pass_workgroup(pass);
-    uint32_t sampled = 0;
-    for (uint32_t i = 0; i < count; i++)
-        sampled += bindings[i].descriptorType == VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE ||
-                   bindings[i].descriptorType == VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+    uint32_t sampled = 0, stored = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        const bool read = bindings[i].descriptorType == VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE ||
+                          bindings[i].descriptorType == VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+        *(read ? &sampled : &stored) += bindings[i].descriptorCount;
+    }
     const struct {
         uint32_t needed, has;
         const char *limit;
     } needs[] = {
         {sampled, gpu->limits.maxPerStageDescriptorSampledImages, "maxPerStageDescriptorSampledImages"},
-        {count - sampled, gpu->limits.maxPerStageDescriptorStorageImages, "maxPerStageDescriptorStorageImages"},
+        {stored, gpu->limits.maxPerStageDescriptorStorageImages, "maxPerStageDescriptorStorageImages"},
         {group.width * group.height, gpu->limits.maxComputeWorkGroupInvocations, "maxComputeWorkGroupInvocations"},
     };
     for (size_t i = 0; i < sizeof needs / sizeof *needs; i++)
@@ -181,8 +186,8 @@ static bool create_layouts(struct program *program, struct gpu *gpu, const struc
     for (size_t i = 0; i < pass->row_count && count < PASS_IMAGES_MAX; i++) {
         const struct glint_row *row = &pass->rows[i];
         if (!row_is_image(row)) continue;
-        bindings[count++] =
-            (VkDescriptorSetLayoutBinding){row->id, row_descriptor(row), 1, VK_SHADER_STAGE_COMPUTE_BIT, NULL};
+        bindings[count++] = (VkDescriptorSetLayoutBinding){row->id, row_descriptor(row), row_bindings(row),
+                                                           VK_SHADER_STAGE_COMPUTE_BIT, NULL};
     }
     if (!check_limits(gpu, pass, bindings, count, name, err) ||
         !create_set_layout(gpu, bindings, count, name, &program->images, err))

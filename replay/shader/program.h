@@ -36,7 +36,7 @@ struct constants {
     bool probed; /* the shader records probed pixels */
 };
 bool constants_init(struct constants *constants, const struct graph *graph, const struct graph_pass *pass,
-                    const struct spirv *spirv, const struct glint_replay_options *options, uint32_t block, bool by_hand,
+                    const struct spirv *spirv, const struct glint_replay_options *options, bool is_cpu, bool by_hand,
                     struct glint_error *err);
 
 struct program {

@@ -139,9 +139,13 @@ static bool check_sizes(const struct module *m, const char *path, struct glint_e
 
 /* ---- Bindings ---- */
 
-/* Whether a variable is an image or a texel buffer as the row declares it. */
+/* Whether a variable is an image or a texel buffer as the row declares it, or an array of them. */
 static bool fits_row(const struct module *m, const uint32_t *variable, const struct glint_row *row) {
     const uint32_t *type = made(m, made(m, variable[1])[3]);
+    if (row->kind == GLINT_ROW_WRITE_LEVELS) {
+        if (opcode(type) != OP_TYPE_ARRAY || constant(m, type[3], 0) > row_bindings(row)) return false;
+        type = made(m, type[2]);
+    }
     return variable[3] == STORAGE_UNIFORM_CONSTANT && opcode(type) == OP_TYPE_IMAGE &&
            (type[3] == DIM_BUFFER) == (strstr(row->glsl, "Buffer") != NULL) &&
            type[7] == (row_is_sampled(row) ? (uint32_t)SAMPLED : (uint32_t)STORED);

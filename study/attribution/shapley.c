@@ -34,18 +34,50 @@ static bool report_update(const struct glint_game *game, struct glint_error *err
     return !game->update || game->update(game->user, err);
 }
 
+static void add_once(uint32_t *order, size_t *count, uint32_t coalition) {
+    for (size_t i = 0; i < *count; i++)
+        if (order[i] == coalition) return;
+    order[(*count)++] = coalition;
+}
+
+/* Those of no and of all players, of one player and of all but one; returns how many these are. */
+static size_t order_ends(size_t players, uint32_t order[2 * GLINT_PLAYERS_MAX + 2]) {
+    const uint32_t all = (uint32_t)(((uint64_t)1 << players) - 1);
+    size_t count = 0;
+    add_once(order, &count, 0);
+    add_once(order, &count, all);
+    for (size_t i = 0; i < players; i++) {
+        add_once(order, &count, 1u << i);
+        add_once(order, &count, all & ~(1u << i));
+    }
+    return count;
+}
+
+void glint_shapley_order(size_t players, uint32_t *order) {
+    uint32_t ends[2 * GLINT_PLAYERS_MAX + 2];
+    const size_t end_count = order_ends(players, ends);
+    size_t count = end_count;
+    memcpy(order, ends, end_count * sizeof *ends);
+    for (uint32_t c = 0; c < (uint32_t)1 << players; c++) {
+        size_t i = 0;
+        while (i < end_count && ends[i] != c) i++;
+        if (i == end_count) order[count++] = c;
+    }
+}
+
 /* Marginal contributions of each player that joins first and of each that joins last. */
 static bool evaluate_ends(struct play *play, struct glint_shapley *out, struct glint_error *err) {
     const struct glint_game *game = play->game;
     const uint32_t all = all_players(game);
-    const double *none = evaluate_coalition(play, 0, err), *whole = none ? evaluate_coalition(play, all, err) : NULL;
-    if (!whole) return false;
+    uint32_t order[2 * GLINT_PLAYERS_MAX + 2];
+    const size_t count = order_ends(game->players, order);
+    for (size_t i = 0; i < count; i++)
+        if (!evaluate_coalition(play, order[i], err)) return false;
+    const double *none = play->known[0], *whole = play->known[all];
     memcpy(out->none, none, game->values * sizeof *none);
     memcpy(out->all, whole, game->values * sizeof *whole);
     for (size_t i = 0; i < game->players; i++) {
-        const double *alone = evaluate_coalition(play, 1u << i, err),
-                     *without = alone ? evaluate_coalition(play, all & ~(1u << i), err) : NULL;
-        if (!without) return false;
+        const double *alone = play->known[1u << i], *without = play->known[all & ~(1u << i)];
         for (size_t v = 0; v < game->values; v++) {
             out->first[i * game->values + v] = alone[v] - none[v];
             out->last[i * game->values + v] = whole[v] - without[v];

@@ -73,12 +73,31 @@ static double probe_position(const struct glint_search_axis *axis, double centre
     return axis_move(axis, centre, i ? step : -step);
 }
 
+/* Plans what evaluate_profile evaluates. */
+static bool plan_profile(struct search *search, struct profile *profile, double step, size_t most,
+                         struct glint_error *err) {
+    bool ok = true;
+    order_axes(search, profile->weight, profile->order);
+    for (size_t r = 0; r < most && r < search->count; r++) {
+        const size_t a = profile->order[r];
+        const double from = profile->centre[a];
+        bool more = !profile->skip[a];
+        for (uint32_t i = 0; ok && more; i++) {
+            const double to = probe_position(&search->axes[a], from, step, i, &more);
+            profile->centre[a] = to;
+            ok = !isfinite(to) || search_plan(search, profile->centre, err);
+        }
+        profile->centre[a] = from;
+    }
+    return ok;
+}
+
 /* Evaluates the `most` axes of the largest weight one by one, in descending order, so that those of the lowest weight are left out if max_points
    are used up. */
 static bool evaluate_profile(struct search *search, struct profile *profile, double step, size_t most,
                              struct glint_error *err) {
+    if (!plan_profile(search, profile, step, most, err) || !search_announce(search, err)) return false;
     profile->count = 0;
-    order_axes(search, profile->weight, profile->order);
     for (size_t r = 0; r < most && r < search->count; r++) {
         const size_t a = profile->order[r];
         bool evaluated = true, more = true;
@@ -161,11 +180,9 @@ static double fit_moves(const struct search *search, struct profile *profile, do
     return choose_point(search, profile, high);
 }
 
-/* Evaluates the chosen moves together; *constraint receives the result. Moves that change the figures by less than `worth` are left out. */
-static bool evaluate_moves(struct search *search, const struct profile *profile, double worth, double *constraint,
-                           struct glint_error *err) {
-    double *steps = malloc((search->count + 1) * sizeof *steps);
-    if (!steps) return no_memory(err, "search");
+/* The chosen moves together. Moves that change the figures by less than `worth` are left out. */
+static const double *combine_moves(const struct search *search, const struct profile *profile, double worth) {
+    double *steps = profile->before;
     memcpy(steps, profile->centre, search->count * sizeof *steps);
     for (size_t a = 0; a < search->count; a++) {
         const struct move *move = profile->chosen[a] ? &profile->moves[profile->chosen[a] - 1] : NULL;
@@ -174,10 +191,21 @@ static bool evaluate_moves(struct search *search, const struct profile *profile,
                 worth)
             steps[a] = move->to;
     }
-    const struct glint_search_point *point = search_at(search, steps, err);
-    if (point) *constraint = point->figures.constraint;
-    free(steps);
-    return point || err->code == GLINT_OK;
+    return steps;
+}
+
+/* Evaluates the best combination without its moves of little effect. */
+static bool simplify_best_moves(struct search *search, const struct profile *profile, struct glint_error *err) {
+    static const double parts[] = {0.003, 0.012, 0.048}; /* of the objective */
+    enum { PARTS = sizeof parts / sizeof *parts };
+    const double scale = fabs(profile->at.objective);
+    for (int i = 0; i < PARTS; i++)
+        if (!search_plan(search, combine_moves(search, profile, parts[i] * scale), err)) return false;
+    if (!search_announce(search, err)) return false;
+    for (int i = 0; i < PARTS; i++)
+        if (!search_at(search, combine_moves(search, profile, parts[i] * scale), err) && err->code != GLINT_OK)
+            return false;
+    return true;
 }
 
 /* Evaluates the best predicted combination, corrects the prediction by the result and repeats; then leaves out moves of little effect. */
@@ -185,19 +213,16 @@ static bool evaluate_best_moves(struct search *search, struct profile *profile, 
     const double room = search->options->limit - profile->at.constraint;
     double correction = 0;
     for (int i = 0; i < 4; i++) {
-        double constraint = NAN;
         const double sum = fit_moves(search, profile, room - correction);
-        if (!evaluate_moves(search, profile, 0, &constraint, err)) return false;
+        const struct glint_search_point *point = search_at(search, combine_moves(search, profile, 0), err);
+        if (!point && err->code != GLINT_OK) return false;
+        const double constraint = point ? point->figures.constraint : (double)NAN;
         if (!isfinite(constraint)) break;
         const double off = constraint - profile->at.constraint - sum;
         if (fabs(off - correction) < 0.01 * fabs(search->options->limit)) break;
         correction = off;
     }
-    for (double part = 0.003; part < 0.1; part *= 4) {
-        double constraint;
-        if (!evaluate_moves(search, profile, part * fabs(profile->at.objective), &constraint, err)) return false;
-    }
-    return true;
+    return simplify_best_moves(search, profile, err);
 }
 
 static void centre_on(const struct search *search, struct profile *profile, size_t point) {
@@ -304,6 +329,9 @@ static bool displace_best(struct search *search, struct profile *profile, struct
                                         : axis_move(axis, profile->centre[a], way < 0.5 ? -4 * way : 4 * way - 2);
         if (isfinite(to)) profile->centre[a] = to;
     }
+    if (!search_plan(search, profile->centre, err) || !plan_profile(search, profile, 1, search->count, err) ||
+        !search_announce(search, err))
+        return false;
     const struct glint_search_point *point = search_at(search, profile->centre, err);
     if (!point) return err->code == GLINT_OK;
     profile->at = point->figures;
@@ -312,10 +340,15 @@ static bool displace_best(struct search *search, struct profile *profile, struct
 }
 
 static bool evaluate_initial(struct search *search, struct profile *profile, struct glint_error *err) {
-    const double *values = search->options->initial;
-    for (size_t i = 0; i < search->options->initial_count; i++, values += search->count) {
-        for (size_t a = 0; a < search->count; a++) profile->before[a] = axis_steps(&search->axes[a], values[a]);
-        if (!search_at(search, profile->before, err) && err->code != GLINT_OK) return false;
+    for (int pass = 0; pass < 2; pass++) { /* announced, then evaluated */
+        const double *values = search->options->initial;
+        for (size_t i = 0; i < search->options->initial_count; i++, values += search->count) {
+            for (size_t a = 0; a < search->count; a++) profile->before[a] = axis_steps(&search->axes[a], values[a]);
+            if (pass ? !search_at(search, profile->before, err) && err->code != GLINT_OK
+                     : !search_plan(search, profile->before, err))
+                return false;
+        }
+        if (!pass && !search_announce(search, err)) return false;
     }
     return true;
 }
@@ -382,6 +415,7 @@ bool glint_search(const struct glint_search_axis *axes, size_t count, const stru
     free(profile.order);
     free(profile.skip);
     free(profile.moves);
+    free(search.planned);
     free(search.scratch);
     return ok;
 }

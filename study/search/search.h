@@ -13,6 +13,8 @@ struct search {
     struct glint_search_result *result;
     uint64_t random;
     double *scratch; /* values of the current point */
+    double *planned; /* values of points that are announced next */
+    size_t planned_count, planned_room;
 };
 
 /* Converts a value to steps from the lower end of its axis, 0 to axis_length, and back. For choices both are the choice. */
@@ -31,6 +33,9 @@ const struct glint_search_point *search_at(struct search *search, const double *
 /* Whether the point is already evaluated. */
 bool search_knows(struct search *search, const double *steps);
 bool search_is_spent(const struct search *search);
+/* Adds a point to those that are announced next, if it is new and max_points allow it; and announces them, if they are several. */
+bool search_plan(struct search *search, const double *steps, struct glint_error *err);
+bool search_announce(struct search *search, struct glint_error *err);
 /* Estimates the weight of all axes with about `tries` points around the centre, whose figures are `at`: the relative change of both figures by the
    axis, or by the group that it is still in divided by its size; at most SEARCH_HEAVIEST, which is also the weight of invalid points. */
 #define SEARCH_HEAVIEST 1.0

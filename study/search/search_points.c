@@ -1,4 +1,4 @@
-/* The evaluated points, and the best of them. */
+/* The evaluated points, the best of them, and those that are announced. */
 #include "search.h"
 
 #include <math.h>
@@ -71,4 +71,31 @@ const struct glint_search_point *search_at(struct search *search, const double *
         !add_point(search, search->scratch, &figures, err))
         return NULL;
     return &result->points[result->count - 1];
+}
+
+static bool is_planned(const struct search *search) {
+    for (size_t i = 0; i < search->planned_count; i++)
+        if (!memcmp(search->planned + i * search->count, search->scratch, search->count * sizeof(double))) return true;
+    return false;
+}
+
+bool search_plan(struct search *search, const double *steps, struct glint_error *err) {
+    if (!search->options->announce || search->result->count + search->planned_count >= search->options->max_points ||
+        find_point(search, steps) || is_planned(search))
+        return true;
+    if (search->planned_count == search->planned_room) {
+        const size_t room = 2 * search->planned_room + 8;
+        double *larger = realloc(search->planned, room * (search->count + 1) * sizeof *larger);
+        if (!larger) return no_memory(err, "search");
+        search->planned = larger;
+        search->planned_room = room;
+    }
+    memcpy(search->planned + search->planned_count++ * search->count, search->scratch, search->count * sizeof(double));
+    return true;
+}
+
+bool search_announce(struct search *search, struct glint_error *err) {
+    const size_t count = search->planned_count;
+    search->planned_count = 0;
+    return count < 2 || search->options->announce(search->user, search->planned, count, err);
 }

@@ -31,12 +31,16 @@ static double moved_value(const struct glint_search_axis *axis, double from) {
     return isfinite(down) ? down : isfinite(up) ? up : from;
 }
 
+/* The point at which `count` axes from `first` on are moved. */
+static void move_axes(const struct search *search, const double *centre, size_t first, size_t count, double *steps) {
+    memcpy(steps, centre, search->count * sizeof *steps);
+    for (size_t a = first; a < first + count; a++) steps[a] = moved_value(&search->axes[a], centre[a]);
+}
+
 /* *evaluated is false if max_points are used up. */
 static bool measure_effects(struct search *search, const double *centre, const struct glint_search_figures *at,
                             struct group *group, double *steps, bool *evaluated, struct glint_error *err) {
-    memcpy(steps, centre, search->count * sizeof *steps);
-    for (size_t a = group->first; a < group->first + group->count; a++)
-        steps[a] = moved_value(&search->axes[a], centre[a]);
+    move_axes(search, centre, group->first, group->count, steps);
     const struct glint_search_point *point = search_at(search, steps, err);
     *evaluated = point != NULL;
     if (!point) return err->code == GLINT_OK;
@@ -72,6 +76,17 @@ static size_t heaviest_group(const struct search *search, const struct group *gr
     return best;
 }
 
+/* Announces the first halves of all groups that will be halved, if there are tries enough. */
+static bool announce_halves(struct search *search, const double *centre, const struct group *groups, size_t count,
+                            size_t last, double *steps, struct glint_error *err) {
+    for (size_t g = 0; g < count && search->result->count + search->planned_count < last; g++) {
+        if (groups[g].count < 2 || weight_of(search, &groups[g]) == 0) continue;
+        move_axes(search, centre, groups[g].first, groups[g].count / 2, steps);
+        if (!search_plan(search, steps, err)) return false;
+    }
+    return search_announce(search, err);
+}
+
 bool search_screen(struct search *search, const double *centre, const struct glint_search_figures *at, uint32_t tries,
                    double *weight, struct glint_error *err) {
     const size_t last = search->result->count + tries;
@@ -84,7 +99,8 @@ bool search_screen(struct search *search, const double *centre, const struct gli
         ok = measure_effects(search, centre, at, &groups[0], steps, &evaluated, err);
     }
     while (ok && evaluated && search->result->count < last && (g = heaviest_group(search, groups, count)) < count) {
-        ok = split_group(search, centre, at, &groups[g], &groups[count], steps, &evaluated, err);
+        ok = announce_halves(search, centre, groups, count, last, steps, err) &&
+             split_group(search, centre, at, &groups[g], &groups[count], steps, &evaluated, err);
         count += ok && evaluated;
     }
     for (size_t k = 0; ok && k < count; k++)

@@ -62,12 +62,12 @@ class Tests:
         glint("batch", "sweep", "a.exr", "-o", out, "--vary=screen_trace.steps=1..4", "--slurm", f"--shards={shards}", *words)
         return out
 
-    def shard(self, out, number, of, results, total, kept=0, started=1000.0, written=1010.0, done=False, cut=False):
+    def shard(self, out, number, of, results, total, kept=0, started=1000.0, written=1010.0, done=False, cut=False, **more):
         """What a shard leaves behind (journal/shard.h)."""
         folder = os.path.join(out, f"shards/{number}-of-{of}")
         os.makedirs(folder, exist_ok=True)
         with open(os.path.join(folder, "shard.json"), "w", encoding="utf-8") as file:
-            json.dump({"format": 1, "command": "sweep", "shard": number, "of": of, "results": total, "kept": kept, "done": done}, file)
+            json.dump({"format": 1, "command": "sweep", "shard": number, "of": of, "results": total, "kept": kept, "done": done, **more}, file)
         with open(os.path.join(folder, "log.jsonl"), "w", encoding="utf-8") as file:
             file.write('{"capture":0,"point":0}\n' * results + '{"capture"' * cut)
         os.utime(os.path.join(folder, "shard.json"), (started, started))
@@ -96,6 +96,30 @@ class Tests:
             own, "sweep", "--shard=3/5", "--output=../out put", "--vary=a=b c", "--repeat=0", "--preset=$HOME", "--no-pictures", "--set=x=", "--", *hard]
         assert self.words("merge.sh") == [own, "merge", "../out put"]
         assert not self.calls()
+
+    def test_every_command_with_shards_has_scripts(self):
+        for k, (words, expected) in enumerate(((["lint", "a.exr"], ["lint", "--shard=2/3", "--output=X", "a.exr"]), (["validate", "s/", "a"], ["validate", "--shard=2/3", "--output=X", "s/", "a"]),
+                                               (["compare", "s", "--presets", "a,b"], ["compare", "--shard=2/3", "--output=X", "--presets=a,b", "s"]),
+                                               (["blame", "s", "--repeat", "0"], ["blame", "--shard=2/3", "--output=X", "--repeat=0", "s"]),
+                                               (["check", "r", "--baseline=b", "-fail", "0.1"], ["check", "--shard=2/3", "--output=X", "--baseline=b", "--fail=0.1", "r"]))):
+            out = f"every{k}"
+            glint("batch", *words, "-o", out, "--slurm", "--no-submit", "--shards=3")
+            with open(f"{out}/shard.sbatch", encoding="utf-8") as file, open("every.sh", "w", encoding="utf-8") as script:
+                script.write(file.read().replace(GLINT, os.path.join(self.fakes, "words")))
+            assert self.words("every.sh", SLURM_ARRAY_TASK_ID="2")[1:] == [word.replace("X", out) for word in expected]
+            assert "no " in glint("batch", words[0], "-o", "none", "--slurm", status=2).stderr
+
+    def test_of_tune_the_preset_is_the_output_and_its_folder_the_batch_s(self):
+        for more, folder in (((), "half.tune"), (("--folder", "in here"), "in here")):
+            glint("batch", "tune", "s", "-o", "half.json", "--budget-fetches=50%", *more, "--slurm", "--no-submit", "--shards=3")
+            for name in ("shard", "merge"):
+                with open(f"{folder}/{name}.sbatch", encoding="utf-8") as file, open(f"{name}.sh", "w", encoding="utf-8") as script:
+                    script.write(file.read().replace(GLINT, os.path.join(self.fakes, "words")))
+            words = self.words("shard.sh", SLURM_ARRAY_TASK_ID="2")[1:]
+            assert words[:3] == ["tune", "--shard=2/3", f"--folder={folder}"] and words[-2:] == ["--output=half.json", "s"] and "--budget-fetches=50%" in words, words
+            assert self.words("merge.sh")[1:] == ["merge", folder]
+        assert "expected NAME.json" in glint("batch", "tune", "s", "-o", "half", "--slurm", status=2).stderr
+        assert "-o NAME.json" in glint("batch", "tune", "s", "--slurm", status=2).stderr
 
     def words(self, script, **environment):
         subprocess.run(["bash", script], check=True, env={**os.environ, **environment})
@@ -274,6 +298,12 @@ class Tests:
         assert not self.status(out)["merge"]["done"], "it is of an earlier sweep"
         os.utime(f"{out}/index.html", (2000, 2000))
         assert self.status(out)["merge"]["done"]
+        self.shard(out, 1, 2, results=2, total=3, done=True, result="results.json")
+        self.shard(out, 2, 2, results=2, total=3, done=True, result="results.json")
+        assert not self.status(out)["merge"]["done"], "the command has another result"
+        with open(f"{out}/results.json", "w", encoding="utf-8"):
+            pass
+        assert self.status(out)["merge"]["done"]
         self.shard(out, 2, 2, results=2, total=3)
         assert not self.status(out)["merge"]["done"], "it is of an earlier sweep"
 
@@ -319,7 +349,7 @@ class Tests:
         assert not self.calls()
 
     def test_wrong_words_are_usage_errors(self):
-        for words, said in ((["statu", "x"], "found statu"), ([], "expected sweep, status"), (["status"], "one folder"), (["cancel", "a", "b"], "one folder"),
+        for words, said in ((["statu", "x"], "found statu"), ([], "expected a command with --shard ("), (["status"], "one folder"), (["cancel", "a", "b"], "one folder"),
                             (["resubmit", "a", "--shards=2"], "no option but --json"), (["status", "a", "--sbatch=-x"], "no option but --json"),
                             (["sweep", "a.exr", "-o", "x", "--slurm", "--varry=x"], "did you mean --vary")):
             assert said in glint("batch", *words, status=2).stderr, words

@@ -27,7 +27,7 @@ class Tests:
         os.environ["HOME"] = folder  # where parallel keeps its settings
         os.makedirs(os.path.join(folder, "whole/shots"))
         for scene in ("street", "room"):
-            glint("sample", scene, "-o", f"whole/shots/{scene}.exr", "--size=16x9", "--cube-size=8", folder=folder)
+            glint("sample", scene, "--light=1", "-o", f"whole/shots/{scene}.exr", "--size=16x9", "--cube-size=8", folder=folder)
         for name in ("parallel", "kubernetes"):
             os.mkdir(os.path.join(folder, name))
             os.symlink("../whole/shots", os.path.join(folder, name, "shots"))

@@ -51,7 +51,7 @@ class Tests:
     @functools.cached_property
     def shot(self):
         os.mkdir("shot")
-        glint("sample", "room", "-o", "shot/room.exr", f"--frames={CAPTURES}", "--size=16x9", "--cube-size=8", "--truth=1")
+        glint("sample", "room", "-o", "shot/room.exr", f"--frames={CAPTURES}", "--size=16x9", "--cube-size=8", "--light=1", "--truth=1")
         return "shot"
 
     @functools.cached_property
@@ -124,6 +124,50 @@ class Tests:
         assert found["merge"]["done"] and found["merge"]["state"] == "completed", (found, self.logs("killed"))
         assert lines(log)[:len(before)] == before, "what it had is not done again"
         self.check_same("killed")
+
+    def test_other_commands_in_shards(self):
+        """Of the merge of a lint with findings Slurm says that it failed, since its exit status is that of lint."""
+        os.mkdir("few")
+        for name in sorted(name for name in os.listdir(self.shot) if name.startswith("room.0"))[:6]:
+            shutil.copy(f"{self.shot}/{name}", "few")
+        shutil.copy(f"{self.shot}/room.cubemaps.exr", "few")
+        with open("few/unreadable.exr", "wb") as file:
+            file.write(b"not an image")
+        compare = ["--presets", tap.PLAIN, "--effect", "reflection", "--repeat", "1"]
+        for command, words, state in (("lint", [], "failed"), ("validate", [], "failed"), ("compare", compare, "failed")):
+            glint(command, "few", "-o", f"{command}-one", *words, status=1)
+            glint("batch", command, "few", "-o", f"{command}-out", *words, "--slurm", "--shards=3")
+            found = self.wait(f"{command}-out")
+            assert found["merge"]["done"] and found["merge"]["state"] == state and found["results"] == 7, (found, self.logs(f"{command}-out"))
+            assert f"merged: {command}-out" in glint("batch", "status", f"{command}-out").stdout
+            one, out = timeless.contents(f"{command}-one"), timeless.contents(f"{command}-out", *OWN)
+            timed = ("index.html", "page.json", "table.csv")
+            assert one.keys() == out.keys() and not [name for name in one if one[name] != out[name] and name not in timed], (one.keys(), out.keys())
+
+    def test_a_search_in_rounds(self):
+        """More shards than run at a time: those that wait in the queue are not waited for. The result is that of one process, but for the command that it names."""
+        frames = sorted(f"shot/{name}" for name in os.listdir(self.shot) if name.startswith("room.0"))[:3]
+        words = ["tune", *frames, "-o", "half.json", "-p", tap.PLAIN, "--budget-fetches", "60%", "--reference", "truth", "--tries", "20", "--repeat", "0",
+                 "--vary", "screen_trace.steps=2..64", "--vary", "cubemap_trace.steps_hq=4..64"]
+        found = {}
+        for name in ("one", "many"):
+            os.makedirs(f"rounds/{name}")
+            os.symlink("../../shot", f"rounds/{name}/shot")
+        glint(*words, folder="rounds/one")
+        glint("batch", *words, "--slurm", "--shards=4", folder="rounds/many")
+        status = self.wait("rounds/many/half.tune")
+        assert status["merge"]["done"] and {s["state"] for s in status["shards"]} == {"completed"}, (status, self.logs("rounds/many/half.tune"))
+        for name in ("one", "many"):
+            with open(f"rounds/{name}/half.json", encoding="utf-8") as file:
+                found[name] = {**timeless.contents(f"rounds/{name}/half.tune", *OWN), "preset": json.load(file)}
+            found[name]["preset"]["provenance"].pop("command")
+            found[name]["page.json"]["facts"] = [fact for fact in found[name]["page.json"]["facts"] if "command" not in fact]
+            found[name].pop("half.html")
+        assert found["one"].keys() == found["many"].keys(), found["one"].keys() ^ found["many"].keys()
+        differing = [name for name in found["one"] if found["one"][name] != found["many"][name]]
+        assert not differing, differing
+        counted = [(line["capture"], str(line.get("values"))) for k in range(4) for line in map(json.loads, lines(f"rounds/many/half.tune/shards/{k + 1}-of-4/log.jsonl"))]
+        assert len(counted) == len(set(counted)) == status["results"], counted
 
     def test_a_cancelled_batch_goes_on(self):
         """Names are hard, and scripts are changed before they are submitted."""

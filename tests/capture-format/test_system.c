@@ -1,4 +1,5 @@
 /* What the operating system does for the library: paths, files that others have open, large offsets, threads. */
+#define _GNU_SOURCE /* sched_setaffinity */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,6 +13,8 @@
 
 #ifdef _WIN32
 #include <windows.h>
+#else
+#include <sched.h>
 #endif
 
 static void write_text(const char *path, const char *text, size_t size) {
@@ -286,6 +289,21 @@ static void threads_take_turns(UNUSED void **state) {
     glint_mutex_finish(&turns.lock);
 }
 
+#ifdef __linux__
+static void cores_of_others_do_not_count(UNUSED void **state) {
+    cpu_set_t own, one;
+    assert_int_equal(sched_getaffinity(0, sizeof own, &own), 0);
+    assert_int_equal(glint_cores(), CPU_COUNT(&own));
+    size_t core = 0;
+    while (!CPU_ISSET(core, &own)) core++;
+    CPU_ZERO(&one);
+    CPU_SET(core, &one);
+    assert_int_equal(sched_setaffinity(0, sizeof one, &one), 0);
+    assert_int_equal(glint_cores(), 1);
+    assert_int_equal(sched_setaffinity(0, sizeof own, &own), 0);
+}
+#endif
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_byte_is_kept),
@@ -294,6 +312,9 @@ int main(void) {
         cmocka_unit_test(long_paths_work),
         cmocka_unit_test(a_file_that_is_read_can_be_replaced),
         cmocka_unit_test(an_open_capture_keeps_its_pixels),
+#ifdef __linux__
+        cmocka_unit_test(cores_of_others_do_not_count),
+#endif
 #ifdef _WIN32
         cmocka_unit_test(a_locked_file_is_left_alone),
         cmocka_unit_test(a_path_that_is_not_utf8_is_an_error),

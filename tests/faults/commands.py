@@ -37,7 +37,10 @@ COMMANDS = {
     "info RUN": "info run",
     "validate": "validate tiny.exr",
     "validate SHOT": "validate shot.0001.exr shot.0002.exr",
+    "validate SET": "validate shot.0001.exr shot.0002.exr -o out",
     "lint": "lint tiny.exr",
+    "lint SET": "lint shot.0001.exr tiny.exr -o out",
+    "merge": "merge linted -o out",
     "plan": "plan tiny.exr -p kf2",
     "passes": "passes",
     "view": "view run -o out.png",
@@ -50,6 +53,7 @@ COMMANDS = {
     "export": "export run -o out.exr",
     "report": "report run -o out.html",
     "check": "check run --baseline base",
+    "check RUNS": "check part --baseline part -o out",
     "check --approve": "check run --baseline new --approve",
     "devices": "devices",
     "replay": "replay tiny.exr -p kf2 -o out",
@@ -93,3 +97,5 @@ def make_inputs(folder):
     tap.glint("reference", "tiny.exr", "--like", "plain.json", "--rays", "16", "-o", "converged", folder=folder)
     tap.glint("check", "run", "--baseline", "base", "--approve", folder=folder)
     tap.glint("extract", "tiny.exr", "-o", "loose", folder=folder)
+    for share in ("1/2", "2/2"):
+        tap.glint("lint", "shot.0001.exr", "tiny.exr", "-o", "linted", "--shard", share, folder=folder)

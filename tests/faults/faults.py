@@ -47,8 +47,11 @@ FORGETFUL = (("libOpenEXRCore", "glint_exr_memory_take"),)
 UNENDED = "glslang cannot start"
 # What a command that goes on where it was interrupted may keep, whole as it is without the fault, and uses then.
 GROWS = {"replay --against", "sweep", "tune", "blame", "reference", "library reference"}  # by errors, pages, logs and rays
-JOURNAL = {"out/compare.json", "out/log.jsonl"}  # of compare, until it is finished
-KEEPS = {"live", "replay SHOT", "replay PART", "explain", "compare", "stability", *GROWS}
+# These have a journal, out/log.jsonl, and its definition, until they are finished.
+JOURNALS = {name: {f"out/{name.split()[0]}.json", "out/log.jsonl"} for name in ("compare", "lint SET", "validate SET", "check RUNS", "merge")}
+JOURNALS["merge"].add("out/lint.json")  # of the command whose shards are merged
+ROWS = {"lint SET", "validate SET", "check RUNS", "merge"}
+KEEPS = {"live", "replay SHOT", "replay PART", "explain", "stability", *JOURNALS, *GROWS}
 
 
 class Command:
@@ -83,13 +86,15 @@ class Command:
     def same_files(self, files):
         return files.keys() == self.whole.files.keys() and all(self.same(path, files[path], self.whole.files[path]) for path in files)
 
-    def may_leave(self, files):
-        """Nothing, all, or, where a command goes on later, whole files alone."""
+    def may_leave(self, files, words):
+        """Nothing, all, or, where a command goes on later, whole files alone. Of many captures, one that cannot be read is a row of the result, which says why."""
         before = self.process.before
         if files == before or self.same_files(files):
             return True
         new = [path for path in files if before.get(path, b"") != files[path] or path not in before]
-        new = [path for path in new if self.name != "compare" or path not in JOURNAL]
+        new = [path for path in new if path not in JOURNALS.get(self.name, ())]
+        if self.name in ROWS and new == ["out/", "out/results.json"] and re.search(words, files[new[1]].decode()):
+            return True
         whole, grows = self.whole.files, self.name in GROWS
         return self.name in KEEPS and before.keys() <= files.keys() and all(path in whole and (grows or self.same(path, files[path], whole[path])) for path in new)
 
@@ -116,12 +121,12 @@ class Command:
             return "exit 0, other output"
         if outcome.status == 0 and not self.same_files(outcome.files) and self.name != "live":
             return "exit 0, other files"
-        if not self.may_leave(outcome.files):
+        if not self.may_leave(outcome.files, words):
             return "leaves files"
         wrong = self.name == "live" and serving.judge(outcome, whole, words, self.same_text, once == "once")
         if wrong:
             return wrong
-        said = outcome.err + outcome.out.decode(errors="replace") * self.name.startswith("validate")
+        said = outcome.err + outcome.out.decode(errors="replace") * (self.name in {"validate", "validate SHOT", *ROWS})
         if outcome.status and not re.search(words, said):
             return "does not say why"
         return "leaks" if self.leaked(outcome) else None

@@ -305,9 +305,9 @@ class Table:
 
 def make_inputs(folder, names):
     at = lambda name: os.path.join(folder, name)  # noqa: E731
-    tap.glint("sample", "street", "-o", at("shot.exr"), "--size", "16x9", "--cube-size", "8", "--frames", "3")
+    tap.glint("sample", "street", "--light=1", "-o", at("shot.exr"), "--size", "16x9", "--cube-size", "8", "--frames", "3")
     truth = ["--truth", "1"] if "compare" in names else []
-    tap.glint("sample", "street", "-o", at("tiny.exr"), "--size", "16x9", "--cube-size", "8", *truth)
+    tap.glint("sample", "street", "--light=1", "-o", at("tiny.exr"), "--size", "16x9", "--cube-size", "8", *truth)
     tap.glint("set", "tiny.exr", "-o", "wrong.exr", "roughness=perceptual", folder=folder)
     tap.glint("replay", "shot.0001.exr", "-p", "kf2", "-o", "old", folder=folder)
     tap.glint("replay", "tiny.exr", "-p", "kf2", "-o", "other", folder=folder)

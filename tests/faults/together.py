@@ -91,7 +91,7 @@ class Rounds:
         self.chance = random.Random(options.seed)
         self.counts = collections.Counter()
         self.bad = []
-        tap.glint("sample", "street", "-o", self.path("tiny.exr"), "--size", "16x9", "--cube-size", "8")
+        tap.glint("sample", "street", "--light=1", "-o", self.path("tiny.exr"), "--size", "16x9", "--cube-size", "8")
         self.expected = []
         for i, preset in enumerate(PRESETS):
             tap.glint("replay", "tiny.exr", "-p", preset, "-o", f"alone{i}", folder=folder)

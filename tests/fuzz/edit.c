@@ -51,17 +51,17 @@ static void check_note(void *user, const char *text) {
     fuzz_must(text[0] != '\0', "a note has a text");
 }
 
-static void assign(struct glint_edit *edit, char *line) {
+static bool assign(struct glint_edit *edit, char *line) {
     struct glint_error err = {0};
     char *value = strchr(line, '='), *key = line;
-    if (!value) return;
+    if (!value) return false;
     *value++ = '\0';
     char *colon = strchr(line, ':');
     if (colon) {
         *colon = '\0';
         key = colon + 1;
     }
-    fuzz_reason(glint_edit_assign(edit, colon ? line : NULL, key, value, &err), &err);
+    return fuzz_reason(glint_edit_assign(edit, colon ? line : NULL, key, value, &err), &err);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
@@ -74,8 +74,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     struct glint_edit *edit = glint_edit_open(in, &fuzz_limits, check_note, NULL, &err);
     char *text = strdup(fuzz_text(data, size));
     fuzz_must(edit && text, err.message);
-    for (char *rest = text, *line; (line = strsep(&rest, "\n")) != NULL;) assign(edit, line);
-    if (fuzz_reason(glint_edit_write(edit, out, &err), &err)) {
+    bool changed = false;
+    for (char *rest = text, *line; (line = strsep(&rest, "\n")) != NULL;) changed |= assign(edit, line);
+    if (changed && fuzz_reason(glint_edit_write(edit, out, &err), &err)) {
         struct glint_capture *capture = glint_capture_open(out, &fuzz_limits, &err);
         fuzz_must(capture != NULL, err.message);
         glint_capture_close(&capture);

@@ -94,7 +94,7 @@ class Tests:
             self.refused(name, "sample", "scene/s.gltf", "-o", "scene.exr", "--size", "16x9", "--cube-size", "4")
 
     def test_textures_of_a_manifest(self):
-        tap.glint("sample", "street", "-o", "tiny.exr", "--size", "16x9", "--cube-size", "8", folder=self.folder)
+        tap.glint("sample", "street", "--light=1", "-o", "tiny.exr", "--size", "16x9", "--cube-size", "8", folder=self.folder)
         tap.glint("extract", "tiny.exr", "-o", "loose", folder=self.folder)
         with open(self.path("loose", "manifest.json"), encoding="utf-8") as file:
             content = json.load(file)
@@ -111,7 +111,7 @@ class Tests:
             self.refused(name, "view", name, "-o", "shown.png")
 
     def test_configurations_without_an_end(self):
-        tap.glint("sample", "street", "-o", "shown.exr", "--size", "16x9", "--cube-size", "8", folder=self.folder)
+        tap.glint("sample", "street", "--light=1", "-o", "shown.exr", "--size", "16x9", "--cube-size", "8", folder=self.folder)
         write(self.path("line.ocio"), b"")
         os.truncate(self.path("line.ocio"), 1 << 34)  # sparse: one line of 16 GiB
         for name in ("line.ocio", "/dev/zero"):

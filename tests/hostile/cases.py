@@ -28,7 +28,7 @@ class Tests:
     def __init__(self, folder):
         self.folder = folder
         write(self.path("secret"), SECRET)
-        tap.glint("sample", "street", "-o", "tiny.exr", "--size", "16x9", "--cube-size", "8", folder=folder)
+        tap.glint("sample", "street", "--light=1", "-o", "tiny.exr", "--size", "16x9", "--cube-size", "8", folder=folder)
         tap.glint("replay", "tiny.exr", "-p", tap.PLAIN, "-o", "good", folder=folder)
         self.image = sorted(name for name in os.listdir(self.path("good")) if name.endswith(".exr"))[0]
 
@@ -145,7 +145,7 @@ class Tests:
                 glint("pack", "loose/manifest.json", "-o", "packed.exr", "--outside", status=0, folder=self.folder)
 
     def test_a_sibling_is_a_file_beside_the_capture(self):
-        tap.glint("sample", "room", "-o", "shot.exr", "--size", "16x9", "--cube-size", "8", "--frames", "2", folder=self.folder)
+        tap.glint("sample", "room", "--light=1", "-o", "shot.exr", "--size", "16x9", "--cube-size", "8", "--frames", "2", folder=self.folder)
         sibling = self.path(next(name for name in os.listdir(self.folder) if name.startswith("shot.") and "000" not in name))
         os.rename(sibling, self.path("kept"))
         for make in (os.mkfifo, lambda path: os.symlink("/dev/zero", path), lambda path: os.symlink("secret", path), lambda path: os.symlink("kept", path)):
@@ -225,6 +225,7 @@ class Tests:
 
     def test_a_folder_is_no_configuration_of_colours(self):
         assert "expected a file, found a folder" in glint("view", "good", "-o", "x.png", "--ocio", "good", status=1, folder=self.folder)
+        assert "/proc/self/mem: it cannot be read" in glint("view", "good", "-o", "x.png", "--ocio", "/proc/self/mem", status=1, folder=self.folder)
 
     def test_a_configuration_of_colours_does_not_explode(self):
         spaces = "\n  - !<ColorSpace>\n    name: a0\n    from_scene_reference: &a0 !<CDLTransform> {slope: [1, 1, 1]}\n"

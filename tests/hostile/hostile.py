@@ -25,6 +25,7 @@ from mutate import read, write  # noqa: E402
 SECRET = b"a secret of the user, which no command may copy\n"
 MEMORY_BYTES = 3 << 29
 FILE_BYTES = 1 << 28
+NO_LEAKS = f"{os.environ.get('ASAN_OPTIONS', '')}:detect_leaks=0"  # drivers leak
 REPORT = re.compile(r"(ERROR: \w+Sanitizer|runtime error:|SUMMARY: \w+Sanitizer)")
 
 
@@ -62,7 +63,7 @@ def listing(folder):
 
 def names_a_file(text, folder, environment):
     """Whether the message has the name of a file or folder there, or of a variable."""
-    names = {name for root, folders, files in os.walk(folder) for name in files + [f"{name}/" for name in folders]} | set(environment) | {v for v in environment.values() if v}
+    names = {name for root, folders, files in os.walk(folder) for name in files + [name + end for name in folders for end in "/:"]} | set(environment) | {v for v in environment.values() if v}
     return any(name in text for name in names) or re.search("--[a-z]+", text)
 
 
@@ -117,6 +118,8 @@ class Trial:
         """What is bad about this command, or None, and how it ended."""
         words = [self.options.glint, *line.replace("PLAIN", tap.PLAIN).split()]
         whole = {**os.environ, "GLINT_CACHE": "none", "HOME": self.outside, "TMPDIR": self.outside, **{k: v.replace("\0", "") for k, v in environment.items()}}
+        if self.kind.device:
+            whole["ASAN_OPTIONS"] = NO_LEAKS
         before = listing(self.outside)
         outcome = Outcome(words, whole, self.folder, self.kind.timeout_s * self.options.patience, self.options.sanitized)
         return self.judge(outcome, allowed or self.kind.statuses, environment, before), outcome
@@ -143,7 +146,7 @@ def try_kind(options, kind, folder):
     template = os.path.join(folder, kind.name)
     os.mkdir(template)
     own = os.environ.get("ASAN_OPTIONS", "")
-    os.environ["ASAN_OPTIONS"] = f"{own}:detect_leaks=0"  # drivers leak
+    os.environ["ASAN_OPTIONS"] = NO_LEAKS
     kind.make(template)
     os.environ["ASAN_OPTIONS"] = own
     check_commands(options, kind, template)
@@ -173,9 +176,10 @@ def main():
     parser.add_argument("--keep", help="folder for the files of bad runs")
     parser.add_argument("--show", type=int, default=300, help="characters of messages")
     parser.add_argument("--patience", type=float, default=1)
+    parser.add_argument("--make-with", type=os.path.abspath, metavar="GLINT", help="another glint, which makes the files that are changed")
     parser.add_argument("--sanitized", action="store_true", help="glint is built with the address sanitizer, which reserves memory")
     options = parser.parse_args()
-    sys.argv[1] = options.glint  # which tap.glint runs, in any folder
+    sys.argv[1] = options.make_with or options.glint  # which tap.glint runs, in any folder
     kinds = [kind for kind in KINDS if options.only in ("", kind.name) and not (options.quick and kind.slow)]
     os.environ["GLINT_CACHE"] = "none"
     folder = tempfile.mkdtemp(prefix="glint-hostile-")

@@ -14,6 +14,7 @@ class Kind:
     """`commands` are (words, statuses) with paths relative to the folder."""
     name, commands, timeout_s = "", [], 20
     slow = False  # replays, in seconds
+    device = False  # opens a device
     unchanged = (0,)  # exit statuses where nothing is changed
     named = None  # what a message may name instead of a file
     environment = {}
@@ -47,7 +48,7 @@ def below(folder, *suffixes):
 
 
 def small_capture(folder, name="tiny.exr"):
-    tap.glint("sample", "street", "-o", os.path.join(folder, name), "--size", "16x9", "--cube-size", "8")
+    tap.glint("sample", "street", "--light=1", "-o", os.path.join(folder, name), "--size", "16x9", "--cube-size", "8")
 
 
 def small_run(folder):
@@ -91,7 +92,7 @@ class Shot(Kind):
     commands = [("report shot -o out.html", None), ("info shot/f.0001", None), ("check good --baseline shot", (0, 1, 2, 3, 4))]
 
     def make(self, folder):
-        tap.glint("sample", "street", "-o", os.path.join(folder, "f.exr"), "--size", "16x9", "--cube-size", "8", "--frames", "2")
+        tap.glint("sample", "street", "--light=1", "-o", os.path.join(folder, "f.exr"), "--size", "16x9", "--cube-size", "8", "--frames", "2")
         tap.glint("replay", "f.0001.exr", "f.0002.exr", "-p", tap.PLAIN, "-o", "shot", folder=folder)
         shutil.copytree(os.path.join(folder, "shot"), os.path.join(folder, "good"))
 
@@ -230,7 +231,7 @@ class Ocio(Kind):
 
 class Journal(Kind):
     name = "journal"
-    slow = True
+    slow = device = True
     timeout_s = 60
     commands = [("sweep tiny.exr -o sweep -p PLAIN --vary screen_trace.steps=4,8 --repeat 1", None), ("report sweep -o out.html", None), ("report compare -o out.html", None),
                 ("reference tiny.exr -o reference --rays 16", None)]
@@ -248,7 +249,7 @@ class Journal(Kind):
 
 class Shader(Kind):
     name = "shader"
-    slow = True
+    slow = device = True
     environment = {"GLINT_PASSES": "passes"}
     given = ("mine/bilinear.comp",)
     timeout_s = 60
@@ -270,7 +271,7 @@ class Shader(Kind):
 
 class Cache(Kind):
     name = "cache"
-    slow = True
+    slow = device = True
     environment = {"GLINT_CACHE": "cache"}
     timeout_s = 60
     commands = [("replay tiny.exr -p mafia3 -o out", None), ("reference tiny.exr --rays 16 -o out", None)]
@@ -288,6 +289,7 @@ class Cache(Kind):
 
 class Environment(Kind):
     name = "environment"
+    device = True
     commands = [("info run", None), ("view run -o out.png", None), ("passes", None), ("plan tiny.exr -p kf2", None), ("lint tiny.exr", None), ("report run -o out.html", None),
                 ("--help", None), ("devices", None)]
     variables = ["GLINT_CACHE", "GLINT_CACHE_GIB", "GLINT_PRESETS", "GLINT_PASSES", "GLINT_DEVICE", "GLINT_VALIDATION", "OCIO", "TMPDIR", "HOME", "XDG_CACHE_HOME", "XDG_RUNTIME_DIR", "NO_COLOR", "COLUMNS",
@@ -315,7 +317,7 @@ class Fix(Kind):
     commands = [("lint wrong.exr --fix -o fixed.exr", None), ("lint right.exr --fix -o fixed.exr", None)]
 
     def make(self, folder):
-        tap.glint("sample", "street", "-o", os.path.join(folder, "right.exr"), "--size", "64x36", "--cube-size", "8")
+        tap.glint("sample", "street", "--light=1", "-o", os.path.join(folder, "right.exr"), "--size", "64x36", "--cube-size", "8")
         tap.glint("set", "right.exr", "-o", "wrong.exr", "depth=reversed", folder=folder)
 
     def targets(self, folder):

@@ -198,6 +198,13 @@ class Tests:
                 out.write(texels.ktx2(1, 6, 97, bytes(8 * texels_there), zstd=True))
             said = self.base.run("pack", file, "--explain", status=status)
             assert not status or "zstd: expected at most the 48 bytes of the level's texels" in said, said
+        # A file of some bytes says that it has 2 GiB of texels, for which no memory is taken.
+        large = bytearray(texels.ktx2(1 << 14, 1 << 14, 97, bytes(8), zstd=True))
+        large[80 + 16:80 + 24] = (8 << 28).to_bytes(8, "little")
+        with open(os.path.join(self.base.folder, "large.ktx2"), "wb") as out:
+            out.write(large)
+        said = self.base.run("pack", file, "--explain", status=1)
+        assert "zstd: expected 2147483648 bytes, and " in said and "cannot hold as many" in said, said
 
     def test_usage(self):
         for words in (["pack"], ["pack", "a.json"], ["pack", "a.json", "b.json", "--explain"], ["pack", "a.json", "--explain", "-o", "b.exr"],

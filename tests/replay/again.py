@@ -39,7 +39,7 @@ class Again:
         self.everything = len(sys.argv) > 3
         self.folder = tempfile.mkdtemp(prefix="glint-again-")
         self.capture = os.path.join(self.folder, "tiny.exr")
-        tap.glint("sample", "street", "-o", self.capture, "--size", "32x18", "--cube-size", "8", "--truth", "1")
+        tap.glint("sample", "street", "--light=1", "-o", self.capture, "--size", "32x18", "--cube-size", "8", "--truth", "1")
 
     def run(self, study, out, **fault):
         names = {"CAPTURE": self.capture, "OUT": os.path.join(self.folder, out), "PLAIN": tap.PLAIN, "OUT.json": os.path.join(self.folder, out + ".json")}

@@ -26,7 +26,7 @@ class Faults:
         self.everything = everything
         self.folder = tempfile.mkdtemp(prefix="glint-faults-")
         self.capture = os.path.join(self.folder, "tiny.exr")
-        tap.glint("sample", "street", "-o", self.capture, "--size", "32x18", "--cube-size", "8")
+        tap.glint("sample", "street", "--light=1", "-o", self.capture, "--size", "32x18", "--cube-size", "8")
         self.counts = self.count("replay", self.capture, "--preset", PRESET, "-o", os.path.join(self.folder, "whole"))
         self.slots = {name.split("-", 1)[1][:-4] for name in os.listdir(os.path.join(self.folder, "whole")) if name != "run.json"}
 

@@ -33,7 +33,7 @@ class Hidden:
         self.presets = ["mafia_de_frame", "reference"] if self.everything else ["plain"]
         self.folder = tempfile.mkdtemp(prefix="glint-hidden-")
         self.capture = os.path.join(self.folder, "tiny.exr")
-        tap.glint("sample", "street", "-o", self.capture, "--size", "32x18", "--cube-size", "8")
+        tap.glint("sample", "street", "--light=1", "-o", self.capture, "--size", "32x18", "--cube-size", "8")
         self.same, self.refused = [], []
         for preset in self.presets:
             run = self.replay(preset, "nothing", preset)

@@ -76,7 +76,7 @@ class Shaders:
     def __init__(self):
         self.folder = tempfile.mkdtemp(prefix="glint-shaders-")
         self.capture = self.path("tiny.exr")
-        tap.glint("sample", "street", "-o", self.capture, "--size", "32x18", "--cube-size", "8")
+        tap.glint("sample", "street", "--light=1", "-o", self.capture, "--size", "32x18", "--cube-size", "8")
 
     def path(self, name):
         return os.path.join(self.folder, name)
@@ -105,7 +105,7 @@ class Shaders:
     def test_a_loop_without_end_is_given_up(self):
         """Of the passes only this one runs: the driver compiles when a pass first runs, which may take longer than a short limit."""
         tiny, self.capture = self.capture, self.path("larger.exr")
-        tap.glint("sample", "street", "-o", self.capture, "--size", "256x144", "--cube-size", "8")
+        tap.glint("sample", "street", "--light=1", "-o", self.capture, "--size", "256x144", "--cube-size", "8")
         run = self.replay("resolve", INSIDE, "before")
         assert run.returncode == 0, run.stderr
         words = ["--all", "--passes", "resolve", "--inputs", self.path("before"), "--dispatch-limit", "2"]
@@ -169,7 +169,7 @@ class AllShaders(Shaders):
     def test_a_server_goes_on_after_a_loop_without_end(self):
         """lavapipe's threads work on it for a while, beside the new device."""
         shader, capture = self.write("own.comp", INSIDE), self.path("shown.exr")
-        tap.glint("sample", "street", "-o", capture, "--size", "256x144", "--cube-size", "8")
+        tap.glint("sample", "street", "--light=1", "-o", capture, "--size", "256x144", "--cube-size", "8")
         with Live(sys.argv[1], capture, "--preset", tap.PLAIN, "--shader", f"resolve={shader}", env={**os.environ, "GLINT_DISPATCH_LIMIT": "20"}) as live:
             before = live.post("run", state={})["run"]
             self.write("own.comp", ENDLESS)

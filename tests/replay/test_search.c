@@ -103,6 +103,94 @@ static void a_seed_gives_the_same_points_again(UNUSED void **state) {
     assert_int_not_equal(calls[0].hash, calls[2].hash);
 }
 
+/* Points that were announced and not asked for yet, in the order in which they were announced. */
+struct announced {
+    struct calls calls; /* first: what try_march is passed */
+    double points[400][AXES];
+    bool asked[400];
+    size_t count;   /* of all batches together */
+    bool ordered;   /* they are asked for in that order */
+    size_t batches; /* with new points */
+    size_t last;    /* index of the announced point that was asked for last */
+    size_t alone;   /* points that were not announced */
+};
+
+static size_t find_announced(const struct announced *all, const double *v) {
+    size_t i = 0;
+    while (i < all->count && memcmp(all->points[i], v, sizeof all->points[i]) != 0) i++;
+    return i;
+}
+
+static bool note_batch(void *user, const double *values, size_t count, UNUSED struct glint_error *err) {
+    struct announced *all = user;
+    bool some = false;
+    assert_true(count > 1);
+    for (size_t i = 0; i < count; i++, values += AXES) {
+        const size_t known = find_announced(all, values);
+        assert_true(known == all->count || !all->asked[known]); /* a known point is not announced */
+        if (known < all->count) continue;
+        assert_true(all->count < 400);
+        memcpy(all->points[all->count++], values, sizeof all->points[0]);
+        some = true;
+    }
+    all->batches += some;
+    return true;
+}
+
+static bool try_announced(void *user, const double *v, struct glint_search_figures *figures, struct glint_error *err) {
+    struct announced *all = user;
+    const size_t i = find_announced(all, v);
+    if (i < all->count) {
+        assert_true(!all->asked[i] && (!all->ordered || i > all->last || !all->last));
+        all->asked[i] = true;
+        all->last = i;
+    } else all->alone++;
+    return try_march(&all->calls, v, figures, err);
+}
+
+/* The same points in the same order with and without announcements; most are announced, and few that are announced are not needed. */
+static void announced_points_are_those_that_follow(UNUSED void **state) {
+    static const uint32_t tries[] = {250, 120, 14}; /* with the last, groups are screened */
+    for (int i = 0; i < 3; i++) {
+        struct calls calls = {0};
+        struct glint_search_result result = search(76, tries[i], 3, &calls);
+        glint_search_result_finish(&result);
+        struct announced all = {.ordered = tries[i] > 14};
+        struct glint_error err = {0};
+        const double known[] = {10, 18, 0.0199, 0, 1, 0.5, 2, 3, 0.5, 0, 2, -1};
+        struct glint_search_options options = {.limit = 76, .max_points = tries[i], .seed = 3, .announce = note_batch};
+        if (!glint_search(axes, AXES, &options, try_announced, &all, &result, &err)) fail_msg("%s", err.message);
+        assert_true(all.calls.hash == calls.hash && all.calls.count == calls.count);
+        size_t asked = 0;
+        for (size_t k = 0; k < all.count; k++) asked += all.asked[k];
+        print_message("# of %zu points %zu were announced in %zu batches; %zu more were not needed\n", result.count,
+                      asked, all.batches, all.count - asked);
+        assert_true(asked + all.alone == result.count);
+        assert_true(asked > result.count * 2 / 5 && all.count - asked < result.count / 5);
+        glint_search_result_finish(&result);
+        if (i) continue;
+        /* initial points come together */
+        all = (struct announced){.count = 0};
+        options.initial = known, options.initial_count = 2, options.max_points = 3;
+        assert_true(glint_search(axes, AXES, &options, try_announced, &all, &result, &err));
+        assert_true(all.count == 2 && all.batches == 1 && all.alone == 1);
+        glint_search_result_finish(&result);
+    }
+}
+
+static bool stop_batches(UNUSED void *user, UNUSED const double *values, UNUSED size_t count, struct glint_error *err) {
+    return glint_fail(err, GLINT_ERROR_INTERRUPTED, "stopped");
+}
+static void a_failed_announcement_ends_the_search(UNUSED void **state) {
+    struct calls calls = {0};
+    struct glint_search_result result;
+    struct glint_error err = {0};
+    const struct glint_search_options options = {.limit = 76, .max_points = 200, .seed = 1, .announce = stop_batches};
+    assert_false(glint_search(axes, AXES, &options, try_march, &calls, &result, &err));
+    assert_true(err.code == GLINT_ERROR_INTERRUPTED && result.count == 1);
+    glint_search_result_finish(&result);
+}
+
 static void what_was_found_before_an_error_is_kept(UNUSED void **state) {
     struct calls calls = {.stop_after = 40};
     struct glint_search_result result;
@@ -281,6 +369,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_best_point_within_a_limit_is_found),
         cmocka_unit_test(a_seed_gives_the_same_points_again),
+        cmocka_unit_test(announced_points_are_those_that_follow),
+        cmocka_unit_test(a_failed_announcement_ends_the_search),
         cmocka_unit_test(what_was_found_before_an_error_is_kept),
         cmocka_unit_test(an_unreachable_limit_is_reported),
         cmocka_unit_test(known_points_are_never_lost),

@@ -13,6 +13,7 @@ static const double runway[PLAYERS] = {-4, 1, 1.5, 2, 3.25, 5, 5, 8, 13};
 struct record {
     uint32_t asked, asked_twice;
     bool seen[1 << PLAYERS];
+    uint32_t order[1 << PLAYERS];
     size_t fail_at; /* not 0: the call that fails */
 };
 
@@ -27,6 +28,7 @@ static bool play(void *user, uint32_t coalition, double *values, struct glint_er
     }
     record->asked_twice += record->seen[coalition];
     record->seen[coalition] = true;
+    record->order[record->asked] = coalition;
     if (++record->asked == record->fail_at) return glint_fail(err, GLINT_ERROR_INTERRUPTED, "stopped");
     values[AIRPORT] = coalition ? longest + 4 : 0; /* as if the shortest had length 0 */
     values[GLOVES] = fmin(left, right);            /* pairs of 3 left gloves and 6 right ones */
@@ -96,6 +98,20 @@ static void all_coalitions_give_the_closed_forms(UNUSED void **state) {
             assert_true(found.half[i * GAMES + v] == 0);
         }
     assert_sums(&found);
+    glint_shapley_finish(&found);
+}
+
+/* All coalitions, in the order in which they are asked for; also of so few players that being the first and all others being last is the same. */
+static void the_order_of_coalitions_is_known(UNUSED void **state) {
+    static const uint32_t two[] = {0, 3, 1, 2};
+    struct record record;
+    uint32_t order[1 << PLAYERS];
+    struct glint_shapley found = solve(&record, (struct glint_shapley_options){.exact = PLAYERS});
+    glint_shapley_order(PLAYERS, order);
+    assert_memory_equal(order, record.order, sizeof order);
+    assert_true(order[0] == 0 && order[1] == (1 << PLAYERS) - 1 && order[2] == 1 && order[3] == (1 << PLAYERS) - 2);
+    glint_shapley_order(2, order);
+    assert_memory_equal(order, two, sizeof two);
     glint_shapley_finish(&found);
 }
 
@@ -245,10 +261,15 @@ static void failures_end_the_game(UNUSED void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(all_coalitions_give_the_closed_forms), cmocka_unit_test(ends_are_those_of_one_exchange),
-        cmocka_unit_test(intervals_hold_what_they_say),         cmocka_unit_test(opposite_orders_cancel),
-        cmocka_unit_test(drawing_stops_at_the_interval),        cmocka_unit_test(the_same_seed_draws_the_same),
-        cmocka_unit_test(known_values_are_returned_at_once),    cmocka_unit_test(failures_end_the_game),
+        cmocka_unit_test(all_coalitions_give_the_closed_forms),
+        cmocka_unit_test(the_order_of_coalitions_is_known),
+        cmocka_unit_test(ends_are_those_of_one_exchange),
+        cmocka_unit_test(intervals_hold_what_they_say),
+        cmocka_unit_test(opposite_orders_cancel),
+        cmocka_unit_test(drawing_stops_at_the_interval),
+        cmocka_unit_test(the_same_seed_draws_the_same),
+        cmocka_unit_test(known_values_are_returned_at_once),
+        cmocka_unit_test(failures_end_the_game),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

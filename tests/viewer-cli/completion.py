@@ -36,6 +36,7 @@ CASES = [
     ("live s.exr --token-f", "--token-file="),
     ("live s.exr --use=screen_trace=dd", "--use=screen_trace=dda"),
     ("batch resub", "resubmit"),
+    ("batch vali", "validate"),
     ("batch sweep s.exr --vary screen_tr", "screen_trace."),
     ("sample deser", "desert_night"),
     ("sample room --normal=octa", "--normal=octahedral"),

@@ -82,7 +82,7 @@ class Tests:
     def __init__(self, folder):
         self.folder = folder
         self.capture = folder / "street.exr"
-        glint("sample", "street", "-o", str(self.capture), "--size", "64x36", "--cube-size", "16", "--truth", "1")
+        glint("sample", "street", "--light=1", "-o", str(self.capture), "--size", "64x36", "--cube-size", "16", "--truth", "1")
         self.live = Live(GLINT, self.capture, "-o", folder / "runs")
         self.get, self.post = self.live.get, self.live.post
         self.a, self.b = self.post("run", state={}), self.post("run", state=OTHER)

@@ -19,8 +19,8 @@ class Tests:
     def __init__(self, folder):
         self.folder = folder
         self.capture = folder / "street.exr"
-        tap.glint("sample", "street", "-o", str(folder / "shot.exr"), "--size", "64x36", "--cube-size", "16", "--frames", "2", "--cut")
-        tap.glint("sample", "street", "-o", str(self.capture), "--size", "64x36", "--cube-size", "16")
+        tap.glint("sample", "street", "--light=1", "-o", str(folder / "shot.exr"), "--size", "64x36", "--cube-size", "16", "--frames", "2", "--cut")
+        tap.glint("sample", "street", "--light=1", "-o", str(self.capture), "--size", "64x36", "--cube-size", "16")
         self.lost = folder / "lost"  # while it exists, the layer loses devices
         self.fault = {**os.environ, "VK_LAYER_PATH": LAYER, "VK_INSTANCE_LAYERS": "VK_LAYER_GLINT_fault", "GLINT_FAULT_STAY": "libvulkan_lvp.so", "GLINT_FAULT_FILE": str(self.lost)}
 

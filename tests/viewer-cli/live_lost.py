@@ -22,7 +22,7 @@ class Tests:
     def __init__(self, folder):
         self.folder = folder
         self.capture, self.lost = os.path.join(folder, "street.exr"), os.path.join(folder, "lost")
-        tap.glint("sample", "street", "-o", self.capture, "--size", "96x54", "--cube-size", "16")
+        tap.glint("sample", "street", "--light=1", "-o", self.capture, "--size", "96x54", "--cube-size", "16")
         os.environ.update(VK_LAYER_PATH=LAYERS, VK_INSTANCE_LAYERS="VK_LAYER_GLINT_fault", GLINT_FAULT_FILE=self.lost)
 
     def value(self, tab, name, value):

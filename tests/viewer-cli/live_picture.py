@@ -46,7 +46,7 @@ class Tests:
     def __init__(self, folder, browser):
         self.folder, self.browser = folder, browser
         capture = os.path.join(folder, "street.exr")
-        glint("sample", "street", "-o", capture, f"--size={SIZE[0]}x{SIZE[1]}", "--cube-size=16", "--truth=1")
+        glint("sample", "street", "--light=1", "-o", capture, f"--size={SIZE[0]}x{SIZE[1]}", "--cube-size=16", "--truth=1")
         self.capture = capture
         self.server = subprocess.Popen([sys.argv[1], "live", capture], stdout=subprocess.PIPE, text=True)
         self.url = self.server.stdout.readline().strip()

@@ -97,7 +97,7 @@ class Tests:
         self.folder = folder
 
     def sample(self, name, *options):
-        tap.glint("sample", "street", "-o", str(self.folder / name), "--size", "64x36", "--cube-size", "16", *options)
+        tap.glint("sample", "street", "--light=1", "-o", str(self.folder / name), "--size", "64x36", "--cube-size", "16", *options)
         return sorted(p for p in self.folder.glob(name.replace(".exr", "*.exr")) if "cubemaps" not in p.name)
 
     def test_random_states_of_a_capture(self):

@@ -75,7 +75,7 @@ class Tests:
 
     def test_many_clients(self):
         for frames, name in ((2, "shot.exr"),):
-            tap.glint("sample", "street", "-o", str(self.folder / name), "--frames", str(frames), "--size", "64x36", "--cube-size", "16", "--truth", "1")
+            tap.glint("sample", "street", "--light=1", "-o", str(self.folder / name), "--frames", str(frames), "--size", "64x36", "--cube-size", "16", "--truth", "1")
         captures = sorted(p for p in self.folder.glob("*.exr") if "cubemaps" not in p.name)
         with Live(GLINT, *captures) as live:
             clients = [Client(live, number, time.monotonic() + SECONDS) for number in range(CLIENTS)]

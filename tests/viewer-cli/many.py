@@ -11,6 +11,7 @@ import time
 
 import browser
 import tap
+from timeless import contents
 
 FLAT_KIB = 8192  # what 900 captures more may add; their files have 40 MB, and their pictures on a page would have 3 GB
 SCENES = ("room", "lake", "courtyard")
@@ -23,8 +24,8 @@ class Tests:
     def __init__(self, folder, count):
         self.folder, self.count = folder, count
         for scene in SCENES:
-            tap.glint("sample", scene, "-o", f"{scene}.exr", "--size", "16x9", "--cube-size", "4", "--truth", "1", folder=folder)
-        tap.glint("sample", "room", "-o", "large.exr", "--size", "32x18", "--cube-size", "8", folder=folder)
+            tap.glint("sample", scene, "-o", f"{scene}.exr", "--size", "16x9", "--cube-size", "4", "--light", "1", "--truth", "1", folder=folder)
+        tap.glint("sample", "room", "-o", "large.exr", "--size", "32x18", "--cube-size", "8", "--light", "1", folder=folder)
         tap.glint("set", "large.exr", "-o", "wrong.exr", "normalSpace=view", folder=folder)
         shutil.copy(tap.PLAIN, self.path("short.json"))
         self.fill("few", count // 10)
@@ -74,6 +75,24 @@ class Tests:
         assert [(row["id"], row["captures"], row["certain"]) for row in found["findings"]] == [("normal.world_space", 1, 1)]
         assert found["summary"] == {"captures": len(os.listdir(self.path("few"))), "with_findings": 1, "unreadable": 1}
         self.assert_flat("lint", "ALL", "--json", status=1)
+
+    def check_resumed(self, words, status):
+        """A survey of many captures that is killed goes on, and ends as one that was not disturbed."""
+        log, out = self.path(f"{words[0]}-killed", "log.jsonl"), self.path(f"{words[0]}-killed")
+        with subprocess.Popen([sys.argv[1], *words, "-o", out], cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
+            while process.poll() is None and not (os.path.exists(log) and os.path.getsize(log) > 100 * self.count):
+                time.sleep(0.001)
+            process.send_signal(signal.SIGKILL)
+        with open(log, "rb") as file:
+            assert 0 < file.read().count(b"\n") < self.count, "it was killed in the middle"
+        resumed, undisturbed = (tap.glint(*words, "-o", path, folder=self.folder, status=status) for path in (out, self.path(f"{words[0]}-whole")))
+        assert (resumed.stdout, resumed.stderr) == (undisturbed.stdout, undisturbed.stderr)
+        assert contents(out) == contents(self.path(f"{words[0]}-whole"))
+
+    def test_surveys_go_on_where_they_were_killed(self):
+        if self.count >= 1000:
+            for words, status in ((["lint", "all"], 1), (["validate", "all"], 1)):
+                self.check_resumed(words, status)
 
     def test_lint_of_one_capture(self):
         assert json.loads(tap.glint("lint", "room.exr", "--json", folder=self.folder).stdout).keys() == {"findings", "undecided", "agreement", "depth"}
@@ -205,20 +224,18 @@ class Tests:
         with open(self.path("elsewhere.html"), encoding="utf-8") as file:
             assert "data:image/png" in file.read().split("<script>")[0], "a page elsewhere contains its pictures"
 
-    def test_compare_has_a_row_for_a_broken_capture_among_few(self):
-        said = tap.glint("compare", "room.exr", f"all/{BROKEN}", *self.PRESETS, "--json", "-o", "two", folder=self.folder, status=1)
-        room, broken = json.loads(said.stdout)["captures"]
-        assert len(room["presets"]) == 2 and "expected an OpenEXR file" in broken["failure"] and not broken["presets"]
-        with open(self.path("two", "page.json"), encoding="utf-8") as file:
-            assert [s["title"] for s in json.load(file)["sections"]] == ["All captures", "room.exr", "Captures, the largest errors first"]
+    def test_compare_has_rows_for_broken_captures_among_few(self):
+        """One cannot be read, and one has another hash than its set file says."""
+        with open(self.path("three.json"), "w", encoding="utf-8") as file:
+            json.dump({"format": 1, "captures": [{"path": "room.exr", "hash": "0" * 32}, {"path": "lake.exr"}, {"path": f"all/{BROKEN}"}]}, file)
+        said = tap.glint("compare", "three.json", *self.PRESETS, "--json", "-o", "three", folder=self.folder, status=1)
+        room, lake, broken = json.loads(said.stdout)["captures"]
+        assert len(lake["presets"]) == 2 and "failure" not in lake and "expected an OpenEXR file" in broken["failure"] and not broken["presets"]
+        assert "expected the hash 000" in room["failure"]
+        with open(self.path("three", "page.json"), encoding="utf-8") as file:
+            assert [s["title"] for s in json.load(file)["sections"]] == ["All captures", "lake.exr", "Captures, the largest errors first"]
         alone = tap.glint("compare", f"all/{BROKEN}", *self.PRESETS, "-o", "none", folder=self.folder, status=1)
         assert "expected an OpenEXR file" in alone.stderr and not os.path.exists(self.path("none"))
-
-    def test_compare_refuses_a_capture_with_another_hash(self):
-        with open(self.path("hashed.json"), "w", encoding="utf-8") as file:
-            json.dump({"format": 1, "captures": [{"path": "room.exr", "hash": "0" * 32}, {"path": "lake.exr"}]}, file)
-        room, lake = json.loads(tap.glint("compare", "hashed.json", *self.PRESETS, "--json", folder=self.folder, status=1).stdout)["captures"]
-        assert "expected the hash 000" in room["failure"] and "failure" not in lake
 
     # ---- check ----
 
@@ -259,6 +276,8 @@ class Tests:
         assert broken["status"] == 4 and broken["error"] and broken["error"] == found["worst"][0]["message"]
         if self.count // 10 + 3 <= 10:
             assert tap.glint("check", "runs-few", "--baseline", "bases-few", folder=self.folder, status=4).stdout.count("runs-few/r0000\n") == 1, "of few, all"
+        if self.count >= 1000:
+            self.check_resumed(["check", "runs-all", "--baseline", "bases-all"], 4)
         self.assert_flat("check", "runs-ALL", "--baseline", "bases-ALL", "--json", status=4)
 
 

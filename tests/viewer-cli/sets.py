@@ -12,7 +12,8 @@ class Tests:
     def __init__(self, folder):
         self.folder = folder
         os.mkdir(self.path("shot"))
-        tap.glint("sample", "room", "-o", "shot/f.exr", "--size", "16x9", "--cube-size", "4", "--frames", "3", folder=folder)
+        tap.glint("sample", "room", "-o", "shot/f.exr", "--size", "16x9", "--cube-size", "4", "--light", "1", "--frames", "3", folder=folder)
+        tap.glint("sample", "room", "-o", "true.exr", "--size", "16x9", "--cube-size", "4", "--light", "1", "--truth", "1", folder=folder)
 
     def path(self, *names):
         return os.path.join(self.folder, *names)
@@ -54,21 +55,18 @@ class Tests:
         assert self.validated("labelled")[0] == "labelled/shot/f.0002.exr", "a folder with a set file is that set"
 
     def test_a_capture_with_another_hash_is_refused_where_hashes_are_used(self):
-        self.write("hashed.json", {"format": 1, "captures": [{"path": "shot/f.0002.exr", "hash": "0" * 32}]})
-        sweep = ["sweep", "hashed.json", "-p", tap.PLAIN, "-o", "swept", "--vary", "screen_trace.steps=4,8", "--repeat", "0", "--rays", "4", "--no-pictures"]
+        self.write("hashed.json", {"format": 1, "captures": [{"path": "true.exr", "hash": "0" * 32}]})
+        sweep = ["sweep", "hashed.json", "-p", tap.PLAIN, "-o", "swept", "--vary", "screen_trace.steps=4,8", "--repeat", "0", "--reference", "truth", "--no-pictures"]
         said = tap.glint(*sweep, folder=self.folder, status=1).stderr
-        assert "shot/f.0002.exr: expected the hash 000" in said, said
+        assert "true.exr: expected the hash 000" in said, said
         found = said.rsplit("found ", 1)[1].strip()
-        self.write("hashed.json", {"format": 1, "captures": [{"path": "shot/f.0002.exr", "hash": found}]})
-        tap.glint(*sweep, folder=self.folder)
         wrong = {"path": "shot/f.0001.exr", "hash": "1" * 32}  # of several captures, this one alone is left out
-        self.write("hashed.json", {"format": 1, "captures": [{"path": "shot/f.0002.exr", "hash": found}, wrong]})
-        run = tap.glint(*[word.replace("swept", "two") for word in sweep], folder=self.folder, status=1)
+        self.write("hashed.json", {"format": 1, "captures": [{"path": "true.exr", "hash": found}, wrong]})
+        run = tap.glint(*sweep, folder=self.folder, status=1)
         assert "left out: shot/f.0001.exr: expected the hash 111" in run.stderr and "mean of 1 of 2" in run.stdout, run
 
     def test_a_sweep_has_figures_by_tag_and_goes_on_without_broken_captures(self):
-        tap.glint("sample", "room", "-o", "true.exr", "--size", "16x9", "--cube-size", "4", "--truth", "1", folder=self.folder)
-        tap.glint("sample", "street", "-o", "other.exr", "--size", "16x9", "--cube-size", "4", "--truth", "1", folder=self.folder)
+        tap.glint("sample", "still_life", "-o", "other.exr", "--size", "16x9", "--cube-size", "4", "--truth", "1", folder=self.folder)
         with open(self.path("bad.exr"), "wb") as file:
             file.write(b"not an image")
         paths = {"true.exr": ["in", "dry"], "bad.exr": ["in"], "other.exr": ["dry"], "shot/f.0001.exr": ["dry"], "gone.exr": []}  # the fourth has no truth
@@ -83,10 +81,28 @@ class Tests:
             errors = [capture.get("errors", {"truth": {"all": {"rmse": None}}})["truth"]["all"]["rmse"] for capture in point["captures"]]
             assert [error is None for error in errors] == [False, True, False, True, True], errors
             assert abs(point["error"]["mean"] - (errors[0] + errors[2]) / 2) < 1e-12
-            assert point["tags"]["in"]["captures"] == 1 and point["tags"]["in"]["error"] == {"mean": errors[0], "worst": errors[0]}
-            assert point["tags"]["dry"]["captures"] == 2 and point["tags"]["dry"]["error"] == point["error"]
+            alone = {"mean": errors[0], "worst": errors[0], "low": None, "high": None}  # one shot has no interval
+            assert (point["tags"]["in"]["captures"], point["tags"]["in"]["shots"], point["tags"]["in"]["error"]) == (1, 1, alone)
+            assert (point["tags"]["dry"]["captures"], point["tags"]["dry"]["shots"], point["tags"]["dry"]["error"]) == (2, 2, point["error"])
+            # A bootstrap over two shots draws the same one twice in half of its resamples.
+            assert (point["error"]["low"], point["error"]["high"]) == (min(errors[0], errors[2]), max(errors[0], errors[2]))
+        self.check_beyond(points, "dry", (0, 2))
+        self.check_beyond(points, "in", (0,))
         run = tap.glint("sweep", "bad.exr", "gone.exr", "-o", "none", *words, folder=self.folder, status=1)
         assert "gone.exr: No such file" in run.stderr, run.stderr
+
+    @staticmethod
+    def check_beyond(points, tag, members):
+        """What a point's error is more than that of the best, in the same captures."""
+        errors = [[point["captures"][c]["errors"]["truth"]["all"]["rmse"] for c in members] for point in points]
+        best = min(errors, key=sum)
+        for point, own in zip(points, errors):
+            differences, found = [a - b for a, b in zip(own, best)], point["tags"][tag]["beyond_best"]
+            assert abs(found["value"] - sum(differences) / len(members)) < 1e-12, (tag, found, differences)
+            if len(members) > 1:
+                assert abs(found["low"] - min(differences)) < 1e-12 and abs(found["high"] - max(differences)) < 1e-12, (tag, found, differences)
+            if tag == "dry":
+                assert point["beyond_best"] == found
 
     def test_set_files_that_are_none(self):
         capture = {"path": "shot/f.0001.exr"}

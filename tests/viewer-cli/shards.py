@@ -1,4 +1,4 @@
-"""Studies in shards: glint merge makes of them what one process makes, and refuses what is not whole. shards.py GLINT. Speaks TAP."""
+"""Sweeps in shards: glint merge makes of them what one process makes, and refuses what is not whole. shards.py GLINT [all]. Speaks TAP. `all` traces references."""
 import glob
 import json
 import os
@@ -13,7 +13,9 @@ import tap
 from timeless import contents
 
 SCENES = ["room", "still_life"]
-ARGUMENTS = ["-p", tap.PLAIN, "--vary", "screen_trace.steps=4,8,16", "--rays", "4", "--repeat", "0"]
+ALL = sys.argv[2:] == ["all"]
+SPACE = ["-p", tap.PLAIN, "--vary", "screen_trace.steps=4,8,16", "--repeat", "0"]
+ARGUMENTS = SPACE + (["--rays", "4"] if ALL else ["--reference", "truth"])
 CACHE = ("--cache", "cache")
 
 
@@ -23,7 +25,7 @@ class Tests:
         for name in ("set", "uneven"):
             os.mkdir(self.path(name))
         for scene in SCENES:
-            tap.glint("sample", scene, "-o", f"set/{scene}.exr", "--size", "16x9", "--cube-size", "4", folder=folder)
+            tap.glint("sample", scene, "-o", f"set/{scene}.exr", "--size", "16x9", "--cube-size", "4", "--light", "1", "--truth", "1", folder=folder)
         self.glint("sweep", "set", "-o", "whole", *ARGUMENTS)
         self.whole = contents(self.path("whole"))
         assert len(self.whole["log.jsonl"]) == 6 and len([name for name in self.whole if name.startswith("pictures/")]) > 6
@@ -55,10 +57,9 @@ class Tests:
 
     def test_merged_shards_are_what_one_process_makes(self):
         self.copy("merged")
-        self.glint("merge", "merged")
-        self.check_same(contents(self.path("merged"), "shards"))
-        self.glint("merge", "merged")  # once more
-        self.check_same(contents(self.path("merged"), "shards"))
+        for _ in range(1 + ALL):  # also once more
+            self.glint("merge", "merged")
+            self.check_same(contents(self.path("merged"), "shards"))
 
     def test_shards_share_the_work(self):
         logs = []
@@ -67,15 +68,29 @@ class Tests:
                 logs.append({(line["capture"], line["point"]) for line in map(json.loads, file)})
         assert not logs[0] & logs[1] and len(logs[0] | logs[1]) == 6 and min(map(len, logs)) == 3, logs
 
+    def killed(self, arguments, file, ready):
+        """Starts a process, and kills it when the file is ready; whether it was not done before."""
+        words = [os.path.abspath(sys.argv[1]), *arguments]
+        process = subprocess.Popen(words, cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        while process.poll() is None and not (os.path.exists(file) and ready(file)):
+            time.sleep(0.002)
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        return process.returncode != 0
+
+    def results_of(self, number):
+        """How many results a share of the uneven captures has, as it says before it begins."""
+        record = self.path("uneven-cut", "shards", f"{number}-of-2", "shard.json")
+        self.killed(["sweep", "uneven", "-o", "uneven-cut", *SPACE, "--rays", "4", "--no-pictures", "--shard", f"{number}/2"], record, os.path.getsize)
+        with open(record, encoding="utf-8") as file:
+            return json.load(file)["results"]
+
     def test_shards_are_cut_by_their_cost(self):
         """A capture of many pixels takes the share of many small ones, and is not cut in its last part, whose reference would be traced twice."""
-        tap.glint("sample", "street", "-o", "uneven/a.exr", "--size", "48x27", "--cube-size", "4", folder=self.folder)
+        tap.glint("sample", "room", "-o", "uneven/a.exr", "--size", "48x27", "--cube-size", "4", "--light", "1", folder=self.folder)
         for i in range(4):
             shutil.copy(self.path("set", "room.exr"), self.path("uneven", f"b{i}.exr"))
-        run = self.glint("sweep", "uneven", "-o", "uneven-cut", *ARGUMENTS, "--shard", "2/2", "--json", "--no-pictures")
-        assert json.loads(run.stdout)["points"] == 12, run.stdout
-        run = self.glint("sweep", "uneven", "-o", "uneven-cut", *ARGUMENTS, "--shard", "1/2", "--json", "--no-pictures")
-        assert json.loads(run.stdout)["points"] == 3, run.stdout
+        assert [self.results_of(number) for number in (1, 2)] == [3, 12]
 
     def traced(self, out):
         """{REFERENCE: how long it took to trace it}"""
@@ -85,33 +100,30 @@ class Tests:
                 found[path.split(os.sep)[-2]] = json.load(file)["reference"]["seconds"]
         return found
 
-    def test_more_shards_than_captures(self):
-        """They find the references that other shards traced in the cache."""
-        self.sweep("many", 4, more=CACHE)
-        cut, many = self.traced("cut"), self.traced("many")
-        assert len(cut) == len(SCENES) and cut == many, (cut, many)
-        self.refused(["shard.json"], "many/shards", "-o", "of-many")  # which is none
-        shards = sorted(os.listdir(self.path("many", "shards")), reverse=True)
-        self.glint("merge", *(f"many/shards/{name}" for name in shards), "-o", "of-many")
-        self.check_same(contents(self.path("of-many"), "shards"))
+    if ALL:
+        def test_more_shards_than_captures(self):
+            """They find the references that other shards traced in the cache."""
+            self.sweep("many", 4, more=CACHE)
+            cut, many = self.traced("cut"), self.traced("many")
+            assert len(cut) == len(SCENES) and cut == many, (cut, many)
+            self.refused(["shard.json"], "many/shards", "-o", "of-many")  # which is none
+            shards = sorted(os.listdir(self.path("many", "shards")), reverse=True)
+            self.glint("merge", *(f"many/shards/{name}" for name in shards), "-o", "of-many")
+            self.check_same(contents(self.path("of-many"), "shards"))
 
     def test_a_killed_shard_goes_on(self):
         first, second = self.copy("killed")
         log = os.path.join(second, "log.jsonl")
         shutil.rmtree(second)
-        words = [os.path.abspath(sys.argv[1]), "sweep", "set", "-o", "killed", *ARGUMENTS, "--shard", "2/2"]
-        process = subprocess.Popen(words, cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        while process.poll() is None and not (os.path.exists(log) and os.path.getsize(log)):
-            time.sleep(0.002)
-        process.send_signal(signal.SIGKILL)
-        process.wait()
-        if process.returncode:  # it was not done already
+        if self.killed(["sweep", "set", "-o", "killed", *ARGUMENTS, "--shard", "2/2"], log, os.path.getsize):
             self.refused(["shard 2 of 2 is not done"], "killed", status=2)
         with open(log, "ab") as file:
             file.write(b'{"capture": 2, "poi')  # as a kill in the middle of a write leaves it
         self.sweep("killed", 2, [2])
-        self.glint("merge", "killed")
-        self.check_same(contents(self.path("killed"), "shards"))
+        found, undisturbed = (contents(folder, "shard.json") for folder in (second, self.path("cut", "shards", "2-of-2")))
+        assert found.keys() == undisturbed.keys() and found["log.jsonl"] == undisturbed["log.jsonl"] and len(found["log.jsonl"]) == 3, found.keys()
+        self.glint("merge", "killed", "--journal-only")
+        assert contents(self.path("killed"))["log.jsonl"] == self.whole["log.jsonl"]
 
     def test_what_is_not_whole_is_refused(self):
         first, second = self.copy("bad")

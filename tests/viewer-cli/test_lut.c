@@ -47,7 +47,8 @@ static int make_all(void **state) {
     if (make_folder(state) != 0) return -1;
     write_text("cinema.ocio", cinema);
     write_text("shown.json", display);
-    free(glint_ok("sample", "street", "--size", "96x54", "--cube-size", "16", "-o", in_folder("street.exr")));
+    free(glint_ok("sample", "street", "--light=1", "--size", "96x54", "--cube-size", "16", "-o",
+                  in_folder("street.exr")));
     return 0;
 }
 

@@ -266,13 +266,13 @@ static void what_is_wrong_is_named(UNUSED void **state) {
     glint_fails(1, "no point meets a cost limit of 0.001 fetches/px: the best of", "tune", room, "-o", out, PLAIN,
                 "--reference=truth", "--budget-fetches=0.001", "--tries=12", AXES);
     assert_false(file_exists(out));
-    glint_fails(2, "bad.tune: contains a tuning with other axes", "tune", room, "-o", out, PLAIN, "--reference=truth",
+    glint_fails(2, "bad.tune: contains a tune with other axes", "tune", room, "-o", out, PLAIN, "--reference=truth",
                 "--budget-fetches=0.001", "--vary=screen_trace.steps");
     FILE *log = fopen(in_folder("bad.tune/log.jsonl"), "ab");
     assert_non_null(log);
     fputs("{\"values\":[\"1\"],\"captures\":[{\"error\":0,\"cost\":0}]}\n", log);
     fclose(log);
-    glint_fails(1, "expected a line of this tuning", "tune", room, "-o", out, PLAIN, "--reference=truth",
+    glint_fails(1, "expected a line of this tune", "tune", room, "-o", out, PLAIN, "--reference=truth",
                 "--budget-fetches=0.001", AXES);
     free(room);
     free(out);

@@ -24,6 +24,7 @@ struct batch_shard {
 struct batch {
     const char *folder;
     char command[BATCH_WORD]; /* "sweep" */
+    char result[BATCH_WORD];  /* the file that the command writes last; "": not known */
     json_t *record;           /* batch.json; NULL: something else than glint batch started the shards */
     struct batch_shard *shards;
     size_t count;
@@ -54,6 +55,7 @@ bool batch_path(const struct batch *batch, const char *name, char path[4096], st
 #define BATCH_LOGS "logs"
 struct batch_script {
     const char *output;          /* the folder, as the command names it */
+    const char *option;          /* of the command that takes it: "output" */
     const char *const *options;  /* of the command */
     const char *const *operands; /* captures */
     const char *partition;       /* NULL: Slurm's default */

@@ -72,7 +72,7 @@ static void put_shard(FILE *out, const struct batch *batch, const struct batch_s
             batch->count, batch->command, batch->command, batch->count);
     put_options(out, script);
     put_command(out, place, batch->command);
-    fprintf(out, " --shard=\"$SLURM_ARRAY_TASK_ID/%zu\" --output=", batch->count);
+    fprintf(out, " --shard=\"$SLURM_ARRAY_TASK_ID/%zu\" --%s=", batch->count, script->option);
     shell_word(out, script->output);
     for (size_t i = 0; script->options && script->options[i]; i++) {
         fputs(" \\\n    ", out);

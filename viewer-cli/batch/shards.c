@@ -7,7 +7,6 @@
 #include <sys/stat.h>
 
 #include "batch/batch.h"
-#include "inside.h"
 #include "io/output.h"
 #include "journal/journal.h"
 #include "journal/shard.h"
@@ -20,24 +19,6 @@ static bool is_there(const char *path, double *written) {
     return true;
 }
 
-/* Whole lines of a file that may be cut in its last one. */
-static bool count_lines(const char *path, size_t *lines, struct glint_error *err) {
-    enum { PIECE = 1 << 16 };
-    char piece[PIECE];
-    glint_file file;
-    uint64_t bytes;
-    size_t got = 0;
-    if (!inside_open(&file, path, UINT64_MAX, &bytes, err)) return false;
-    bool ok = true;
-    for (uint64_t at = 0; ok && at < bytes; at += got) {
-        ok = glint_file_read(file, piece, PIECE, at, &got) && got > 0;
-        for (size_t i = 0; ok && i < got; i++) *lines += piece[i] == '\n';
-    }
-    const int reason = errno;
-    glint_file_close(file);
-    return ok || glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, got ? strerror(reason) : "cut while it was read");
-}
-
 /* Takes over what shard.json says, which is written when the shard is started, and when it is done. */
 static bool take_record(struct batch *batch, struct batch_shard *shard, const char *path, size_t *kept,
                         struct glint_error *err) {
@@ -45,8 +26,11 @@ static bool take_record(struct batch *batch, struct batch_shard *shard, const ch
     if (!json) return false;
     const json_t *total = json_object_get(json, "results");
     const json_int_t before = json_integer_value(json_object_get(json, "kept"));
-    const char *command = json_string_value(json_object_get(json, "command"));
+    const char *command = json_string_value(json_object_get(json, "command")),
+               *result = json_string_value(json_object_get(json, "result"));
     const bool ok = json_is_integer(total) && json_integer_value(total) >= 0 && before >= 0;
+    if (result && result[0] != '/' && !strstr(result, ".."))
+        snprintf(batch->result, sizeof batch->result, "%s", result);
     shard->total = ok ? (size_t)json_integer_value(total) : 0;
     shard->done = json_is_true(json_object_get(json, "done"));
     *kept = ok ? (size_t)before : 0;
@@ -60,7 +44,8 @@ static bool read_shard(struct batch *batch, size_t i, struct glint_error *err) {
     struct batch_shard *shard = &batch->shards[i];
     char folder[4096], path[4096];
     const struct shard share = {(uint32_t)i + 1, (uint32_t)batch->count};
-    double started, written;
+    struct journal_count count = {0};
+    double started;
     size_t kept;
     shard->per_second = NAN;
     if (!shard_folder(&share, batch->folder, folder, err) || !journal_path(folder, "shard.json", path, err))
@@ -68,11 +53,10 @@ static bool read_shard(struct batch *batch, size_t i, struct glint_error *err) {
     if (!(shard->begun = is_there(path, &started))) return true;
     batch->changed = fmax(batch->changed, started);
     if (!take_record(batch, shard, path, &kept, err)) return false;
-    if (!journal_path(folder, "log.jsonl", path, err)) return false;
-    if (!is_there(path, &written)) return true;
-    if (!count_lines(path, &shard->results, err)) return false;
-    if (!shard->done && written > started && shard->results > kept)
-        shard->per_second = (double)(shard->results - kept) / (written - started);
+    if (!journal_count_lines(folder, &count, err)) return false;
+    shard->results = count.lines;
+    if (!shard->done && count.written > started && shard->results > kept)
+        shard->per_second = (double)(shard->results - kept) / (count.written - started);
     return true;
 }
 
@@ -87,7 +71,8 @@ bool batch_is_merged(const struct batch *batch) {
     double written;
     bool done = batch->count > 0;
     for (size_t i = 0; i < batch->count; i++) done = done && batch->shards[i].done;
-    return done && batch_path(batch, "index.html", path, NULL) && is_there(path, &written) && written >= batch->changed;
+    return done && batch_path(batch, batch->result[0] ? batch->result : "index.html", path, NULL) &&
+           is_there(path, &written) && written >= batch->changed;
 }
 
 char *batch_list(const bool *chosen, size_t count) {

@@ -5,10 +5,20 @@
 #include <string.h>
 
 #include "journal/shard.h"
+#include "options/args.h"
 
 const struct command *batch_studied(const char *name) {
     const struct command *command = command_find(name);
     return command && command_option(command, KEY_SHARD) ? command : NULL;
+}
+
+char *batch_studied_names(void) {
+    const char **names = calloc(command_count + 1, sizeof *names);
+    for (size_t i = 0, count = 0; names && i < command_count; i++)
+        if (batch_studied(commands[i]->name)) names[count++] = commands[i]->name;
+    char *text = names ? join_names("", names) : NULL;
+    free(names);
+    return text;
 }
 
 static bool ends(const struct argp_option *o) {
@@ -39,5 +49,7 @@ bool batch_widen(const struct command *batch, const struct command *studied, str
     *whole = *batch;
     whole->options = options;
     whole->values = studied->values;
+    whole->one_dash = studied->one_dash;
+    whole->numbers = studied->numbers;
     return true;
 }

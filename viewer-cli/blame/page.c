@@ -3,6 +3,7 @@
 
 #include "blame/blame.h"
 #include "draw/page/page.h"
+#include "journal/drawing.h"
 
 /* Players in the order in which they run, the first one on top. */
 static size_t player_at(const struct blame *blame, size_t place) {
@@ -130,24 +131,64 @@ static void add_classes(const struct blame *blame, const struct blame_sum *sum, 
     }
 }
 
-static void add_sum(const struct blame *blame, json_t *document, const char *title, const struct blame_sum *sum) {
+static void fill_sum(const struct blame *blame, json_t *blocks, const char *title, const struct blame_sum *sum,
+                     size_t answer) {
+    const size_t v = blame_value(answer, 0);
+    char text[500], how[96];
+    snprintf(text, sizeof text, "%.300s, against the %s", title, glint_target_name(blame_answer(blame, answer)));
+    page_chart(blocks, shares_chart(blame, sum, answer, text));
+    add_players(blame, sum, answer, blocks);
+    blame_how(sum, how);
+    snprintf(text, sizeof text,
+             "%s: %.4g for the preset, %.4g for its reference. Shares of the difference, %.4g, are %s.",
+             glint_metric(blame->metric)->title, sum->shapley.none[v], sum->shapley.all[v], blame_total(sum, v), how);
+    page_text(blocks, "text", text);
+    add_classes(blame, sum, answer, blocks);
+    if (blame->rounds) page_chart(blocks, bought_chart(blame, sum, answer, title));
+}
+
+/* A section for each kind of error, or all in these blocks. */
+static void add_sum(const struct blame *blame, json_t *document, json_t *blocks, const char *title,
+                    const struct blame_sum *sum) {
     for (size_t a = 0; a < GLINT_TARGET_COUNT; a++) {
-        const size_t v = blame_value(a, 0);
-        char text[500], how[96];
-        if (!blame_is_known(sum) || !isfinite(sum->shapley.none[v])) continue;
-        const char *answer = glint_target_name(blame_answer(blame, a));
-        snprintf(text, sizeof text, "%.300s, against the %s", title, answer);
-        json_t *blocks = page_section(document, text);
-        page_chart(blocks, shares_chart(blame, sum, a, text));
-        add_players(blame, sum, a, blocks);
-        blame_how(sum, how);
-        snprintf(text, sizeof text,
-                 "%s: %.4g for the preset, %.4g for its reference. Shares of the difference, %.4g, are %s.",
-                 glint_metric(blame->metric)->title, sum->shapley.none[v], sum->shapley.all[v], blame_total(sum, v),
-                 how);
-        page_text(blocks, "text", text);
-        add_classes(blame, sum, a, blocks);
-        if (blame->rounds) page_chart(blocks, bought_chart(blame, sum, a, title));
+        char text[500];
+        if (!blame_is_known(sum) || !isfinite(sum->shapley.none[blame_value(a, 0)])) continue;
+        snprintf(text, sizeof text, "%.300s, against the %s", title, glint_target_name(blame_answer(blame, a)));
+        fill_sum(blame, blocks ? blocks : page_section(document, text), title, sum, a);
+    }
+}
+
+/* Pictures of a capture: what the preset shows, its error, and the error without the largest share. */
+static void add_pictures(const struct blame *blame, size_t capture, json_t *blocks) {
+    static const char *const names[] = {"picture", "error", "ideal"};
+    const struct blame_sum *sum = &blame->of[capture].sum;
+    const char *largest = glint_player_name(blame->players, blame_largest(blame, sum, blame_value(0, 0)));
+    json_t *pictures = json_array();
+    for (size_t i = 0; blame_has_shares(blame, capture) && i < sizeof names / sizeof *names; i++) {
+        char name[64], caption[300];
+        blame_picture_name(names[i], capture, name);
+        snprintf(caption, sizeof caption, "%.60s%s%s%s", base_name(blame->captures.items[capture]), i ? ", error" : "",
+                 i == 2 ? " if this is ideal: " : "", i == 2 ? largest : "");
+        drawing_add(pictures, blame->out, name, caption, blame->overall.rows);
+    }
+    if (json_array_size(pictures)) json_array_append_new(blocks, json_pack("{s:O}", "pictures", pictures));
+    json_decref(pictures);
+}
+
+/* The captures that are shown whole; of the worst of many, charts and tables come when they are asked for. */
+static void add_captures(const struct blame *blame, json_t *document) {
+    json_t *worst = blame->overall.rows ? page_section(document, "The worst captures") : NULL;
+    for (size_t i = 0; i < blame->overall.shown_count; i++) {
+        const size_t c = blame->overall.shown[i];
+        const char *path = blame->captures.items[c];
+        if (worst) {
+            page_text(worst, "heading", path);
+            add_pictures(blame, c, worst);
+            add_sum(blame, document, page_fold(worst, "Charts and tables"), path, &blame->of[c].sum);
+        } else {
+            add_sum(blame, document, NULL, path, &blame->of[c].sum);
+            if (blame->drawn) add_pictures(blame, c, page_section(document, base_name(path)));
+        }
     }
 }
 
@@ -182,7 +223,10 @@ static void add_meaning(const struct blame *blame, json_t *document) {
 static void add_facts(const struct blame *blame, json_t *document) {
     const struct glint_device_info *device = glint_device_get_info(blame->device);
     char text[300];
-    for (size_t c = 0; c < blame->captures.count; c++) page_fact(document, "capture", blame->captures.items[c]);
+    snprintf(text, sizeof text, "%zu", blame->captures.count);
+    if (blame->overall.rows) page_fact(document, "captures", text);
+    for (size_t c = 0; c < blame->captures.count && !blame->overall.rows; c++)
+        page_fact(document, "capture", blame->captures.items[c]);
     if (!blame->complete) page_fact(document, "incomplete", "the search was interrupted; the same command resumes it");
     page_fact(document, "preset", glint_pipeline_name(blame->base));
     page_fact(document, "error", glint_metric(blame->metric)->title);
@@ -213,9 +257,10 @@ bool blame_write_page(struct blame *blame, struct glint_error *err) {
     json_t *document = page_create(title);
     if (!document) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     add_facts(blame, document);
-    if (blame->captures.count > 1) add_sum(blame, document, "Mean of the captures", &blame->mean);
-    for (size_t c = 0; c < blame->captures.count; c++)
-        add_sum(blame, document, blame->captures.items[c], &blame->captured[c]);
+    if (blame->captures.count > 1) add_sum(blame, document, NULL, "Mean of the captures", &blame->mean);
+    if (blame->captures.count > 1) blame_page_overall(blame, document);
+    add_captures(blame, document);
+    if (blame->overall.rows || blame->overall.failed) blame_page_rows(blame, document);
     add_meaning(blame, document);
     const bool ok = journal_path(blame->out, "index.html", path, err) && page_store(blame->out, document, err) &&
                     page_write(path, document, blame->out, err) && write_charts(blame, err);

@@ -6,13 +6,6 @@
 #include "blame/blame.h"
 #include "glint/sort.h"
 
-void blame_look_key(size_t capture, uint32_t coalition, char key[64]) {
-    snprintf(key, 64, "look %zu %u", capture, coalition);
-}
-void blame_time_key(size_t capture, uint32_t coalition, uint32_t round, char key[64]) {
-    snprintf(key, 64, "time %zu %u %u", capture, coalition, round);
-}
-
 static double number_of(const json_t *json) {
     return json_is_number(json) ? json_number_value(json) : (double)NAN;
 }
@@ -38,7 +31,8 @@ static int by_coalition(const void *a, const void *b) {
     return x < y ? -1 : x > y;
 }
 
-size_t blame_timed(const struct blame *blame, uint32_t timed[2 * GLINT_PLAYERS_MAX + 2]) {
+void blame_choose_timed(struct blame *blame) {
+    uint32_t *timed = blame->timed;
     size_t count = 0, kept = 0;
     timed[count++] = 0;
     timed[count++] = everyone(blame);
@@ -49,26 +43,26 @@ size_t blame_timed(const struct blame *blame, uint32_t timed[2 * GLINT_PLAYERS_M
     qsort(timed, count, sizeof *timed, by_coalition); /* neighbouring coalitions share most passes */
     for (size_t i = 0; i < count; i++)
         if (!kept || timed[kept - 1] != timed[i]) timed[kept++] = timed[i];
-    return kept;
+    blame->timed_count = kept;
 }
 
 /* Median of the timed rounds; NAN without rounds. */
 static double time_of(const struct blame *blame, size_t capture, uint32_t coalition) {
+    const struct blame_round *rounds = blame->of[capture].rounds;
     double *ms = malloc((blame->rounds + 1) * sizeof *ms), median = (double)NAN;
-    uint32_t count = 0;
-    for (uint32_t r = 0; ms && r < blame->rounds; r++) {
-        char key[64];
-        blame_time_key(capture, coalition, r, key);
-        const json_t *value = json_object_get(json_object_get(blame->lines, key), "frame_ms");
-        if (json_is_number(value)) ms[count++] = json_number_value(value);
+    size_t count = 0, at = 0;
+    while (at < blame->timed_count && blame->timed[at] != coalition) at++;
+    for (uint32_t r = 0; ms && rounds && r < blame->rounds; r++) {
+        const struct blame_round *round = &rounds[r * blame->timed_count + at];
+        if (round->known) ms[count++] = round->ms;
     }
-    if (ms) median = glint_median(ms, count);
+    if (count) median = glint_median(ms, count);
     free(ms);
     return median;
 }
 
 void blame_sum_times(struct blame *blame, size_t capture) {
-    struct blame_time *time = &blame->captured[capture].time;
+    struct blame_time *time = &blame->of[capture].sum.time;
     time->preset = time_of(blame, capture, 0);
     time->reference = time_of(blame, capture, everyone(blame));
     for (size_t p = 0; p < blame->count; p++) {
@@ -77,10 +71,12 @@ void blame_sum_times(struct blame *blame, size_t capture) {
     }
 }
 
-/* Captures that enter the mean: those whose shares are known, or only the first as long as there are none. */
+/* The captures of the mean: those whose shares are known, or the first with results as long as there are none. */
 static bool in_mean(const struct blame *blame, size_t capture, bool any) {
-    const struct glint_shapley *of = &blame->captured[capture].shapley;
-    return any ? of->exact || of->permutations : capture == 0 && of->share;
+    if (any) return blame_has_shares(blame, capture);
+    for (size_t c = 0; c < capture; c++)
+        if (blame_is_known(&blame->of[c].sum)) return false;
+    return blame_is_known(&blame->of[capture].sum);
 }
 
 static void add_times(const struct blame *blame, struct blame_time *mean, const struct blame_time *of, double part) {
@@ -92,33 +88,44 @@ static void add_times(const struct blame *blame, struct blame_time *mean, const 
     }
 }
 
+static bool fail_all(const struct blame *blame, struct glint_error *err) {
+    char *why = blame_failure(blame, 0);
+    glint_fail(err, GLINT_ERROR_FORMAT, "the error of no capture can be attributed: %.900s", why ? why : "");
+    free(why);
+    return false;
+}
+
 /* The shares of the mean error are the means of the shares. The same permutations are used for all captures, so their errors are
    correlated and the widths of the intervals are averaged without the square root of independent errors. */
 bool blame_sum_up(struct blame *blame, struct glint_error *err) {
     struct glint_shapley *mean = &blame->mean.shapley;
     const size_t n = blame->count * BLAME_VALUES, size = 4 * n + 2 * BLAME_VALUES;
-    size_t known = 0, last = 0;
-    for (size_t c = 0; c < blame->captures.count; c++) known += in_mean(blame, c, true);
+    size_t known = 0, failed = 0, last = 0;
+    for (size_t c = 0; c < blame->captures.count; c++) {
+        known += blame_has_shares(blame, c);
+        failed += blame->of[c].failed;
+    }
+    if (failed == blame->captures.count) return fail_all(blame, err);
     glint_shapley_finish(mean);
     blame->mean = (struct blame_sum){.time = {.preset = 0}};
     double *values = calloc(size + 1, sizeof *values);
     if (!values) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     for (size_t c = 0; c < blame->captures.count; c++) {
-        const struct blame_sum *of = &blame->captured[c];
+        const struct blame_sum *of = &blame->of[c].sum;
         const double part = 1.0 / (double)(known ? known : 1);
         if (!in_mean(blame, c, known > 0)) continue;
         for (size_t i = 0; i < size; i++) values[i] += part * of->shapley.share[i];
         add_times(blame, &blame->mean.time, &of->time, part);
         last = c;
     }
-    *mean = blame->captured[last].shapley;
+    *mean = blame->of[last].sum.shapley;
     mean->share = values;
     mean->half = mean->share + n;
     mean->first = mean->half + n;
     mean->last = mean->first + n;
     mean->none = mean->last + n;
     mean->all = mean->none + BLAME_VALUES;
-    return true;
+    return blame_overall_find(blame, err);
 }
 
 double blame_bought(const struct blame_sum *sum, size_t player, size_t value, bool *already) {
@@ -136,12 +143,15 @@ void blame_how(const struct blame_sum *sum, char text[96]) {
 }
 
 void blame_finish(struct blame *blame) {
-    for (size_t c = 0; blame->captured && c < blame->captures.count; c++)
-        glint_shapley_finish(&blame->captured[c].shapley);
-    free(blame->captured);
+    for (size_t c = 0; blame->of && c < blame->captures.count; c++) {
+        glint_shapley_finish(&blame->of[c].sum.shapley);
+        blame_forget_looks(&blame->of[c]);
+        free(blame->of[c].rounds);
+    }
+    free(blame->of);
     glint_shapley_finish(&blame->mean.shapley);
+    blame_overall_finish(&blame->overall);
     page_charts_finish(&blame->charts);
-    json_decref(blame->lines);
     json_decref(blame->definition);
     journal_close(&blame->journal);
     if (blame->players) glint_players_destroy(&blame->players);

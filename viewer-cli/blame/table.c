@@ -4,6 +4,7 @@
 
 #include "blame/blame.h"
 #include "io/table.h"
+#include "options/capture_set.h"
 
 static void value_or_dash_cell(struct table *table, double value) {
     if (isfinite(value)) table_cell(table, "%s", number_text(value));
@@ -26,8 +27,7 @@ static void share_cell(struct table *table, double share, double half) {
     else error_cell(table, share);
 }
 
-/* The player with the largest share of the error. */
-static size_t largest_share(const struct blame *blame, const struct blame_sum *sum, size_t value) {
+size_t blame_largest(const struct blame *blame, const struct blame_sum *sum, size_t value) {
     size_t most = 0;
     for (size_t p = 1; p < blame->count; p++)
         if (blame_share(sum, p, value) > blame_share(sum, most, value)) most = p;
@@ -43,7 +43,7 @@ static void print_players(const struct blame *blame, const struct blame_sum *sum
                                          ">left if all others are ideal",
                                          NULL};
     struct table *table = table_create(titles);
-    const size_t v = blame_value(answer, 0), most = largest_share(blame, sum, v);
+    const size_t v = blame_value(answer, 0), most = blame_largest(blame, sum, v);
     double shares = 0;
     for (size_t p = blame->count; p-- > 0;) {
         const double share = blame_share(sum, p, v);
@@ -83,11 +83,18 @@ static void print_sum(const struct blame *blame, const char *title, const struct
 static void each_sum(const struct blame *blame,
                      void (*print)(const struct blame *blame, const char *title, const struct blame_sum *sum)) {
     if (blame->captures.count > 1) print(blame, "mean of the captures", &blame->mean);
-    for (size_t c = 0; c < blame->captures.count; c++) print(blame, blame->captures.items[c], &blame->captured[c]);
+    for (size_t i = 0; i < blame->overall.shown_count; i++) {
+        const size_t c = blame->overall.shown[i];
+        print(blame, blame->captures.items[c], &blame->of[c].sum);
+    }
 }
 
 void blame_print_shares(const struct blame *blame) {
+    if (blame->overall.rows)
+        printf("The %zu captures with the largest errors, of %zu.\n\n", blame->overall.shown_count,
+               blame->captures.count);
     each_sum(blame, print_sum);
+    if (blame->captures.count > 1) blame_print_overall(blame);
     puts("share: the mean over all orders in which slots can be replaced by their ideals. saved if ideal: the error "
          "that disappears if only this slot is replaced, and the fetches that adds. left if all others are ideal: the "
          "error that this slot makes alone. The ideals:");
@@ -179,22 +186,43 @@ static json_t *sum_json(const struct blame *blame, const struct blame_sum *sum) 
                      json_number(sum->shapley.all[BLAME_FETCHES]), "costs", costs);
 }
 
-json_t *blame_json(const struct blame *blame) {
+static json_t *capture_json(const struct blame *blame, size_t c) {
+    const json_t *tags = capture_set_tags(&blame->captures, c);
+    char *failure = blame_failure(blame, c);
+    json_t *json = failure ? json_pack("{s:s}", "failure", failure) : sum_json(blame, &blame->of[c].sum);
+    json_object_set_new(json, "capture", json_string(blame->captures.items[c]));
+    if (tags) json_object_set(json, "tags", (json_t *)tags);
+    free(failure);
+    return json;
+}
+
+static void put_capture(FILE *out, void *user, size_t i, size_t indent, size_t spaces) {
+    json_put(out, capture_json(*(const struct blame *const *)user, i), indent, spaces);
+}
+
+/* Captures up to the first of which nothing is known yet. */
+static size_t count_told(const struct blame *blame) {
+    size_t c = 0;
+    while (c < blame->captures.count && (blame->of[c].failed || blame_is_known(&blame->of[c].sum))) c++;
+    return c;
+}
+
+void blame_write_json(FILE *out, const struct blame *blame, size_t indent) {
     const struct glint_device_info *device = glint_device_get_info(blame->device);
-    json_t *players = json_array(), *captures = json_array();
+    json_t *players = json_array();
     for (size_t p = blame->count; p-- > 0;)
         json_array_append_new(players, json_pack("{s:s, s:s, s:s}", "name", glint_player_name(blame->players, p),
                                                  "change", glint_player_change(blame->players, p), "why",
                                                  glint_player_why(blame->players, p)));
-    for (size_t c = 0; c < blame->captures.count && blame_is_known(&blame->captured[c]); c++) {
-        json_t *capture = sum_json(blame, &blame->captured[c]);
-        json_object_set_new(capture, "capture", json_string(blame->captures.items[c]));
-        json_array_append_new(captures, capture);
-    }
-    return json_pack("{s:i, s:b, s:s, s:s, s:s, s:s, s:{s:s, s:b}, s:I, s:I, s:o, s:o, s:o}", "format", 1, "complete",
-                     blame->complete, "effect", blame->against.effect->name, "preset", glint_pipeline_name(blame->base),
-                     "metric", glint_metric(blame->metric)->name, "against", glint_target_name(blame_answer(blame, 0)),
-                     "device", "name", device->name, "is_cpu", device->is_cpu, "rounds", (json_int_t)blame->rounds,
-                     "reference_rays", (json_int_t)(blame->against.rays ? blame->against.rays : GLINT_JUDGE_RAYS),
-                     "players", players, "captures", captures, "mean", sum_json(blame, &blame->mean));
+    json_t *json =
+        json_pack("{s:i, s:b, s:s, s:s, s:s, s:s, s:{s:s, s:b}, s:I, s:I, s:o, s:[], s:o}", "format", 1, "complete",
+                  blame->complete, "effect", blame->against.effect->name, "preset", glint_pipeline_name(blame->base),
+                  "metric", glint_metric(blame->metric)->name, "against", glint_target_name(blame_answer(blame, 0)),
+                  "device", "name", device->name, "is_cpu", device->is_cpu, "rounds", (json_int_t)blame->rounds,
+                  "reference_rays", (json_int_t)(blame->against.rays ? blame->against.rays : GLINT_JUDGE_RAYS),
+                  "players", players, "captures", "mean", sum_json(blame, &blame->mean));
+    if (blame->captures.count > 1)
+        json_object_update_new(json, json_pack("{s:o, s:o, s:I}", "overall", blame_overall_json(blame), "worst",
+                                               blame_worst_json(blame), "failed", (json_int_t)blame->overall.failed));
+    json_put_list(out, json, "captures", count_told(blame), put_capture, (void *)&blame, indent, 0);
 }

@@ -2,7 +2,8 @@
 #ifndef GLINT_VIEWER_CHECK_H
 #define GLINT_VIEWER_CHECK_H
 
-#include "diff/diff.h"
+#include "diff/options.h"
+#include "journal/survey.h"
 
 /* ---- Pairs of folders: runs.c ---- */
 
@@ -14,9 +15,15 @@ struct check_pairs {
     struct check_pair *items;
     size_t count;
 };
+/* Whether a folder is one run, and not a folder of runs. */
+bool check_is_run(const char *folder);
 /* A run and its baseline; of a folder of runs (as replay makes of several captures) each with the one of its name, by name. */
 bool check_pairs_find(struct check_pairs *pairs, const char *run, const char *baseline, struct glint_error *err);
 void check_pairs_finish(struct check_pairs *pairs);
+
+/* Opens the survey of these runs, which are the same while their run.json and the limits are, and cost the bytes of their files: journal.c */
+bool check_survey_open(struct survey *survey, const struct check_pairs *pairs, const struct diff_args *args,
+                       struct glint_error *err);
 
 /* ---- What is told of many runs: survey.c ---- */
 
@@ -31,9 +38,10 @@ struct check_survey {
     struct check_row *rows; /* zero-initialised */
     size_t count;
 };
-/* Adds a row, of which it copies the message; `diff` may be NULL. */
-bool check_survey_add(struct check_survey *survey, const struct check_pair *pair, enum diff_status status,
-                      const struct diff *diff, const char *message, struct glint_error *err);
+/* Adds a row of the JSON of a pair: that of a diff, or "status" with a "note" or an "error" why there is none, and "approved" if the differences were. False
+   without memory, and for JSON that somebody else has made and that lacks something, without an error. */
+bool check_survey_add(struct check_survey *survey, const struct check_pair *pair, const json_t *json,
+                      struct glint_error *err);
 /* Sorts the rows: the worst status first, then the most images that differ. */
 void check_survey_sort(struct check_survey *survey);
 void check_survey_print(const struct check_survey *survey);

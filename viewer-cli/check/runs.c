@@ -9,7 +9,7 @@
 
 #include "check/check.h"
 
-static bool is_run(const char *folder) {
+bool check_is_run(const char *folder) {
     char *path = NULL;
     if (asprintf(&path, "%s/run.json", folder) < 0) return false;
     const bool is = access(path, F_OK) == 0;
@@ -26,7 +26,7 @@ static bool add_check_pair(struct check_pairs *pairs, char *run, char *baseline,
         free(baseline);
         return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     }
-    pairs->items[pairs->count++] = (struct check_pair){run, baseline, is_run(run), is_run(baseline)};
+    pairs->items[pairs->count++] = (struct check_pair){run, baseline, check_is_run(run), check_is_run(baseline)};
     return true;
 }
 
@@ -54,7 +54,7 @@ static bool add_folder(struct check_pairs *pairs, const char *run, const char *b
         const char *name = entries[i]->d_name;
         const bool hidden = name[0] == '.' || name[strlen(name) - 1] == '~';
         char *a = hidden ? NULL : inside(run, name), *b = hidden ? NULL : inside(baseline, name);
-        const bool run = ok && a && b && is_run(second ? b : a) && !(second && is_run(a));
+        const bool run = ok && a && b && check_is_run(second ? b : a) && !(second && check_is_run(a));
         ok = ok && (!run || (check_is_no_link(a, err) && check_is_no_link(b, err)));
         if (run && ok) ok = add_check_pair(pairs, a, b, err);
         else {
@@ -69,7 +69,7 @@ static bool add_folder(struct check_pairs *pairs, const char *run, const char *b
 
 bool check_pairs_find(struct check_pairs *pairs, const char *run, const char *baseline, struct glint_error *err) {
     *pairs = (struct check_pairs){0};
-    if (is_run(run)) return add_check_pair(pairs, strdup(run), strdup(baseline), err);
+    if (check_is_run(run)) return add_check_pair(pairs, strdup(run), strdup(baseline), err);
     if (!add_folder(pairs, run, baseline, false, err) || !add_folder(pairs, run, baseline, true, err)) return false;
     return pairs->count ||
            glint_fail(err, GLINT_ERROR_FORMAT, "%s: expected a run, or a folder of runs: no run.json", run);

@@ -10,24 +10,32 @@
 enum { STATUSES = DIFF_FILE + 1 };
 static const char *const words[STATUSES] = {"same", "warning", "fails", "different size", "unreadable"};
 
-static bool describe(struct check_row *row, const struct diff *diff) {
-    const size_t first = diff_first(diff);
-    row->images = diff->count;
-    for (size_t i = 0; i < diff->count; i++) row->differing += diff->pairs[i].status != DIFF_SAME;
-    if (first == diff->count) return true;
-    const struct diff_image *image = diff_pair_image(&diff->pairs[first]);
-    return asprintf(&row->first, "%s: %s", image->slot, image->name) >= 0;
+/* The figures of a diff's images. */
+static bool describe(struct check_row *row, const json_t *json) {
+    const json_t *first = json_object_get(json, "first"), *image;
+    const char *slot = json_string_value(json_object_get(first, "slot")),
+               *name = json_string_value(json_object_get(first, "image"));
+    size_t i;
+    row->images = json_array_size(json_object_get(json, "images"));
+    json_array_foreach(json_object_get(json, "images"), i, image) row->differing +=
+        json_integer_value(json_object_get(image, "status")) != DIFF_SAME;
+    return !slot || !name || asprintf(&row->first, "%s: %s", slot, name) >= 0;
 }
 
-bool check_survey_add(struct check_survey *survey, const struct check_pair *pair, enum diff_status status,
-                      const struct diff *diff, const char *message, struct glint_error *err) {
+bool check_survey_add(struct check_survey *survey, const struct check_pair *pair, const json_t *json,
+                      struct glint_error *err) {
+    const json_int_t status = json_integer_value(json_object_get(json, "status"));
+    const char *note = json_string_value(json_object_get(json, "note")),
+               *error = json_string_value(json_object_get(json, "error"));
+    if (!json_is_integer(json_object_get(json, "status")) || status < 0 || status >= STATUSES) return false;
     struct check_row *more = realloc(survey->rows, (survey->count + 1) * sizeof *more);
     if (!more) return fail_memory(err);
     survey->rows = more;
     struct check_row *row = &more[survey->count++];
-    *row = (struct check_row){.pair = pair, .status = status};
-    if (message && !(row->message = strdup(message))) return fail_memory(err);
-    return !diff || describe(row, diff) || fail_memory(err);
+    const bool approved = json_object_get(json, "approved") != NULL;
+    *row = (struct check_row){.pair = pair, .status = approved ? DIFF_SAME : (enum diff_status)status};
+    if ((note || error) && !(row->message = strdup(error ? error : note))) return fail_memory(err);
+    return describe(row, json) || fail_memory(err);
 }
 
 /* Rows that are as bad as each other keep the order of their names. */
@@ -81,11 +89,11 @@ void check_survey_print(const struct check_survey *survey) {
 }
 
 static json_t *row_json(const struct check_row *row) {
-    json_t *json =
-        json_pack("{s:s, s:s, s:i, s:I, s:I}", "a", row->pair->baseline, "b", row->pair->run, "status",
-                  (int)row->status, "differing", (json_int_t)row->differing, "images", (json_int_t)row->images);
-    if (row->first) json_object_set_new(json, "first", json_string(row->first));
-    if (row->message) json_object_set_new(json, "message", json_string(row->message));
+    json_t *json = json_pack("{s:o, s:o, s:i, s:I, s:I}", "a", json_text(row->pair->baseline), "b",
+                             json_text(row->pair->run), "status", (int)row->status, "differing",
+                             (json_int_t)row->differing, "images", (json_int_t)row->images);
+    if (row->first) json_object_set_new(json, "first", json_text(row->first));
+    if (row->message) json_object_set_new(json, "message", json_text(row->message));
     return json;
 }
 

@@ -5,7 +5,8 @@
 #include "capture/missing.h"
 #include "options/args.h"
 #include "glint/judge.h"
-#include "journal/journal.h"
+#include "groups/groups.h"
+#include "journal/survey.h"
 #include "io/progress.h"
 #include "draw/view/sheet.h"
 
@@ -123,51 +124,41 @@ enum contest_figure {
     CONTEST_FIGURES
 };
 enum contest_state { CONTEST_MISSING, CONTEST_DONE, CONTEST_UNREADABLE };
-struct contest_entry {
-    enum contest_state state;
-    long at; /* of its line */
-};
 struct contest_log {
     const struct contest *contest;
     const struct list *captures;
-    const char *folder; /* that of the journal, or NULL */
-    struct journal journal;
-    struct glint_folder_lock *lock;
-    FILE *spool; /* a line for each capture, in the order in which they came */
-    struct contest_entry *entries;
+    struct survey survey; /* a line for each capture */
+    enum contest_state *states;
     double *figures;          /* [capture][preset][CONTEST_FIGURES] */
     struct showing *showings; /* of the capture `loaded` */
     size_t loaded;
-    struct glint_error fault; /* what could not be stored or read back */
+    struct glint_error fault; /* what could not be read back */
 };
-/* Resumes if the folder has a journal of the same comparison. Close it even if this fails. */
+/* Resumes if the folder, or NULL, has a journal of the same comparison. Close it even if this fails. */
 bool contest_log_open(struct contest_log *log, const struct contest *contest, const struct list *captures,
-                      const char *folder, struct glint_error *err);
-/* Adds the results of a capture, or why there are none (showings is NULL). */
-bool contest_log_add(struct contest_log *log, size_t capture, const struct showing *showings, const char *failure,
-                     struct glint_error *err);
+                      const char *folder, const struct shard *shard, struct glint_error *err);
+/* The results of a capture as a line, or why there are none (showings is NULL); NULL without memory. */
+json_t *contest_log_entry(const struct contest *contest, const struct showing *showings, const char *failure);
+/* Keeps the state and the figures of a line. False with an error if it belongs to another comparison. */
+bool contest_log_keep(struct contest_log *log, size_t capture, const json_t *line, struct glint_error *err);
 /* The results of a capture, empty ones where there are none; valid until those of another one are asked for. */
 const struct showing *contest_log_showings(const struct contest_log *log, size_t capture);
 /* {"capture": N, "presets": […], "failure": T}; a new reference, NULL where there is none. */
 json_t *contest_log_line(const struct contest_log *log, size_t capture);
 double contest_log_figure(const struct contest_log *log, size_t capture, size_t preset, enum contest_figure figure);
-/* Whether all results could be stored and read back so far. */
+/* Whether all results could be read back so far. */
 bool contest_log_check(const struct contest_log *log, struct glint_error *err);
 /* Removes the journal if the comparison is finished, or has no result yet. */
 void contest_log_close(struct contest_log *log, bool finished);
-/* Removes the journal in a folder. The log goes first: what is left if the process ends in between is a journal without results. */
-void contest_log_remove(const char *folder);
 
 /* ---- What is shown ---- */
 
-/* Captures that are shown whole, with pictures: all, or the worst of more. */
-enum { CONTEST_SHOWN = 10 };
 struct contest_table {
     const struct contest *contest;
     const struct contest_log *log;
     const char *const *captures;
     size_t capture_count;
-    size_t shown[CONTEST_SHOWN]; /* which captures these are */
+    size_t shown[CAPTURES_SHOWN]; /* which captures these are */
     size_t shown_count;
     bool rows; /* there are more captures */
 };
@@ -187,13 +178,16 @@ bool contest_write_page(const char *folder, const struct contest_table *table, c
 struct contest_work {
     const struct list *captures;
     const char *folder; /* for the results, or NULL */
-    struct glint_folder_lock *lock;
+    struct shard shard;
+    struct shard_record *record; /* of a shard, written before its first results, and then NULL */
+    size_t effects;              /* of which the shard has results */
     struct sheet sheet;
     struct contest_log log;
     struct contest_table table;
     struct contest_overall *overall; /* NULL for one capture */
-    struct contest_pictures pictures[CONTEST_SHOWN];
+    struct contest_pictures pictures[CAPTURES_SHOWN];
 };
+/* Of a shard it makes the results alone. */
 bool contest_compare(struct contest *contest, struct contest_work *work, struct glint_error *err);
 void contest_work_finish(struct contest_work *work, bool finished);
 

@@ -1,10 +1,7 @@
 /* The results of captures on disk: a line of JSON for each, so that the memory of a comparison does not grow with its captures, and an interrupted one
-   goes on where it stopped. With a folder the lines are in its journal, too. */
-#include <errno.h>
+   goes on where it stopped. */
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
 
 #include "compare/compare.h"
 #include "options/capture_set.h"
@@ -33,13 +30,12 @@ static json_t *define(const struct contest *contest, const struct list *captures
 /* ---- Lines ---- */
 
 /* Keeps the figures of a capture in memory. */
-static bool keep_figures(struct contest_log *log, size_t capture, const json_t *presets) {
+static bool keep_figures(struct contest_log *log, size_t capture, const json_t *presets, struct glint_error *err) {
     const size_t count = log->contest->count;
-    struct glint_error err = {0};
     for (size_t p = 0; p < count; p++) {
         struct showing s;
         double *figures = &log->figures[(capture * count + p) * CONTEST_FIGURES];
-        const bool ok = showing_read(log->contest->effect, json_array_get(presets, p), &s, &err);
+        const bool ok = showing_read(log->contest->effect, json_array_get(presets, p), &s, err);
         const bool judged = ok && s.ran && s.judged[0];
         figures[CONTEST_ERROR] = judged && s.compared && s.shared.of[0].pixels ? s.shared.of[0].symmetric : (double)NAN;
         figures[CONTEST_MS] = ok && s.ran && s.frame.n ? s.frame.median : (double)NAN;
@@ -50,54 +46,29 @@ static bool keep_figures(struct contest_log *log, size_t capture, const json_t *
     return true;
 }
 
-/* Writes a line where it is found again; false when it does not belong to this comparison. */
-static bool keep_line(void *user, json_t *line) {
-    struct contest_log *log = user;
-    const json_t *number = json_object_get(line, "capture"), *presets = json_object_get(line, "presets");
-    const json_int_t capture = json_integer_value(number);
+bool contest_log_keep(struct contest_log *log, size_t capture, const json_t *line, struct glint_error *err) {
+    const json_t *presets = json_object_get(line, "presets");
     const bool failed = json_is_string(json_object_get(line, "failure"));
-    if (!json_is_integer(number) || capture < 0 || capture >= (json_int_t)log->captures->count ||
-        !json_is_array(presets) || json_array_size(presets) != (failed ? 0 : log->contest->count))
-        return false;
-    char *text = record_text(line, JSON_COMPACT);
-    struct contest_entry *entry = &log->entries[capture];
-    const bool ok = text && fseek(log->spool, 0, SEEK_END) == 0 && (entry->at = ftell(log->spool)) >= 0 &&
-                    fprintf(log->spool, "%s\n", text) > 0 && (failed || keep_figures(log, (size_t)capture, presets));
-    if (!ok) glint_fail(&log->fault, GLINT_ERROR_IO, "the temporary file of results: %s", strerror(errno));
-    entry->state = failed ? CONTEST_UNREADABLE : CONTEST_DONE;
-    free(text);
-    return ok;
+    if (!json_is_array(presets) || json_array_size(presets) != (failed ? 0 : log->contest->count))
+        return survey_fail_line(&log->survey, capture, err);
+    log->states[capture] = failed ? CONTEST_UNREADABLE : CONTEST_DONE;
+    return failed || keep_figures(log, capture, presets, err);
 }
 
-bool contest_log_add(struct contest_log *log, size_t capture, const struct showing *showings, const char *failure,
-                     struct glint_error *err) {
-    const struct contest *contest = log->contest;
+json_t *contest_log_entry(const struct contest *contest, const struct showing *showings, const char *failure) {
     json_t *presets = json_array();
     for (size_t p = 0; showings && p < contest->count; p++)
-        json_array_append_new(presets, showing_json(contest->effect, contest->contestants[p].label, &showings[p]));
-    json_t *line = json_pack("{s:I, s:o}", "capture", (json_int_t)capture, "presets", presets);
-    if (!showings) json_object_set_new(line, "failure", json_string(failure));
-    return journal_append(&log->journal, line, err) && contest_log_check(log, err);
+        record_append(&presets, showing_json(contest->effect, contest->contestants[p].label, &showings[p]));
+    json_t *line = json_pack("{s:o}", "presets", presets);
+    if (!showings) record_set(&line, "failure", json_text(failure));
+    return line;
 }
 
 /* ---- Reading back ---- */
 
 json_t *contest_log_line(const struct contest_log *log, size_t capture) {
     struct contest_log *own = (struct contest_log *)log; /* whose place in the file is no state of it */
-    char *text = NULL;
-    size_t size = 0;
-    json_t *line = NULL;
-    if (log->entries[capture].state == CONTEST_MISSING) return NULL;
-    errno = 0;
-    const bool found = fseek(log->spool, log->entries[capture].at, SEEK_SET) == 0 &&
-                       getline(&text, &size, log->spool) > 0 && !ferror(log->spool);
-    const int why = errno;
-    if (found) line = json_loads(text, 0, NULL);
-    if (!line)
-        glint_fail(&own->fault, GLINT_ERROR_IO, "the temporary file of results: cannot be read back: %s",
-                   strerror(why));
-    free(text);
-    return line;
+    return log->states[capture] == CONTEST_MISSING ? NULL : survey_line(&own->survey, capture, &own->fault);
 }
 
 static void forget(struct contest_log *log) {
@@ -128,52 +99,50 @@ bool contest_log_check(const struct contest_log *log, struct glint_error *err) {
 
 /* ---- Opening and closing ---- */
 
-/* A capture from stdin is another one each time: there is nothing to resume. */
-static bool reads_stdin(const struct list *captures) {
-    for (size_t i = 0; i < captures->count; i++)
-        if (!strcmp(captures->items[i], "-")) return true;
-    return false;
+/* How long each capture takes, by its pixels, where that is asked for. */
+static double *find_costs(const struct list *captures, const struct shard *shard, struct glint_error *err) {
+    double *costs = calloc(captures->count + 1, sizeof *costs);
+    bool ok = costs || fail_memory(err);
+    for (size_t i = 0; ok && shard->count && i < captures->count; i++)
+        ok = shard_pixels(captures->items[i], &costs[i], err);
+    if (ok) return costs;
+    free(costs);
+    return NULL;
 }
 
-static bool open_journal(struct contest_log *log, struct glint_error *err) {
-    if (!log->folder) return true;
-    if (reads_stdin(log->captures)) return (log->lock = glint_folder_lock(log->folder, err)) != NULL;
-    json_t *definition = define(log->contest, log->captures, err);
-    log->journal.folder = log->folder;
-    const bool ok = definition && journal_open(&log->journal, definition, err);
-    json_decref(definition);
+/* A capture from stdin is another one each time: there is nothing to resume. */
+static bool open_survey(struct contest_log *log, const struct shard *shard, struct glint_error *err) {
+    const bool stdin_too = survey_has_stdin(log->captures);
+    double *costs = find_costs(log->captures, shard, err);
+    if (!costs) return false;
+    json_t *definition = log->survey.folder && !stdin_too ? define(log->contest, log->captures, err) : json_object();
+    const bool ok = survey_open(&log->survey, definition, costs, stdin_too, err);
+    free(costs);
     return ok;
 }
 
 bool contest_log_open(struct contest_log *log, const struct contest *contest, const struct list *captures,
-                      const char *folder, struct glint_error *err) {
+                      const char *folder, const struct shard *shard, struct glint_error *err) {
     const size_t rows = captures->count * contest->count;
-    *log = (struct contest_log){.contest = contest, .captures = captures, .folder = folder, .loaded = SIZE_MAX};
-    log->journal = (struct journal){.kind = "compare", .keep = keep_line, .user = log};
-    log->entries = calloc(captures->count + 1, sizeof *log->entries);
+    *log = (struct contest_log){.contest = contest, .captures = captures, .loaded = SIZE_MAX};
+    log->survey = (struct survey){.command = &cmd_compare,
+                                  .item = "capture",
+                                  .folder = folder,
+                                  .shard = *shard,
+                                  .count = captures->count,
+                                  .reread = true};
+    log->states = calloc(captures->count + 1, sizeof *log->states);
     log->figures = malloc((rows + 1) * CONTEST_FIGURES * sizeof *log->figures);
     log->showings = calloc(contest->count + 1, sizeof *log->showings);
-    if (!log->entries || !log->figures || !log->showings) return fail_memory(err);
+    if (!log->states || !log->figures || !log->showings) return fail_memory(err);
     for (size_t i = 0; i < rows * CONTEST_FIGURES; i++) log->figures[i] = NAN;
-    if (!(log->spool = tmpfile()))
-        return glint_fail(err, GLINT_ERROR_IO, "a temporary file for results: %s", strerror(errno));
-    return open_journal(log, err);
-}
-
-void contest_log_remove(const char *folder) {
-    static const char *const names[] = {"log.jsonl", "compare.json"};
-    char path[4096];
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        if (journal_path(folder, names[i], path, NULL)) unlink(path);
+    return open_survey(log, shard, err);
 }
 
 void contest_log_close(struct contest_log *log, bool finished) {
-    if (log->journal.log > 0 && (finished || !log->journal.results)) contest_log_remove(log->folder);
     forget(log);
-    journal_close(&log->journal);
-    glint_folder_unlock(&log->lock);
-    if (log->spool) fclose(log->spool);
-    free(log->entries);
+    survey_close(&log->survey, finished);
+    free(log->states);
     free(log->figures);
     free(log->showings);
     *log = (struct contest_log){0};

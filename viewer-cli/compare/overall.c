@@ -7,7 +7,6 @@
 
 #include "draw/page/page.h"
 #include "io/table.h"
-#include "options/capture_set.h"
 
 static const char *const figure_names[CONTEST_FIGURES] = {"error", "frame_ms", "coverage"};
 
@@ -25,10 +24,6 @@ static const struct glint_figure *beyond_best(const struct contest_table *t, con
     return &g->pairs[(g->best * t->contest->count + preset) * CONTEST_PAIRED + figure];
 }
 
-static const char *name_of(const struct contest_group *g) {
-    return g->tag ? g->tag : "all";
-}
-
 /* ---- In the terminal ---- */
 
 static void number_cell(struct table *table, const char *format, double value) {
@@ -37,19 +32,12 @@ static void number_cell(struct table *table, const char *format, double value) {
     table_cell(table, "%s", text);
 }
 
-/* "+0.012 (+0.010 to +0.014)", without the interval where it is not known. */
-static void difference_cell(struct table *table, const struct glint_figure *d) {
-    if (isnan(d->value)) table_cell(table, "–");
-    else if (isnan(d->low)) table_cell(table, "%+.4f", d->value);
-    else table_cell(table, "%+.4f (%+.4f to %+.4f)", d->value, d->low, d->high);
-}
-
 static void print_group(struct table *table, const struct contest_table *t, const struct contest_group *g) {
     for (size_t p = 0; p < t->contest->count; p++) {
         const bool best = p == g->best && !isnan(mean_of(g, p, CONTEST_ERROR)->value);
-        table_cell(table, "%s", name_of(g));
-        table_cell(table, "%zu", g->captures);
-        table_cell(table, "%zu", g->shots);
+        table_cell(table, "%s", capture_group_name(g->of));
+        table_cell(table, "%zu", g->of->captures);
+        table_cell(table, "%zu", g->of->shots);
         table_cell(table, "%s", label_of(t, p));
         number_cell(table, "%.4f", mean_of(g, p, CONTEST_ERROR)->value);
         if (best) table_mark(table, MARK_GOOD);
@@ -65,7 +53,7 @@ static void print_figures(const struct contest_table *t, const struct contest_ov
                                          ">error",    ">coverage", ">ms",    "<error beyond the best, 95 % interval",
                                          NULL};
     struct table *table = table_create(titles);
-    for (size_t g = 0; g < o->count; g++) print_group(table, t, &o->groups[g]);
+    for (size_t g = 0; g < o->captures.count; g++) print_group(table, t, &o->groups[g]);
     puts("\nOver all captures, and over those with each tag: means over captures, of errors over the pixels that all "
          "presets cover; and how much larger the error is than that of the preset with the least one in the same "
          "captures. Intervals: bootstrap over shots:\n");
@@ -122,11 +110,6 @@ void contest_print_overall(const struct contest_table *t, const struct contest_o
 
 /* ---- JSON ---- */
 
-static json_t *figure_json(const struct glint_figure *figure) {
-    return json_pack("{s:o, s:o, s:o}", "value", json_number(figure->value), "low", json_number(figure->low), "high",
-                     json_number(figure->high));
-}
-
 static json_t *group_json(const struct contest_table *t, const struct contest_group *g) {
     const size_t count = t->contest->count;
     json_t *presets = json_array(), *pairs = json_array();
@@ -144,15 +127,15 @@ static json_t *group_json(const struct contest_table *t, const struct contest_gr
                                     figure_json(&g->pairs[(a * count + b) * CONTEST_PAIRED + f]));
             json_array_append_new(pairs, pair);
         }
-    json_t *json = json_pack("{s:s?, s:I, s:I, s:o, s:o}", "tag", g->tag, "captures", (json_int_t)g->captures, "shots",
-                             (json_int_t)g->shots, "presets", presets, "differences", pairs);
+    json_t *json = json_pack("{s:s?, s:I, s:I, s:o, s:o}", "tag", g->of->tag, "captures", (json_int_t)g->of->captures,
+                             "shots", (json_int_t)g->of->shots, "presets", presets, "differences", pairs);
     return json;
 }
 
 json_t *contest_overall_json(const struct contest_table *t, const struct contest_overall *o) {
     json_t *groups = json_array(), *worst = json_array();
-    for (size_t g = 0; g < o->count; g++) json_array_append_new(groups, group_json(t, &o->groups[g]));
-    for (size_t i = 0; i < t->capture_count - o->unreadable && i < CONTEST_SHOWN; i++)
+    for (size_t g = 0; g < o->captures.count; g++) json_array_append_new(groups, group_json(t, &o->groups[g]));
+    for (size_t i = 0; i < t->capture_count - o->unreadable && i < CAPTURES_SHOWN; i++)
         json_array_append_new(worst, json_pack("{s:s, s:o}", "capture", t->captures[o->order[i]], "error",
                                                json_number(contest_worst_error(t->log, o->order[i]))));
     return json_pack("{s:o, s:o, s:I}", "overall", groups, "worst", worst, "unreadable", (json_int_t)o->unreadable);
@@ -160,20 +143,16 @@ json_t *contest_overall_json(const struct contest_table *t, const struct contest
 
 /* ---- The page ---- */
 
-static json_t *cell_of(const struct glint_figure *figure, double factor) {
-    return isnan(figure->value) ? json_null()
-                                : page_interval(factor * figure->value, factor * figure->low, factor * figure->high);
-}
-
 static void add_group(json_t *table, const struct contest_table *t, const struct contest_group *g) {
     for (size_t p = 0; p < t->contest->count; p++) {
-        json_t *row =
-            json_pack("[s, I, I, s]", name_of(g), (json_int_t)g->captures, (json_int_t)g->shots, label_of(t, p));
-        json_array_append_new(row, cell_of(mean_of(g, p, CONTEST_ERROR), 1));
-        json_array_append_new(row, p == g->best ? json_null() : cell_of(beyond_best(t, g, p, CONTEST_ERROR), 1));
-        json_array_append_new(row, cell_of(mean_of(g, p, CONTEST_COVERAGE), 100));
-        json_array_append_new(row, cell_of(mean_of(g, p, CONTEST_MS), 1));
-        json_array_append_new(row, p == g->best ? json_null() : cell_of(beyond_best(t, g, p, CONTEST_MS), 1));
+        json_t *row = json_pack("[s, I, I, s]", capture_group_name(g->of), (json_int_t)g->of->captures,
+                                (json_int_t)g->of->shots, label_of(t, p));
+        json_array_append_new(row, figure_page_cell(mean_of(g, p, CONTEST_ERROR), 1));
+        json_array_append_new(row,
+                              p == g->best ? json_null() : figure_page_cell(beyond_best(t, g, p, CONTEST_ERROR), 1));
+        json_array_append_new(row, figure_page_cell(mean_of(g, p, CONTEST_COVERAGE), 100));
+        json_array_append_new(row, figure_page_cell(mean_of(g, p, CONTEST_MS), 1));
+        json_array_append_new(row, p == g->best ? json_null() : figure_page_cell(beyond_best(t, g, p, CONTEST_MS), 1));
         page_row(table, row);
     }
 }
@@ -194,18 +173,7 @@ void contest_page_figures(json_t *document, const struct contest_table *t, const
     page_column(table, "coverage", "%");
     page_column(table, "frame", "ms");
     page_column(table, "beyond the best", "ms");
-    for (size_t g = 0; g < o->count; g++) add_group(table, t, &o->groups[g]);
-}
-
-static char *tags_text(const struct contest_table *t, size_t capture) {
-    const json_t *tags = capture_set_tags(t->log->captures, capture);
-    char *text = NULL;
-    size_t size = 0;
-    FILE *out = open_memstream(&text, &size);
-    for (size_t i = 0; out && i < json_array_size(tags); i++)
-        fprintf(out, "%s%s", i ? ", " : "", json_string_value(json_array_get(tags, i)));
-    if (out) fclose(out);
-    return text;
+    for (size_t g = 0; g < o->captures.count; g++) add_group(table, t, &o->groups[g]);
 }
 
 void contest_page_rows(json_t *document, const struct contest_table *t, const struct contest_overall *o) {
@@ -216,7 +184,7 @@ void contest_page_rows(json_t *document, const struct contest_table *t, const st
     page_column(table, "message", "");
     for (size_t i = 0; i < t->capture_count; i++) {
         const size_t c = o->order[i];
-        char *tags = tags_text(t, c), *failure = failure_of(t, c);
+        char *tags = capture_tags_text(t->log->captures, c), *failure = failure_of(t, c);
         json_t *row = json_pack("[s, s]", t->captures[c], tags ? tags : "");
         for (size_t p = 0; p < t->contest->count; p++)
             json_array_append_new(row, json_number(contest_log_figure(t->log, c, p, CONTEST_ERROR)));

@@ -4,25 +4,20 @@
 
 #include "compare/compare.h"
 
-enum { CONTEST_GROUPS = 1 + 64 }; /* of all captures, and of the first 64 tags */
-enum { CONTEST_PAIRED = 2 };      /* the figures whose differences are of interest: the first of enum contest_figure */
+enum { CONTEST_PAIRED = 2 }; /* the figures whose differences are of interest: the first of enum contest_figure */
 
 /* Captures with a tag. */
 struct contest_group {
-    const char *tag;            /* NULL: all captures */
-    size_t captures, shots;     /* those that could be compared */
+    const struct capture_group *of;
     size_t best;                /* the preset with the least mean error */
     struct glint_figure *means; /* [preset][CONTEST_FIGURES] */
     /* [a][b][CONTEST_PAIRED]: the mean of b's figure less a's in the same capture, of the captures that have both. */
     struct glint_figure *pairs;
 };
 struct contest_overall {
-    struct contest_group *groups; /* the first is of all captures */
-    size_t count;
-    size_t *
-        shots; /* of each capture: captures of one shot resemble each other, and are drawn together for the intervals */
-    size_t shot_count;
-    size_t *order; /* the captures with the largest errors first, those that could not be read last */
+    struct capture_groups captures;
+    struct contest_group *groups; /* one for each of theirs */
+    size_t *order;                /* the captures with the largest errors first, those that could not be read last */
     size_t unreadable;
 };
 bool contest_overall_find(struct contest_overall *overall, const struct contest_log *log, struct glint_error *err);

@@ -200,7 +200,7 @@ static void add_worst(json_t *blocks, const struct contest_table *t, const struc
 static void add_captures(json_t *document, const struct contest_table *t, const struct contest_pictures *pictures) {
     json_t *worst = NULL;
     if (t->rows) worst = page_section(document, "The worst captures");
-    for (size_t k = 0; k < CONTEST_SHOWN; k++) {
+    for (size_t k = 0; k < CAPTURES_SHOWN; k++) {
         const char *path = t->captures[pictures[k].capture];
         if (!pictures[k].drawn) continue;
         if (t->rows) add_worst(worst, t, &pictures[k]);

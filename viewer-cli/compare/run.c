@@ -11,19 +11,13 @@
 
 /* ---- Runs ---- */
 
-/* Whether the capture is the one that its set means. */
-static bool check_hash(const struct list *captures, size_t i, struct glint_capture *capture, struct glint_error *err) {
-    char hash[33];
-    return !captures->set || (glint_capture_hash(capture, hash, err) && capture_set_check(captures, i, hash, err));
-}
-
 /* Runs all presets on a capture; or draws its pictures only, where showings is NULL. */
 static bool run_capture(struct contest *contest, const struct list *captures, size_t i, struct showing *showings,
                         struct contest_pictures *pictures, struct glint_error *err) {
     struct pipe pipe;
     const char *file = pipe_input(&pipe, captures->items[i], err);
     struct glint_capture *capture = file ? glint_capture_open(file, NULL, err) : NULL;
-    const bool ok = capture && check_hash(captures, i, capture, err) &&
+    const bool ok = capture && capture_set_check_open(captures, i, capture, err) &&
                     (showings ? contest_run(contest, capture, showings, pictures, err)
                               : contest_picture(contest, capture, pictures, err));
     glint_capture_close(&capture);
@@ -38,18 +32,42 @@ static bool ends_all(const struct contest *contest, const struct list *captures,
            glint_device_lost(contest->device);
 }
 
+/* The pictures of a capture that is judged, where all captures are shown. */
+static struct contest_pictures *pictures_of(struct contest_work *work, size_t i) {
+    return work->folder && !work->table.rows && !work->shard.count ? &work->pictures[i] : NULL;
+}
+
+struct judging {
+    struct contest *contest;
+    struct contest_work *work;
+};
+
 /* A capture that cannot be read, or is not the one that is meant, has a line that says so. */
-static bool judge_capture(struct contest *contest, struct contest_work *work, size_t i,
-                          struct contest_pictures *pictures, struct glint_error *err) {
+static json_t *judge_capture(void *user, size_t i, struct glint_error *err) {
+    const struct judging *judging = user;
+    struct contest *contest = judging->contest;
     struct glint_error own = {0};
     struct showing *showings = calloc(contest->count + 1, sizeof *showings);
-    bool ok = showings || fail_memory(err);
-    const bool ran = ok && run_capture(contest, work->captures, i, showings, pictures, &own);
-    if (ok && !ran && ends_all(contest, work->captures, &own)) ok = glint_fail(err, own.code, "%s", own.message);
-    else if (ok) ok = contest_log_add(&work->log, i, ran ? showings : NULL, own.message, err);
-    for (size_t p = 0; showings && p < contest->count; p++) showing_finish(&showings[p]);
+    if (!showings) return fail_memory(err), NULL;
+    const bool ran = run_capture(contest, judging->work->captures, i, showings, pictures_of(judging->work, i), &own);
+    json_t *line = NULL;
+    if (!ran && ends_all(contest, judging->work->captures, &own)) *err = own;
+    else if (!(line = contest_log_entry(contest, ran ? showings : NULL, own.message))) fail_memory(err);
+    for (size_t p = 0; p < contest->count; p++) showing_finish(&showings[p]);
     free(showings);
-    return ok;
+    return line;
+}
+
+static bool judge_all(struct contest *contest, struct contest_work *work, struct glint_error *err) {
+    struct judging judging = {contest, work};
+    struct survey *survey = &work->log.survey;
+    for (size_t i = survey->begin; i < survey->end; i++) {
+        json_t *line = survey_take(survey, i, judge_capture, &judging, err);
+        const bool ok = line && contest_log_keep(&work->log, i, line, err);
+        json_decref(line);
+        if (!ok) return false;
+    }
+    return true;
 }
 
 /* ---- Pictures ---- */
@@ -76,7 +94,7 @@ static struct contest_pictures place(const struct contest *contest, struct conte
 }
 
 static bool begin_pictures(const struct contest *contest, struct contest_work *work, struct glint_error *err) {
-    const size_t count = work->captures->count < CONTEST_SHOWN ? work->captures->count : CONTEST_SHOWN;
+    const size_t count = work->captures->count < CAPTURES_SHOWN ? work->captures->count : CAPTURES_SHOWN;
     if (!work->folder) return true;
     if (!sheet_init(&work->sheet, (uint32_t)contest->count + 1, CONTEST_ROWS * (uint32_t)count, err) ||
         !make_folders(work->folder, err))
@@ -101,9 +119,9 @@ static bool draw_missing(struct contest *contest, struct contest_work *work, str
 /* All captures that have results, or the worst of more. */
 static void choose_shown(struct contest_work *work) {
     struct contest_table *t = &work->table;
-    for (size_t i = 0; i < t->capture_count && t->shown_count < CONTEST_SHOWN; i++) {
+    for (size_t i = 0; i < t->capture_count && t->shown_count < CAPTURES_SHOWN; i++) {
         const size_t capture = t->rows ? work->overall->order[i] : i;
-        if (work->log.entries[capture].state == CONTEST_DONE) t->shown[t->shown_count++] = capture;
+        if (work->log.states[capture] == CONTEST_DONE) t->shown[t->shown_count++] = capture;
     }
 }
 
@@ -134,25 +152,31 @@ static bool find_overall(struct contest_work *work, struct glint_error *err) {
     return work->overall ? contest_overall_find(work->overall, &work->log, err) : fail_memory(err);
 }
 
+static bool begin_shard(struct contest_work *work, struct glint_error *err) {
+    const struct survey *survey = &work->log.survey;
+    if (!work->record) return true;
+    work->record->results = work->effects * (survey->end - survey->begin);
+    if (!shard_begin(work->record, err)) return false;
+    work->record = NULL;
+    return true;
+}
+
 bool contest_compare(struct contest *contest, struct contest_work *work, struct glint_error *err) {
     const size_t count = work->captures->count;
-    if (!contest_log_open(&work->log, contest, work->captures, work->folder, err)) return false;
+    if (!contest_log_open(&work->log, contest, work->captures, work->folder, &work->shard, err)) return false;
+    if (work->shard.count) return begin_shard(work, err) && judge_all(contest, work, err);
     work->table = (struct contest_table){.contest = contest,
                                          .log = &work->log,
                                          .captures = work->captures->items,
                                          .capture_count = count,
-                                         .rows = count > CONTEST_SHOWN};
-    bool ok = begin_pictures(contest, work, err);
-    for (size_t i = 0; ok && i < count; i++)
-        if (work->log.entries[i].state == CONTEST_MISSING)
-            ok = judge_capture(contest, work, i, work->folder && !work->table.rows ? &work->pictures[i] : NULL, err);
-    ok = ok && find_overall(work, err);
-    if (ok) choose_shown(work);
-    return ok && draw_missing(contest, work, err) && write_all(work, err) && contest_log_check(&work->log, err);
+                                         .rows = count > CAPTURES_SHOWN};
+    if (!begin_pictures(contest, work, err) || !judge_all(contest, work, err) || !find_overall(work, err)) return false;
+    choose_shown(work);
+    return draw_missing(contest, work, err) && write_all(work, err) && contest_log_check(&work->log, err);
 }
 
 void contest_work_finish(struct contest_work *work, bool finished) {
-    for (size_t k = 0; k < CONTEST_SHOWN; k++) json_decref(work->pictures[k].rows);
+    for (size_t k = 0; k < CAPTURES_SHOWN; k++) json_decref(work->pictures[k].rows);
     if (work->overall) contest_overall_finish(work->overall);
     free(work->overall);
     contest_log_close(&work->log, finished);

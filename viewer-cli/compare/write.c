@@ -4,10 +4,8 @@
 #include <string.h>
 
 #include "compare/overall.h"
-#include "io/memory.h"
 #include "io/table.h"
 #include "options/capture_set.h"
-#include "record.h"
 
 /* ---- JSON ---- */
 
@@ -30,28 +28,15 @@ static json_t *capture_json(const struct contest_table *t, size_t capture) {
     return json;
 }
 
+static void put_capture(FILE *out, void *user, size_t capture, size_t indent, size_t spaces) {
+    json_put(out, capture_json(user, capture), indent, spaces);
+}
+
 void contest_write_json(FILE *out, const struct contest_table *t, const struct contest_overall *overall, size_t indent,
                         size_t depth) {
-    static const char empty[] = "\"captures\": []";
-    char mark[64];
-    json_t *around = around_json(t, overall);
-    char *text = record_text(around, JSON_INDENT(indent) | (indent > 1 ? JSON_REAL_PRECISION(9) : 0));
-    snprintf(mark, sizeof mark, "\n%*s%s", (int)indent, "", empty); /* which no string has, for the line break */
-    char *cut = text ? strstr(text, mark) : NULL;
-    if (cut) {
-        const size_t spaces = indent * depth, inner = spaces + 2 * indent;
-        char *list = cut + strlen(mark) - 1;
-        *list = '\0';
-        json_put_text(out, text, spaces);
-        for (size_t c = 0; c < t->capture_count; c++) {
-            fprintf(out, "%s\n%*s", c ? "," : "", (int)inner, "");
-            json_put(out, capture_json(t, c), indent, inner);
-        }
-        fprintf(out, "\n%*s]", (int)(spaces + indent), "");
-        json_put_text(out, list + 1, spaces);
-    } else memory_note();
-    free(text);
-    json_decref(around);
+    struct contest_table table = *t;
+    json_put_list(out, around_json(t, overall), "captures", t->capture_count, put_capture, &table, indent,
+                  indent * depth);
 }
 
 /* ---- CSV ---- */
@@ -115,7 +100,7 @@ void contest_write_csv(FILE *out, const struct contest_table *t) {
           "maps ms,notes\n",
           out);
     for (size_t c = 0; c < t->capture_count; c++) {
-        if (t->log->entries[c].state != CONTEST_DONE) put_unreadable(out, t, c, classes);
+        if (t->log->states[c] != CONTEST_DONE) put_unreadable(out, t, c, classes);
         else
             for (size_t p = 0; p < t->contest->count; p++) put_row(out, t, c, p, classes);
     }

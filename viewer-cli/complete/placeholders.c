@@ -8,6 +8,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "batch/studied.h"
 #include "draw/view/source.h"
 #include "glint/declarations.h"
 #include "glint/edit.h"
@@ -43,6 +44,12 @@ static void scenes(struct completion *c) {
     size_t count = 0;
     const struct glint_sample *all = glint_samples(&count);
     for (size_t i = 0; i < count; i++) complete_offer(c, all[i].name, all[i].summary);
+}
+
+/* The commands that glint batch cuts into shards. */
+static void sharded(struct completion *c) {
+    for (size_t i = 0; i < command_count; i++)
+        if (batch_studied(commands[i]->name)) complete_offer(c, commands[i]->name, commands[i]->summary);
 }
 
 static void effects(struct completion *c) {
@@ -284,6 +291,7 @@ static const struct {
     {"PART", parts},
     {"PART[:CHANNEL]", parts},
     {"[PART:]KEY=VALUE", keys},
+    {"COMMAND", sharded},
     {"F", contents},
     {"A", contents},
     {"B", contents},

@@ -32,7 +32,8 @@ enum {
 };
 
 /* clang-format off */
-#define DIFF_OPTIONS \
+#define DIFF_HEAT "a heat map of the differences; for several images, a sheet of those that differ"
+#define DIFF_OPTIONS(output, help) \
     {"fail",          KEY_FAIL,          "X", 0, "A pixel fails when a value differs by more than X (default 1e-6)", 0}, \
     {"failrelative",  KEY_FAIL_RELATIVE, "X", 0, "... and also by more than X times the mean magnitude of both values (default 0)", 0}, \
     {"failpercent",   KEY_FAIL_PERCENT,  "P", 0, "Allow this percentage of the pixels to fail (default 0)", 0}, \
@@ -42,7 +43,7 @@ enum {
     {"warnrelative",  KEY_WARN_RELATIVE, "X", 0, "Like --failrelative, for warnings (default 0)", 0}, \
     {"warnpercent",   KEY_WARN_PERCENT,  "P", 0, "Like --failpercent, for warnings (default 0)", 0}, \
     {"hardwarn",      KEY_HARD_WARN,     "X", 0, "Like --hardfail, for warnings (default: no limit)", 0}, \
-    {"output",        'o',               "FILE.png", 0, "Write a heat map of the differences; for several images, a sheet of those that differ", 0}, \
+    {"output",        'o',               output, 0, help, 0}, \
     {"side-by-side",  KEY_BESIDE,        "FILE.png", 0, "Write both images and the heat map side by side; for several images, one row for each that differs", 0}, \
     {"flicker",       KEY_FLICKER,       "FILE.png", 0, "Write an animated PNG that alternates between both images; of several images, the first that differs", 0}, \
     {"html",          KEY_HTML,          "FILE.html", 0, "Write an HTML page with tables, histograms, and each image that differs under a slider with pixel values", 0}, \

@@ -63,14 +63,15 @@ static json_t *color_json(const struct diff_pair *pair) {
 static json_t *pair_json(const struct diff_pair *pair) {
     const struct diff_image *image = diff_pair_image(pair);
     const struct glint_difference *d = &pair->difference;
-    json_t *json =
-        json_pack("{s:s, s:s, s:s, s:s, s:i}", "name", image->name, "slot", image->slot, "unit", image->unit, "verdict",
-                  pair->left_out ? "left out" : diff_words[pair->status], "status", (int)pair->status);
-    if (pair->note[0]) json_object_set_new(json, "note", json_string(pair->note));
+    json_t *json = json_pack("{s:o, s:o, s:o, s:s, s:i}", "name", json_text(image->name), "slot",
+                             json_text(image->slot), "unit", json_text(image->unit), "verdict",
+                             pair->left_out ? "left out" : diff_words[pair->status], "status", (int)pair->status);
+    if (pair->note[0]) json_object_set_new(json, "note", json_text(pair->note));
     if (!d->marks) return json;
-    json_t *largest = json_pack(
-        "{s:o, s:i, s:i, s:s, s:o, s:o}", "by", isinf(d->largest) ? json_string("infinite") : json_real(d->largest),
-        "x", (int)d->x, "y", (int)d->y, "channel", diff_channel(pair), "a", json_number(d->a), "b", json_number(d->b));
+    json_t *largest =
+        json_pack("{s:o, s:i, s:i, s:o, s:o, s:o}", "by",
+                  isinf(d->largest) ? json_string("infinite") : json_real(d->largest), "x", (int)d->x, "y", (int)d->y,
+                  "channel", json_text(diff_channel(pair)), "a", json_number(d->a), "b", json_number(d->b));
     json_object_set_new(json, "width", json_integer(image->width));
     json_object_set_new(json, "height", json_integer(image->height));
     json_object_set_new(json, "pixels", json_integer((json_int_t)d->pixels));
@@ -92,17 +93,19 @@ json_t *diff_json(const struct diff *diff) {
     json_t *images = json_array(), *json;
     const size_t first = diff_first(diff);
     for (size_t i = 0; i < diff->count; i++) json_array_append_new(images, pair_json(&diff->pairs[i]));
-    json = json_pack("{s:s, s:s, s:i, s:o}", "a", diff->sides[0].text, "b", diff->sides[1].text, "status",
-                     (int)diff->status, "images", images);
+    json = json_pack("{s:o, s:o, s:i, s:o}", "a", json_text(diff->sides[0].text), "b", json_text(diff->sides[1].text),
+                     "status", (int)diff->status, "images", images);
     if (first < diff->count) {
         const struct diff_image *image = diff_pair_image(&diff->pairs[first]);
-        json_object_set_new(json, "first", json_pack("{s:s, s:s}", "image", image->name, "slot", image->slot));
+        json_object_set_new(json, "first",
+                            json_pack("{s:o, s:o}", "image", json_text(image->name), "slot", json_text(image->slot)));
     }
     if (diff->settings) json_object_set(json, "settings", diff->settings);
     if (diff->planned >= 0)
         json_object_set_new(json, "planned",
-                            json_pack("{s:s, s:I, s:I}", "run", diff->sides[diff->planned].text, "images_left_out",
-                                      (json_int_t)diff->left_out, "rays_left_out", (json_int_t)diff->rayless_count));
+                            json_pack("{s:o, s:I, s:I}", "run", json_text(diff->sides[diff->planned].text),
+                                      "images_left_out", (json_int_t)diff->left_out, "rays_left_out",
+                                      (json_int_t)diff->rayless_count));
     return json;
 }
 

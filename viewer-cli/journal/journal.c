@@ -41,23 +41,23 @@ static bool same_definition(const struct journal *journal, const json_t *theirs,
 /* Reads all complete lines. An incomplete last line, left by a crash, is cut off. */
 static bool read_log(struct journal *journal, const char *path, struct glint_error *err) {
     FILE *file = output_stream(journal->log, "rb");
-    char *line = NULL;
-    size_t size = 0;
-    off_t whole = 0;
+    struct journal_line line = {0};
+    enum journal_next next = JOURNAL_FAILED;
+    journal->at = 0;
     bool ok = file != NULL || glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
-    for (ssize_t length; ok && (length = getline(&line, &size, file)) > 0 && line[length - 1] == '\n';
-         whole += length) {
-        json_error_t error;
-        json_t *json = json_loads(line, 0, &error);
+    for (; ok && (next = journal_next_line(file, path, &line, err)) == JOURNAL_LINE;
+         journal->at += (int64_t)line.length) {
+        json_t *json = journal_parse(&line);
         if (!json || !journal->keep(journal->user, json))
             ok = glint_fail(err, GLINT_ERROR_FORMAT, "%s: byte %lld: expected a line of this %s, found '%.80s'", path,
-                            (long long)whole, journal->kind, line);
+                            (long long)journal->at, journal->kind, line.text);
         journal->results += ok;
         json_decref(json);
     }
-    free(line);
+    free(line.text);
     if (file) fclose(file);
-    if (ok && ftruncate(journal->log, whole) != 0)
+    ok = ok && next != JOURNAL_FAILED;
+    if (ok && ftruncate(journal->log, journal->at) != 0)
         ok = glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
     return ok;
 }
@@ -83,21 +83,31 @@ static bool check_definition(const struct journal *journal, const json_t *defini
 
 /* The folder may come from somebody else: the log is a file of this folder, not a link to another, which would be cut off, nor a pipe. */
 static bool open_log(struct journal *journal, const char *path, struct glint_error *err) {
-    static const off_t most = 1 << 28;
     struct stat info = {0};
     const int log = open(path, O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
     if (log < 0) return glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
-    if (fstat(log, &info) == 0 && S_ISREG(info.st_mode) && info.st_size <= most) {
+    if (fstat(log, &info) == 0 && S_ISREG(info.st_mode)) {
         journal->log = log;
         return true;
     }
     close(log);
-    return glint_fail(err, GLINT_ERROR_FORMAT, "%s: expected a file of at most %lld bytes", path, (long long)most);
+    return glint_fail(err, GLINT_ERROR_FORMAT, "%s: expected a file, found a device or a pipe", path);
+}
+
+/* A file without a name, for lines that are read back and belong to no folder. */
+static bool open_temporary(struct journal *journal, struct glint_error *err) {
+    FILE *file = tmpfile();
+    journal->log = file ? fcntl(fileno(file), F_DUPFD_CLOEXEC, 1) : -1;
+    const int reason = errno;
+    if (file) fclose(file);
+    if (journal->log > 0) return true;
+    journal->log = 0;
+    return glint_fail(err, GLINT_ERROR_IO, "a temporary file for results: %s", strerror(reason));
 }
 
 bool journal_open(struct journal *journal, const json_t *definition, struct glint_error *err) {
     char path[4096];
-    if (!journal->folder) return true;
+    if (!journal->folder) return !journal->reread || open_temporary(journal, err);
     if (!(journal->lock = glint_folder_lock(journal->folder, err))) return false;
     if (!check_definition(journal, definition, err) || !journal_path(journal->folder, "log.jsonl", path, err))
         return false;
@@ -105,18 +115,57 @@ bool journal_open(struct journal *journal, const json_t *definition, struct glin
     return read_log(journal, path, err);
 }
 
+/* Appends all of it, or nothing. */
+static bool write_whole(int log, off_t at, const char *text, size_t length) {
+    for (size_t done = 0; done < length;) {
+        const ssize_t wrote = write(log, text + done, length - done);
+        if (wrote > 0) done += (size_t)wrote;
+        else if (wrote == 0 || errno != EINTR) {
+            const int reason = wrote == 0 ? ENOSPC : errno;
+            if (ftruncate(log, at) != 0) return false;
+            errno = reason;
+            return false;
+        }
+    }
+    return true;
+}
+
+static bool write_line(struct journal *journal, const char *text, size_t length, struct glint_error *err) {
+    const char *folder = journal->folder ? journal->folder : "a temporary file for results";
+    const off_t at = lseek(journal->log, 0, SEEK_END);
+    if (at < 0 || !write_whole(journal->log, at, text, length))
+        return glint_fail(err, GLINT_ERROR_IO, "%s%s: %s", folder, journal->folder ? "/log.jsonl" : "",
+                          strerror(errno));
+    journal->at = at;
+    journal->results++;
+    return true;
+}
+
 bool journal_append(struct journal *journal, json_t *line, struct glint_error *err) {
     char *text = line ? record_text(line, JSON_COMPACT) : NULL;
     const size_t length = text ? strlen(text) : 0;
     bool ok = text || fail_memory(err);
     if (ok) text[length] = '\n'; /* one write of a whole line */
-    if (ok && journal->log > 0 && write(journal->log, text, length + 1) != (ssize_t)(length + 1))
-        ok = glint_fail(err, GLINT_ERROR_IO, "%s/log.jsonl: %s", journal->folder, strerror(errno));
+    ok = ok && (journal->log <= 0 || write_line(journal, text, length + 1, err));
     if (ok) journal->keep(journal->user, line);
-    journal->results += ok && journal->log > 0;
     free(text);
     json_decref(line);
     return ok;
+}
+
+json_t *journal_read(struct journal *journal, int64_t at, struct glint_error *err) {
+    struct journal_line line = {0};
+    const char *path = journal->folder ? journal->folder : "the temporary file of results";
+    errno = 0;
+    if (!journal->back) journal->back = output_stream(journal->log, "rb");
+    const bool found = journal->back && fseeko(journal->back, at, SEEK_SET) == 0;
+    if (!found) glint_fail(err, GLINT_ERROR_IO, "%s: %s", path, strerror(errno));
+    const enum journal_next next = found ? journal_next_line(journal->back, path, &line, err) : JOURNAL_FAILED;
+    json_t *json = next == JOURNAL_LINE ? journal_parse(&line) : NULL;
+    if (next == JOURNAL_LINE && !json) fail_memory(err);
+    if (next == JOURNAL_END) glint_fail(err, GLINT_ERROR_IO, "%s: a result cannot be read back", path);
+    free(line.text);
+    return json;
 }
 
 static bool has_reference(const char *folder) {
@@ -141,7 +190,17 @@ void journal_describe_kept(const struct journal *journal, const char *results, c
              journal->folder);
 }
 
+void journal_remove(const char *folder, const char *kind) {
+    char name[64], path[4096];
+    snprintf(name, sizeof name, "%s.json", kind);
+    const char *const names[] = {"log.jsonl", name};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (journal_path(folder, names[i], path, NULL)) unlink(path);
+}
+
 void journal_close(struct journal *journal) {
+    if (journal->back) fclose(journal->back);
+    journal->back = NULL;
     if (journal->log > 0) close(journal->log);
     journal->log = 0;
     glint_folder_unlock(&journal->lock);

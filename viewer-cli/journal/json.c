@@ -79,6 +79,7 @@ json_t *captures_json(const struct list *captures, bool lenient, struct glint_er
         }
         json_array_append_new(list, ok ? json_string(hash) : json_pack("{s:s}", "failed", err->message));
     }
+    *err = (struct glint_error){0};
     return list;
 }
 

@@ -13,21 +13,22 @@
 #include "inside.h"
 #include "io/copy.h"
 #include "journal/journal.h"
+#include "journal/shard.h"
 #include "record.h"
 
-/* The place of a result in the order of one process: its capture, then its round (0: without), then its point. */
-enum { KEYS = 3 };
-static const char *const key_names[KEYS] = {"capture", "round", "point"};
+/* The place of a result in the order of one process: its phase, its capture, or its run of replay, then its round, then its point. Those that a line lacks come first. */
+enum { KEYS = 5 };
+static const char *const key_names[KEYS] = {"phase", "capture", "run", "round", "point"};
 
 struct merge_part {
     const char *folder;
     json_t *record; /* shard.json */
     uint32_t number;
+    char study[4096], path[4096]; /* the folder and the log of the study that is merged */
     FILE *log;
-    char *line;
-    size_t size, length;
-    int64_t key[KEYS];
-    bool has; /* the line is one to be written */
+    struct journal_line line;
+    int64_t key[KEYS]; /* 0: none, else 1 more than the line says */
+    bool has;          /* the line is one to be written */
 };
 
 static bool fail_at(const char *path, struct glint_error *err) {
@@ -93,20 +94,57 @@ static void definition_name(const struct merge *merge, char name[64]) {
     snprintf(name, 64, "%.50s.json", merge->command);
 }
 
-static bool read_definition(struct merge *merge, struct glint_error *err) {
-    char name[64];
+/* FOLDER/study; FOLDER itself where that is "". */
+static bool study_path(const char *folder, const char *study, char path[4096], struct glint_error *err) {
+    return snprintf(path, 4096, "%s%s%s", folder, *study ? "/" : "", study) < 4096 ||
+           glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
+}
+
+static bool has_definition(const struct merge *merge, const char *folder) {
+    char name[64], path[4096];
+    struct stat info;
     definition_name(merge, name);
-    bool ok = (merge->definition = read_json(merge->parts[0].folder, name, err)) != NULL;
-    for (size_t i = 1; ok && i < merge->count; i++) {
-        json_t *other = read_json(merge->parts[i].folder, name, err);
-        ok = other != NULL;
-        if (ok && !json_equal(merge->definition, other))
+    return journal_path(folder, name, path, NULL) && lstat(path, &info) == 0;
+}
+
+/* A shard is one study, or has several in folders. */
+static bool find_studies(struct merge *merge, struct glint_error *err) {
+    const char *folder = merge->parts[0].folder;
+    char path[4096];
+    if (!(merge->studies = json_array())) return fail_memory(err);
+    DIR *entries = has_definition(merge, folder) ? NULL : opendir(folder);
+    for (const struct dirent *entry; entries && (entry = readdir(entries));)
+        if (entry->d_name[0] != '.' && journal_path(folder, entry->d_name, path, NULL) && has_definition(merge, path))
+            json_array_append_new(merge->studies, json_string(entry->d_name));
+    if (entries) closedir(entries);
+    if (json_array_size(merge->studies)) return true;
+    return json_array_append_new(merge->studies, json_string("")) == 0 || fail_memory(err);
+}
+
+/* Whether it is the same study in all shards. */
+static bool check_study(const struct merge *merge, const char *study, struct glint_error *err) {
+    char name[64], path[4096];
+    json_t *first = NULL;
+    bool ok = true;
+    definition_name(merge, name);
+    for (size_t i = 0; ok && i < merge->count; i++) {
+        json_t *own = study_path(merge->parts[i].folder, study, path, err) ? read_json(path, name, err) : NULL;
+        ok = own != NULL;
+        if (ok && first && !json_equal(first, own))
             ok = glint_fail(err, GLINT_ERROR_USAGE,
-                            "%s/%s: differs from that of %s: these are shards of different studies",
-                            merge->parts[i].folder, name, merge->parts[0].folder);
-        json_decref(other);
+                            "%s/%s: differs from that of %s: these are shards of different studies", path, name,
+                            merge->parts[0].folder);
+        if (first) json_decref(own);
+        else first = own;
     }
+    json_decref(first);
     return ok;
+}
+
+static bool check_studies(const struct merge *merge, struct glint_error *err) {
+    for (size_t i = 0; i < json_array_size(merge->studies); i++)
+        if (!check_study(merge, json_string_value(json_array_get(merge->studies, i)), err)) return false;
+    return true;
 }
 
 bool merge_open(struct merge *merge, const struct list *folders, struct glint_error *err) {
@@ -122,52 +160,60 @@ bool merge_open(struct merge *merge, const struct list *folders, struct glint_er
     merge->command = text_of(&merge->parts[0], "command");
     merge->folder = text_of(&merge->parts[0], "folder");
     merge->arguments = json_object_get(merge->parts[0].record, "arguments");
-    return check_whole(merge, err) && read_definition(merge, err);
+    return check_whole(merge, err) && find_studies(merge, err) && check_studies(merge, err);
+}
+
+static void close_log(struct merge_part *part) {
+    free(part->line.text);
+    if (part->log) fclose(part->log);
+    part->line = (struct journal_line){0};
+    part->log = NULL;
 }
 
 void merge_close(struct merge *merge) {
     for (size_t i = 0; merge->parts && i < merge->count; i++) {
         json_decref(merge->parts[i].record);
-        free(merge->parts[i].line);
-        if (merge->parts[i].log) fclose(merge->parts[i].log);
+        close_log(&merge->parts[i]);
     }
     free(merge->parts);
-    json_decref(merge->definition);
+    json_decref(merge->studies);
     *merge = (struct merge){0};
 }
 
 /* ---- Journals ---- */
 
-/* Reads the next whole line; what was cut off at the end of a journal is none. */
-static bool next_line(struct merge_part *part, struct glint_error *err) {
-    const ssize_t length = getline(&part->line, &part->size, part->log);
-    part->has = length > 0 && part->line[length - 1] == '\n';
-    if (!part->has) return !ferror(part->log) || fail_at(part->folder, err);
-    part->length = (size_t)length;
-    json_t *json = json_loads(part->line, 0, NULL);
-    bool ok = json != NULL;
+static bool read_keys(struct merge_part *part) {
+    json_t *json = journal_parse(&part->line);
+    bool ok = json != NULL, any = false;
     for (int k = 0; k < KEYS; k++) {
         const json_t *value = json_object_get(json, key_names[k]);
-        const bool round = k == 1;
-        ok = ok && (json_is_integer(value) || (round && !value)) && json_integer_value(value) >= 0;
-        part->key[k] = json_integer_value(value) + (round && value ? 1 : 0);
+        ok = ok && (!value || (json_is_integer(value) && json_integer_value(value) >= 0));
+        part->key[k] = ok && value ? json_integer_value(value) + 1 : 0;
+        any |= value != NULL;
     }
     json_decref(json);
-    return ok || glint_fail(err, GLINT_ERROR_FORMAT, "%s/log.jsonl: expected a line of a %s, found '%.80s'",
-                            part->folder, text_of(part, "command"), part->line);
+    return ok && any;
+}
+
+/* Reads the next whole line; what was cut off at the end of a journal is none. */
+static bool next_line(struct merge_part *part, struct glint_error *err) {
+    const enum journal_next next = journal_next_line(part->log, part->path, &part->line, err);
+    part->has = next == JOURNAL_LINE;
+    return next == JOURNAL_END || (part->has && read_keys(part)) ||
+           (part->has && glint_fail(err, GLINT_ERROR_FORMAT, "%s: expected a line of a %s, found '%.80s'", part->path,
+                                    text_of(part, "command"), part->line.text));
 }
 
 static bool open_log(struct merge_part *part, struct glint_error *err) {
-    static const uint64_t most = 1 << 28;
-    char path[4096];
     glint_file file;
     uint64_t bytes;
-    if (!journal_path(part->folder, "log.jsonl", path, err) || !inside_open(&file, path, most, &bytes, err))
+    if (!journal_path(part->study, "log.jsonl", part->path, err) ||
+        !inside_open(&file, part->path, UINT64_MAX, &bytes, err))
         return false;
     part->log = fdopen((int)file, "rb");
     if (part->log) return next_line(part, err);
     glint_file_close(file);
-    return fail_at(path, err);
+    return fail_at(part->path, err);
 }
 
 static int compare_keys(const struct merge_part *a, const struct merge_part *b) {
@@ -188,14 +234,14 @@ static void find_first(const struct merge *merge, struct merge_part **first, str
 }
 
 static bool write_lines(struct merge *merge, FILE *out, const char *path, struct glint_error *err) {
-    struct merge_part *first, *second, last = {.key = {-1, -1, -1}};
+    struct merge_part *first, *second, last = {.key = {-1}};
     for (find_first(merge, &first, &second); first; find_first(merge, &first, &second))
         while (first->has && (!second || compare_keys(first, second) <= 0)) {
             if (!compare_keys(first, &last))
-                return glint_fail(err, GLINT_ERROR_FORMAT, "%s/log.jsonl: a result is there twice: '%.80s'",
-                                  first->folder, first->line);
+                return glint_fail(err, GLINT_ERROR_FORMAT, "%s: a result is there twice: '%.80s'", first->path,
+                                  first->line.text);
             memcpy(last.key, first->key, sizeof last.key);
-            if (fwrite(first->line, 1, first->length, out) != first->length) return fail_at(path, err);
+            if (fwrite(first->line.text, 1, first->line.length, out) != first->line.length) return fail_at(path, err);
             merge->results++;
             if (!next_line(first, err)) return false;
         }
@@ -205,11 +251,14 @@ static bool write_lines(struct merge *merge, FILE *out, const char *path, struct
 static bool write_log(struct merge *merge, const char *out, struct glint_error *err) {
     char path[4096];
     struct output log;
-    for (size_t i = 0; i < merge->count; i++)
-        if (!open_log(&merge->parts[i], err)) return false;
-    if (!journal_path(out, "log.jsonl", path, err) || !output_open(&log, path, err)) return false;
-    const bool ok = write_lines(merge, log.file, path, err);
-    return output_close(&log, ok, err);
+    bool ok = true;
+    for (size_t i = 0; ok && i < merge->count; i++) ok = open_log(&merge->parts[i], err);
+    if (ok && journal_path(out, "log.jsonl", path, err) && (ok = output_open(&log, path, err))) {
+        ok = write_lines(merge, log.file, path, err);
+        ok = output_close(&log, ok, err);
+    }
+    for (size_t i = 0; i < merge->count; i++) close_log(&merge->parts[i]);
+    return ok;
 }
 
 /* ---- Other files ---- */
@@ -250,14 +299,14 @@ static bool take_folder(const char *from, const char *to, struct glint_error *er
 
 /* The folders of references and pictures. */
 static bool take_folders(const struct merge_part *part, const char *out, struct glint_error *err) {
-    DIR *entries = opendir(part->folder);
-    if (!entries) return fail_at(part->folder, err);
+    DIR *entries = opendir(part->study);
+    if (!entries) return fail_at(part->study, err);
     bool ok = true;
     for (const struct dirent *entry; ok && (entry = readdir(entries));) {
         char source[4096], target[4096];
         struct stat info;
         if (is_hidden(entry->d_name)) continue;
-        ok = journal_path(part->folder, entry->d_name, source, err) && journal_path(out, entry->d_name, target, err);
+        ok = journal_path(part->study, entry->d_name, source, err) && journal_path(out, entry->d_name, target, err);
         if (ok && lstat(source, &info) == 0 && S_ISDIR(info.st_mode)) ok = take_folder(source, target, err);
     }
     closedir(entries);
@@ -267,18 +316,54 @@ static bool take_folders(const struct merge_part *part, const char *out, struct 
 static bool write_definition(const struct merge *merge, const char *out, struct glint_error *err) {
     char name[64], path[4096];
     definition_name(merge, name);
-    char *text = record_text(merge->definition, JSON_INDENT(1));
-    const bool ok = (text || fail_memory(err)) && journal_path(out, name, path, err) && output_text(path, text, err);
+    json_t *definition = read_json(merge->parts[0].study, name, err);
+    char *text = definition ? record_text(definition, JSON_INDENT(1)) : NULL;
+    if (definition && !text) fail_memory(err);
+    const bool ok = text && journal_path(out, name, path, err) && output_text(path, text, err);
     free(text);
+    json_decref(definition);
     return ok;
 }
 
 /* The journal comes last: without it, the study has no results. */
+static bool write_study(struct merge *merge, const char *study, const char *out, struct glint_error *err) {
+    char path[4096];
+    bool ok = study_path(out, study, path, err) && glint_make_folder(path, err);
+    for (size_t i = 0; ok && i < merge->count; i++)
+        ok = study_path(merge->parts[i].folder, study, merge->parts[i].study, err);
+    ok = ok && write_definition(merge, path, err);
+    for (size_t i = 0; ok && i < merge->count; i++) ok = take_folders(&merge->parts[i], path, err);
+    return ok && write_log(merge, path, err);
+}
+
 bool merge_write(struct merge *merge, const char *out, struct glint_error *err) {
     struct glint_folder_lock *lock = glint_make_folder(out, err) ? glint_folder_lock(out, err) : NULL;
-    bool ok = lock && write_definition(merge, out, err);
-    for (size_t i = 0; ok && i < merge->count; i++) ok = take_folders(&merge->parts[i], out, err);
-    ok = ok && write_log(merge, out, err);
+    bool ok = lock != NULL;
+    for (size_t i = 0; ok && i < json_array_size(merge->studies); i++)
+        ok = write_study(merge, json_string_value(json_array_get(merge->studies, i)), out, err);
+    glint_folder_unlock(&lock);
+    return ok;
+}
+
+static bool gather_shard(struct merge *merge, struct merge_part *part, const char *out, struct glint_error *err) {
+    const struct shard shard = {part->number, (uint32_t)number_of(part, "of")};
+    char name[64], folder[4096], from[4096], to[4096];
+    definition_name(merge, name);
+    const char *const names[] = {name, "shard.json", "log.jsonl"};
+    if (!study_path(part->folder, "", part->study, err) || !shard_folder(&shard, out, folder, err) ||
+        !glint_make_folder(folder, err) || !take_folders(part, out, err))
+        return false;
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (!journal_path(part->folder, names[i], from, err) || !journal_path(folder, names[i], to, err) ||
+            !take_file(from, to, err))
+            return false;
+    return true;
+}
+
+bool merge_gather(struct merge *merge, const char *out, struct glint_error *err) {
+    struct glint_folder_lock *lock = glint_make_folder(out, err) ? glint_folder_lock(out, err) : NULL;
+    bool ok = lock != NULL;
+    for (size_t i = 0; ok && i < merge->count; i++) ok = gather_shard(merge, &merge->parts[i], out, err);
     glint_folder_unlock(&lock);
     return ok;
 }

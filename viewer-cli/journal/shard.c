@@ -8,6 +8,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "glint/capture.h"
+#include "io/console.h"
 #include "journal/journal.h"
 #include "record.h"
 
@@ -34,6 +36,15 @@ void shard_parse(struct shard *shard, const char *text, struct argp_state *state
 bool shard_folder(const struct shard *shard, const char *out, char path[4096], struct glint_error *err) {
     return snprintf(path, 4096, "%s/shards/%u-of-%u", out, shard->number, shard->count) < 4096 ||
            glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", out);
+}
+
+bool shard_pixels(const char *path, double *pixels, struct glint_error *err) {
+    struct glint_error own = {0};
+    struct glint_capture *capture = glint_capture_open(path, NULL, &own);
+    const struct glint_part_info *part = capture ? glint_capture_find(capture, GLINT_PART_GBUFFER) : NULL;
+    *pixels = part ? (double)part->width * part->height : 1;
+    glint_capture_close(&capture);
+    return own.code != GLINT_ERROR_MEMORY || fail_memory(err);
 }
 
 /* The place in the order of all points at which this part of the whole cost is done. */
@@ -78,14 +89,33 @@ bool shard_write(const struct shard_record *record, bool done, struct glint_erro
         return glint_fail(err, GLINT_ERROR_IO, "the working directory: %s", strerror(errno));
     json_t *arguments = arguments_json(record);
     if (!arguments) return glint_fail(err, GLINT_ERROR_USAGE, "out of memory, or an argument that is not UTF-8");
-    json_t *json = json_pack("{s:i, s:s, s:I, s:I, s:I, s:I, s:b, s:o, s:s}", "format", 1, "command", record->argv[0],
-                             "shard", (json_int_t)record->shard.number, "of", (json_int_t)record->shard.count,
-                             "results", (json_int_t)record->results, "kept", (json_int_t)record->kept, "done", done,
-                             "arguments", arguments, "folder", here);
+    json_t *json =
+        json_pack("{s:i, s:s, s:s, s:I, s:I, s:I, s:I, s:b, s:o, s:s}", "format", 1, "command", record->argv[0],
+                  "result", record->result ? record->result : "index.html", "shard", (json_int_t)record->shard.number,
+                  "of", (json_int_t)record->shard.count, "results", (json_int_t)record->results, "kept",
+                  (json_int_t)record->kept, "done", done, "arguments", arguments, "folder", here);
     char *text = json ? record_text(json, JSON_INDENT(1)) : NULL;
     json_decref(json);
     const bool ok = text ? journal_path(record->folder, "shard.json", path, err) && output_text(path, text, err)
                          : glint_fail(err, GLINT_ERROR_USAGE, "%s: out of memory, or not UTF-8", here);
     free(text);
     return ok;
+}
+
+bool shard_begin(struct shard_record *record, struct glint_error *err) {
+    struct journal_count count = {0};
+    if (!journal_count_lines(record->folder, &count, err)) return false;
+    record->kept = count.lines;
+    return shard_write(record, false, err);
+}
+
+enum status shard_report(const struct shard_record *record, const char *what, size_t all, bool json) {
+    const struct shard *shard = &record->shard;
+    if (json)
+        return print_json(json_pack("{s:I, s:I, s:I, s:I, s:s}", "shard", (json_int_t)shard->number, "of",
+                                    (json_int_t)shard->count, "results", (json_int_t)record->results, "of_results",
+                                    (json_int_t)all, "folder", record->folder));
+    printf("shard %u of %u: %zu of %zu %s are done in %s\n", shard->number, shard->count, record->results, all, what,
+           name_text(record->folder));
+    return STATUS_DONE;
 }

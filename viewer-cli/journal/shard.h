@@ -22,6 +22,8 @@ bool shard_folder(const struct shard *shard, const char *out, char path[4096], s
 /* Whether the name of a folder is "K-of-N". */
 bool shard_of_name(const char *name, struct shard *shard);
 
+/* The pixels of a capture; 1 of one that cannot be read, which takes no time. False without memory. */
+bool shard_pixels(const char *capture, double *pixels, struct glint_error *err);
 /* The work on a capture: what any of its points costs before the first, such as its reference, and each point. */
 struct shard_cost {
     double first, each;
@@ -32,14 +34,19 @@ void shard_cut(const struct shard *shard, const struct shard_cost *captures, siz
                size_t *end);
 
 /* What FOLDER/shard.json says: the share, the number of results that its journal will have (fewer where points fail), how many it had when the command was started,
-   when the file is written first, whether all are there, and the command line that made it. */
+   when the file is written first, whether all are there, the command line that made it, and the file that the command writes last when all shards are merged. */
 struct shard_record {
     struct shard shard;
     const char *folder;
     size_t results, kept;
     int argc; /* of the command, whose name is argv[0] */
     char *const *argv;
+    const char *result; /* "results.json"; NULL: "index.html" */
 };
 bool shard_write(const struct shard_record *record, bool done, struct glint_error *err);
+/* Writes it first, with the number of results that the folder has. */
+bool shard_begin(struct shard_record *record, struct glint_error *err);
+/* What a command prints when its share is done: how many of all it has, which are "captures". */
+enum status shard_report(const struct shard_record *record, const char *what, size_t all, bool json);
 
 #endif

@@ -80,21 +80,80 @@ struct verdict {
 
 static struct verdict judge(const struct lint_votes *votes, double factor) {
     struct verdict v = {.same_turn = -1};
-    size_t length = 0;
     for (int f = 0; f < 6; f++) {
-        if (!find_better_face(votes, f, factor, &v.face[f], &v.turn[f])) {
-            v.face[f] = f;
-            v.turn[f] = 0;
-            continue;
-        }
-        const int n = snprintf(v.text + length, sizeof v.text - length, "%s%s is stored as %s%s", length ? "; " : "",
-                               names[f], names[v.face[f]], turn_name(v.turn[f]));
-        length += n > 0 && (size_t)n < sizeof v.text - length ? (size_t)n : 0;
-        v.same_turn = v.changed && v.turn[f] != v.same_turn ? -2 : v.turn[f];
-        v.moved += v.face[f] != f;
-        v.changed++;
+        if (find_better_face(votes, f, factor, &v.face[f], &v.turn[f])) continue;
+        v.face[f] = f;
+        v.turn[f] = 0;
     }
     return v;
+}
+
+static bool is_changed(const struct verdict *v, int face) {
+    return v->face[face] != face || v->turn[face] != 0;
+}
+
+static void describe(struct verdict *v) {
+    size_t length = 0;
+    for (int f = 0; f < 6; f++) {
+        if (!is_changed(v, f)) continue;
+        const int n = snprintf(v->text + length, sizeof v->text - length, "%s%s is stored as %s%s", length ? "; " : "",
+                               names[f], names[v->face[f]], turn_name(v->turn[f]));
+        length += n > 0 && (size_t)n < sizeof v->text - length ? (size_t)n : 0;
+        v->same_turn = v->changed && v->turn[f] != v->same_turn ? -2 : v->turn[f];
+        v->moved += v->face[f] != f;
+        v->changed++;
+    }
+}
+
+/* ---- What speaks for a change of faces ---- */
+
+enum { CELLS = 16 }; /* along each side of a face, or its texels if they are fewer */
+
+/* In how many more cells of each face do surfaces match after the change than before? Samples of one texel are one observation: a texel at the
+   border of a roof may disagree with all of them. */
+static void count_cells(const struct verdict *v, const struct lint_data *data, const struct lint_reading *reading,
+                        const struct lint_cube *cube, int cells[6]) {
+    const struct lint_eyes eyes = lint_eyes_of(data, reading);
+    const size_t c = (size_t)(cube - data->cubes);
+    const uint32_t side = cube->size < CELLS ? cube->size : CELLS;
+    int matches[6][CELLS * CELLS] = {{0}};
+    struct lint_reading other = *reading;
+    memcpy(other.face, v->face, sizeof v->face);
+    memcpy(other.turn, v->turn, sizeof v->turn);
+    for (size_t i = 0; i < data->sample_count; i++) {
+        double world[3], d[3], u, w;
+        const float *texel;
+        if (!lint_place(data, reading, &eyes.now, data->samples[i], world)) continue;
+        lint_from_center(data, reading, c, world, d);
+        const int face = cube_face_of(d, &u, &w);
+        int *cell = &matches[face][lint_texel_along(w, side) * side + lint_texel_along(u, side)];
+        *cell += (lint_sees(data, &other, c, world, &texel) > 0) - (lint_sees(data, reading, c, world, &texel) > 0);
+    }
+    for (int f = 0; f < 6; f++)
+        for (size_t i = 0; i < CELLS * CELLS; i++) cells[f] += (matches[f][i] > 0) - (matches[f][i] < 0);
+}
+
+/* Takes back the changes that may be chance. A wrong texel matches a surface by chance with about the probability q that a distance between 0
+   and twice the surface's lies within the tolerance of lint_shows: three quarters for faces of four texels a side, a fifteenth for 64. Of the
+   changes that are tried for six faces none may then match all of n cells by chance but once in a thousand captures:
+   6 · (6 · LINT_TURNS - 1) · qⁿ < 1/1000, with a q for each cube map. */
+static void doubt(struct verdict *v, const struct lint_data *data, const struct lint_reading *reading) {
+    const double enough = log(1000. * 6 * (6 * LINT_TURNS - 1));
+    double evidence[6] = {0};
+    int changed = 0;
+    for (int f = 0; f < 6; f++) changed += is_changed(v, f);
+    if (!changed) return;
+    for (size_t c = 0; c < data->cube_count; c++) {
+        int cells[6] = {0};
+        if (!data->cubes[c].has_distance) continue;
+        count_cells(v, data, reading, &data->cubes[c], cells);
+        for (int f = 0; f < 6; f++) evidence[f] -= cells[f] * log(lint_tolerance(&data->cubes[c]));
+    }
+    for (int f = 0; f < 6; f++) {
+        if (evidence[f] >= enough) continue;
+        v->face[f] = f;
+        v->turn[f] = 0;
+    }
 }
 
 static void add_faces(const struct verdict *v, const char *of, enum lint_measure m, const struct lint_agreement *stored,
@@ -117,7 +176,9 @@ static void find_cube_faces(const struct lint_data *data, struct lint_reading *r
         for (size_t c = 0; c < data->cube_count; c++)
             if (data->cubes[c].has_distance) count_votes(&votes, data, reading, c, world);
     }
-    const struct verdict v = judge(&votes, 1.2);
+    struct verdict v = judge(&votes, 1.2);
+    doubt(&v, data, reading);
+    describe(&v);
     if (!v.changed) return;
     memcpy(other.face, v.face, sizeof v.face);
     memcpy(other.turn, v.turn, sizeof v.turn);
@@ -134,7 +195,8 @@ static void find_sky_faces(const struct lint_data *data, struct lint_reading *re
     struct lint_reading other = *reading;
     if (agreement->count[LINT_SKY] < LINT_ENOUGH) return;
     lint_sky_votes(data, reading, &votes);
-    const struct verdict v = judge(&votes, 1.05);
+    struct verdict v = judge(&votes, 1.05);
+    describe(&v);
     memcpy(other.sky_face, v.face, sizeof v.face);
     memcpy(other.sky_turn, v.turn, sizeof v.turn);
     const struct lint_agreement now = lint_agree(data, &other, agreement, 1u << LINT_SKY);

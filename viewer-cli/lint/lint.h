@@ -165,12 +165,17 @@ static inline double lint_cube_distance(const struct lint_reading *reading, cons
                                 : distance;
 }
 
+/* How far from a surface, in parts of its distance, a texel's may be that shows it; from 1 on everything nearer would match. */
+static inline double lint_tolerance(const struct lint_cube *cube) {
+    return 0.02 + 3.0 / cube->size;
+}
+
 /* Whether a texel shows the surface at the end of a vector from the centre, of length `away`. 1: it does; 0: the texel's surface is nearer; -1:
    it is farther away. */
 static inline int lint_shows(const struct lint_reading *reading, const struct lint_cube *cube, const float *texel,
                              const double direction[3], double away) {
-    const double slack = away * (0.02 + 3.0 / cube->size);
-    if (slack >= away) return 0; /* texels so large that everything nearer would match */
+    const double slack = away * lint_tolerance(cube);
+    if (slack >= away) return 0;
     const double distance = lint_cube_distance(reading, texel, direction, away);
     if (fabs(distance - away) <= slack) return 1;
     return distance > away + 3 * slack ? -1 : 0;

@@ -125,6 +125,10 @@ static bool gets_worse(const struct lint_agreement *from, const struct lint_agre
     return is_compared(from, to, m) && lint_worth(to, from, m) - lint_worth(from, to, m) < -0.02;
 }
 
+/* Where so much of the sky matches, its reading is right: what is brighter than all texels around it, as next to the sun between large ones, never
+   does, but under a curve that spreads them. */
+static const double SKY_MATCHES = 0.9;
+
 /* By how much the second agreement is better: the sum over all measures. -1 when any measure gets worse. 0 when no measure gains
    much: at least one must halve its mismatches or more than double its matches, by more than a few samples, or be proven by pairs. */
 static double gain(const struct lint_agreement *from, const struct lint_agreement *to, int *most) {
@@ -135,6 +139,7 @@ static double gain(const struct lint_agreement *from, const struct lint_agreemen
         const double before = lint_worth(from, to, m), after = lint_worth(to, from, m), difference = after - before;
         sum += difference;
         if (difference <= largest || difference < 0.015) continue;
+        if (m == LINT_SKY && before > SKY_MATCHES) continue;
         if (1 - after > 0.5 * (1 - before) && after < 2.5 * before && !(m == LINT_FACETS && is_ahead(from, to)))
             continue;
         largest = difference;

@@ -6,7 +6,9 @@
 
 #include "io/table.h"
 #include "options/args.h"
+#include "record.h"
 
+enum { ID_SIZE = 48 };
 static const char *const likelihoods[LINT_LIKELIHOODS] = {"certain", "likely", "possible"};
 
 static struct lint_survey_row *add_row(struct lint_survey *survey, const char *path, struct glint_error *err) {
@@ -20,23 +22,45 @@ static struct lint_survey_row *add_row(struct lint_survey *survey, const char *p
     return &more[survey->count++];
 }
 
-bool lint_survey_add(struct lint_survey *survey, const char *path, const struct lint_findings *findings,
-                     struct glint_error *err) {
-    struct lint_survey_row *row = add_row(survey, path, err);
-    if (!row) return false;
-    row->findings = json_array();
-    for (size_t i = 0; i < findings->count; i++) {
-        const struct lint_finding *f = &findings->items[i];
-        for (int k = 0; k < LINT_LIKELIHOODS; k++) row->found[k] += !strcmp(f->likelihood, likelihoods[k]);
-        json_array_append_new(row->findings, json_pack("{s:s, s:s}", "id", f->id, "likelihood", f->likelihood));
-    }
-    return json_array_size(row->findings) == findings->count || fail_memory(err);
+json_t *lint_survey_line(const struct lint_findings *findings) {
+    json_t *list = json_array();
+    for (size_t i = 0; i < findings->count; i++)
+        record_append(
+            &list, json_pack("{s:s, s:s}", "id", findings->items[i].id, "likelihood", findings->items[i].likelihood));
+    return json_pack("{s:o}", "findings", list);
 }
 
-bool lint_survey_add_failed(struct lint_survey *survey, const char *path, const char *failure,
-                            struct glint_error *err) {
+json_t *lint_survey_failure(const char *failure) {
+    return json_pack("{s:o}", "failure", json_text(failure));
+}
+
+static int likelihood_of(const json_t *finding) {
+    const char *text = json_string_value(json_object_get(finding, "likelihood"));
+    int k = 0;
+    while (k < LINT_LIKELIHOODS && (!text || strcmp(text, likelihoods[k]) != 0)) k++;
+    return k;
+}
+
+static bool take_findings(struct lint_survey_row *row, json_t *findings) {
+    const json_t *finding;
+    size_t i;
+    if (!json_is_array(findings) || json_array_size(findings) > LINT_FINDINGS) return false;
+    json_array_foreach(findings, i, finding) {
+        const char *id = json_string_value(json_object_get(finding, "id"));
+        const int likelihood = likelihood_of(finding);
+        if (!id || strlen(id) >= ID_SIZE || likelihood == LINT_LIKELIHOODS) return false;
+        row->found[likelihood]++;
+    }
+    row->findings = json_incref(findings);
+    return true;
+}
+
+bool lint_survey_add(struct lint_survey *survey, const char *path, const json_t *line, struct glint_error *err) {
+    const char *failure = json_string_value(json_object_get(line, "failure"));
     struct lint_survey_row *row = add_row(survey, path, err);
-    return row && ((row->failure = strdup(failure)) != NULL || fail_memory(err));
+    if (!row) return false;
+    if (failure) return (row->failure = strdup(failure)) != NULL || fail_memory(err);
+    return take_findings(row, json_object_get(line, "findings"));
 }
 
 /* Rows that are as bad as each other keep the order of the paths. */
@@ -123,8 +147,8 @@ json_t *lint_survey_json(const struct lint_survey *survey) {
     struct seen *seen = find_seen(survey, &count);
     for (size_t r = 0; r < survey->count; r++) {
         const struct lint_survey_row *row = &survey->rows[r];
-        json_t *item = json_pack("{s:s}", "capture", row->path);
-        if (row->failure) json_object_set_new(item, "error", json_string(row->failure));
+        json_t *item = json_pack("{s:o}", "capture", json_text(row->path));
+        if (row->failure) json_object_set_new(item, "error", json_text(row->failure));
         for (int k = 0; k < LINT_LIKELIHOODS && !row->failure; k++)
             json_object_set_new(item, likelihoods[k], json_integer((json_int_t)row->found[k]));
         if (!row->failure) json_object_set(item, "findings", row->findings);
@@ -142,7 +166,7 @@ json_t *lint_survey_json(const struct lint_survey *survey) {
 
 /* "depth.reversed, normal.space", or why the capture cannot be read. */
 static void cell_of_findings(struct table *table, const struct lint_survey_row *row) {
-    char text[LINT_FINDINGS * (48 + 2)] = "";
+    char text[LINT_FINDINGS * (ID_SIZE + 2)] = "";
     const json_t *finding;
     size_t i, length = 0;
     json_array_foreach(row->findings, i, finding) length += (size_t)snprintf(

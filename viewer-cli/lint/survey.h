@@ -18,11 +18,12 @@ struct lint_survey {
     size_t count;
 };
 
-/* Adds what was found in a capture. What is kept of it does not depend on the size of its images. */
-bool lint_survey_add(struct lint_survey *survey, const char *path, const struct lint_findings *findings,
-                     struct glint_error *err);
-/* Adds a capture that cannot be read. */
-bool lint_survey_add_failed(struct lint_survey *survey, const char *path, const char *failure, struct glint_error *err);
+/* What was found in a capture, as a line of a journal: {"findings": [{"id", "likelihood"}]}. It does not depend on the size of its images. */
+json_t *lint_survey_line(const struct lint_findings *findings);
+/* That of a capture that cannot be read: {"failure"}. */
+json_t *lint_survey_failure(const char *failure);
+/* Adds a line; false without memory, and for one that somebody else has made and that lacks something, without an error. */
+bool lint_survey_add(struct lint_survey *survey, const char *path, const json_t *line, struct glint_error *err);
 /* Sorts the rows: captures that cannot be read first, then by the number of certain, likely and possible findings. */
 void lint_survey_sort(struct lint_survey *survey);
 /* Whether every capture can be read and has no finding. */

@@ -25,16 +25,21 @@ void list_add(struct list *list, const char *item, struct argp_state *state) {
     list->items = items;
 }
 
-void list_split(struct list *list, char *text, struct argp_state *state) {
-    for (char *rest = text, *piece; (piece = strsep(&rest, ",")) != NULL;) {
-        if (!*piece) argp_error(state, "a list contains an empty name");
-        list_add(list, piece, state);
+void list_split(struct list *list, const char *text, struct argp_state *state) {
+    if (!list->pieces) list->pieces = json_array();
+    for (const char *end; text; text = *end ? end + 1 : NULL) {
+        end = text + strcspn(text, ",");
+        if (end == text) argp_error(state, "a list contains an empty name");
+        json_t *piece = json_stringn_nocheck(text, (size_t)(end - text));
+        if (json_array_append_new(list->pieces, piece) != 0) argp_failure(state, STATUS_CHECK, ENOMEM, "arguments");
+        else list_add(list, json_string_value(piece), state);
     }
 }
 
 void list_free(struct list *list) {
     free(list->items);
     json_decref(list->set);
+    json_decref(list->pieces);
     *list = (struct list){0};
 }
 
@@ -242,6 +247,33 @@ void json_put(FILE *out, json_t *json, size_t indent, size_t spaces) {
     else memory_note();
     free(text);
     json_decref(json);
+}
+
+json_t *json_text(const char *text) {
+    return json_stringn_nocheck(text, strlen(text));
+}
+
+/* The list is found by the line break before its name, which no string has. */
+void json_put_list(FILE *out, json_t *object, const char *list, size_t count, json_put_item put, void *user,
+                   size_t indent, size_t spaces) {
+    const size_t flags = JSON_INDENT(indent) | (indent > 1 ? JSON_REAL_PRECISION(9) : 0), inner = spaces + 2 * indent;
+    char *text = object ? record_text(object, flags) : NULL, mark[128];
+    snprintf(mark, sizeof mark, "\n%*s\"%s\": []", (int)indent, "", list);
+    char *cut = text ? strstr(text, mark) : NULL;
+    if (cut) {
+        char *end = cut + strlen(mark) - 1;
+        *end = '\0';
+        json_put_text(out, text, spaces);
+        for (size_t i = 0; i < count; i++) {
+            fprintf(out, "%s\n%*s", i ? "," : "", (int)inner, "");
+            put(out, user, i, indent, inner);
+        }
+        if (count) fprintf(out, "\n%*s", (int)(spaces + indent), "");
+        fputc(']', out);
+        json_put_text(out, end + 1, spaces);
+    } else memory_note();
+    free(text);
+    json_decref(object);
 }
 
 json_t *json_number(double value) {

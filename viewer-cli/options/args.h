@@ -16,10 +16,11 @@ struct list {
     size_t count;
     json_t *
         set; /* of captures that a set names: {path, hash, tags} each, which own the items (options/capture_set.h); or NULL */
+    json_t *pieces; /* texts that own the items of list_split; or NULL */
 };
 void list_add(struct list *list, const char *item, struct argp_state *state);
-/* Adds the items of "a,b,c". Overwrites the commas of `text`. */
-void list_split(struct list *list, char *text, struct argp_state *state);
+/* Adds the items of "a,b,c". */
+void list_split(struct list *list, const char *text, struct argp_state *state);
 void list_free(struct list *list);
 /* NULL for an empty list, as the libraries expect. */
 const char *const *list_or_null(const struct list *list);
@@ -101,6 +102,12 @@ enum status print_json(json_t *json);
 void json_put_text(FILE *out, const char *text, size_t spaces);
 /* The same for a value, which it releases; indented by `indent`, with the digits that print_json shows unless that is 1. */
 void json_put(FILE *out, json_t *json, size_t indent, size_t spaces);
+/* A JSON text of any bytes, such as a path; one that is not UTF-8 cannot be written as JSON. */
+json_t *json_text(const char *text);
+/* Puts an object whose member `list` is empty, and into that list `count` items, each by a call of `put`, which has to write one value. */
+typedef void (*json_put_item)(FILE *out, void *user, size_t i, size_t indent, size_t spaces);
+void json_put_list(FILE *out, json_t *object, const char *list, size_t count, json_put_item put, void *user,
+                   size_t indent, size_t spaces);
 /* A JSON number; null if it is not finite. */
 json_t *json_number(double value);
 json_t *json_numbers(const double *values, size_t count);

@@ -12,8 +12,8 @@
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
-#include "glint/capture.h"
 #include "glint/exr.h"
 #include "journal/journal.h"
 
@@ -116,9 +116,8 @@ static bool read_set(json_t *into, const char *file, struct glint_error *err) {
 
 /* ---- Folders ---- */
 
-/* False for a file that can be read and is no capture, such as one with cube maps that captures share. What cannot be read is left to the
-   command, which says why. */
-static bool may_be_capture(const char *path) {
+/* What cannot be read is left to the command, which says why. */
+bool capture_set_may_hold(const char *path) {
     struct glint_exr *exr = glint_exr_open(path, NULL, NULL);
     bool is = !exr;
     for (size_t i = 0; exr && i < glint_exr_part_count(exr) && !is; i++)
@@ -134,7 +133,7 @@ static bool add_file(json_t *into, const char *folder, const char *name, struct 
     if (name[0] == '.' || !ends_with(name, ".exr")) return true;
     if (snprintf(path, sizeof path, "%s%s%s", folder, between, name) >= PATH_SIZE)
         return glint_fail(err, GLINT_ERROR_USAGE, "%s: path too long", folder);
-    if (!may_be_capture(path)) return true;
+    if (!capture_set_may_hold(path)) return true;
     json_t *entry = json_pack("{s:s}", "path", path);
     return (entry && json_array_append_new(into, entry) == 0) ||
            glint_fail(err, GLINT_ERROR_FORMAT, "%s: out of memory, or a name that is not UTF-8", folder);
@@ -237,4 +236,17 @@ bool capture_set_check(const struct list *captures, size_t i, const char *hash, 
     return !expected || !strcmp(expected, hash) ||
            glint_fail(err, GLINT_ERROR_FORMAT, "%s: expected the hash %s, as its set says, found %s",
                       captures->items[i], expected, hash);
+}
+
+bool capture_set_check_open(const struct list *captures, size_t i, struct glint_capture *capture,
+                            struct glint_error *err) {
+    char hash[33];
+    return !capture_set_hash(captures, i) ||
+           (glint_capture_hash(capture, hash, err) && capture_set_check(captures, i, hash, err));
+}
+
+bool capture_set_fails_alone(const struct list *captures, size_t i, const struct glint_error *own) {
+    const bool gone = own->code == GLINT_ERROR_IO && access(captures->items[i], F_OK) != 0 && errno == ENOENT;
+    return gone || own->code == GLINT_ERROR_FORMAT || own->code == GLINT_ERROR_LIMIT ||
+           own->code == GLINT_ERROR_UNSUPPORTED;
 }

@@ -1,6 +1,7 @@
 /* The definition and results of a sweep on disk, from which an interrupted sweep resumes. */
 #include "sweep/sweep.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -25,6 +26,24 @@ static json_t *define(const struct sweep *sweep, const char *const *axes, const 
     return json;
 }
 
+static void keep_look(struct sweep *sweep, struct sweep_row *row, const json_t *line) {
+    static const char *const seconds[] = {"run_seconds", "metric_seconds", "picture_seconds"};
+    const bool failed = json_is_string(json_object_get(line, "failed"));
+    *row = (struct sweep_row){
+        .state = !failed                                         ? SWEEP_DONE
+                 : json_is_true(json_object_get(line, "broken")) ? SWEEP_BROKEN
+                                                                 : SWEEP_FAILED,
+        .at = sweep->journal.at,
+        .error = sweep_error(line, glint_target_name(answer_args_kind(&sweep->against)), "all", sweep->metric),
+        .invalid = sweep_number(line, "invalid"),
+        .steps_px = sweep_number(line, "steps_px"),
+        .fetches_px = sweep_number(line, "fetches_px")};
+    for (int k = 0; k < 3; k++) {
+        const double value = sweep_number(line, seconds[k]);
+        sweep->seconds[k] += isfinite(value) ? value : 0;
+    }
+}
+
 /* Puts a line into its row; false when it does not belong to this sweep. */
 static bool keep_sweep_line(void *user, json_t *line) {
     struct sweep *sweep = user;
@@ -36,19 +55,41 @@ static bool keep_sweep_line(void *user, json_t *line) {
         point >= (json_int_t)sweep->points ||
         (r && (!json_is_integer(r) || round < 0 || round >= (json_int_t)sweep->rounds)))
         return false;
-    struct sweep_row *row = sweep_row(sweep, (size_t)capture, (size_t)point);
-    json_t **place = r ? &row->rounds[round] : &row->look;
-    json_decref(*place);
-    *place = json_incref(line);
+    if (r)
+        sweep_rounds(sweep, (size_t)capture, (size_t)point)[round] = (struct sweep_round){
+            true, sweep->journal.at, {sweep_number(line, "frame_ms"), sweep_number(line, "cubemaps_ms")}};
+    else keep_look(sweep, sweep_row(sweep, (size_t)capture, (size_t)point), line);
     return true;
 }
 
 static bool make_rows(struct sweep *sweep, struct glint_error *err) {
+    static const struct sweep_row none = {.error = NAN, .invalid = NAN, .steps_px = NAN, .fetches_px = NAN};
     const size_t rows = sweep->captures.count * sweep->points;
     sweep->rows = calloc(rows + 1, sizeof *sweep->rows);
-    for (size_t i = 0; sweep->rows && i < rows; i++)
-        if (!(sweep->rows[i].rounds = calloc(sweep->rounds + 1, sizeof(json_t *)))) return fail_memory(err);
-    return sweep->rows || fail_memory(err);
+    sweep->timed = calloc(rows * sweep->rounds + 1, sizeof *sweep->timed);
+    for (size_t i = 0; sweep->rows && i < rows; i++) sweep->rows[i] = none;
+    return (sweep->rows && sweep->timed) || fail_memory(err);
+}
+
+static json_t *read_line(const struct sweep *sweep, int64_t at) {
+    struct sweep *own = (struct sweep *)sweep; /* whose place in the file is no state of it */
+    return journal_read(&own->journal, at, &own->fault);
+}
+
+struct sweep_lines sweep_read(const struct sweep *sweep, size_t c, size_t p) {
+    const struct sweep_row *row = sweep_row(sweep, c, p);
+    struct sweep_lines lines = {.rounds = calloc(sweep->rounds + 1, sizeof *lines.rounds)};
+    if (row->state != SWEEP_MISSING) lines.look = read_line(sweep, row->at);
+    for (uint32_t r = 0; lines.rounds && r < sweep->rounds; r++)
+        if (sweep_rounds(sweep, c, p)[r].known) lines.rounds[r] = read_line(sweep, sweep_rounds(sweep, c, p)[r].at);
+    return lines;
+}
+
+void sweep_release(const struct sweep *sweep, struct sweep_lines *lines) {
+    json_decref(lines->look);
+    for (uint32_t r = 0; lines->rounds && r < sweep->rounds; r++) json_decref(lines->rounds[r]);
+    free(lines->rounds);
+    *lines = (struct sweep_lines){0};
 }
 
 bool sweep_path(const struct sweep *sweep, const char *name, char path[4096], struct glint_error *err) {
@@ -63,12 +104,9 @@ bool sweep_cut(struct sweep *sweep, struct glint_error *err) {
     struct shard_cost *costs = calloc(count + 1, sizeof *costs);
     bool ok = costs || fail_memory(err);
     for (size_t c = 0; ok && sweep->shard.count && c < count; c++) {
-        struct glint_capture *capture = glint_capture_open(sweep->captures.items[c], NULL, err);
-        const struct glint_part_info *part = capture ? glint_capture_find(capture, GLINT_PART_GBUFFER) : NULL;
-        const double pixels = part ? (double)part->width * part->height : 1; /* what cannot be read takes no time */
+        double pixels;
+        ok = shard_pixels(sweep->captures.items[c], &pixels, err);
         costs[c] = (struct shard_cost){traces ? rays * pixels : pixels, (1. + sweep->rounds) * pixels};
-        ok = part || err->code != GLINT_ERROR_MEMORY;
-        glint_capture_close(&capture);
     }
     if (ok) shard_cut(&sweep->shard, costs, count, sweep->points, &sweep->begin, &sweep->end);
     free(costs);
@@ -77,18 +115,16 @@ bool sweep_cut(struct sweep *sweep, struct glint_error *err) {
 
 bool sweep_open(struct sweep *sweep, const char *const *axes, const char *sample, const struct list *shaders,
                 struct glint_error *err) {
-    sweep->journal = (struct journal){.folder = sweep->out, .kind = "sweep", .keep = keep_sweep_line, .user = sweep};
+    sweep->journal =
+        (struct journal){.folder = sweep->out, .kind = "sweep", .reread = true, .keep = keep_sweep_line, .user = sweep};
     return make_rows(sweep, err) && (sweep->definition = define(sweep, axes, sample, shaders, err)) &&
            journal_open(&sweep->journal, sweep->definition, err);
 }
 
 void sweep_finish(struct sweep *sweep) {
-    for (size_t i = 0; sweep->rows && i < sweep->captures.count * sweep->points; i++) {
-        json_decref(sweep->rows[i].look);
-        for (uint32_t r = 0; sweep->rows[i].rounds && r < sweep->rounds; r++) json_decref(sweep->rows[i].rounds[r]);
-        free(sweep->rows[i].rounds);
-    }
     free(sweep->rows);
+    free(sweep->timed);
+    sweep_overall_finish(&sweep->overall);
     for (size_t f = 0; f < sweep->front_count; f++) {
         free(sweep->fronts[f].on);
         free(sweep->fronts[f].points);

@@ -1,21 +1,19 @@
 /* The page of a sweep: the Pareto fronts as charts, whose points show their values and pictures, and as tables. */
 #include <math.h>
 #include <stdlib.h>
-#include <unistd.h>
 
 #include "draw/page/page.h"
+#include "journal/drawing.h"
 #include "sweep/sweep.h"
 
 static void add_picture(const struct sweep *sweep, json_t *pictures, const char *name, const char *caption) {
-    char path[4096];
-    struct glint_error ignored = {0};
-    if (sweep_path(sweep, name, path, &ignored) && access(path, F_OK) == 0)
-        json_array_append_new(pictures, json_pack("{s:s, s:s}", "file", name, "caption", caption));
+    drawing_add(pictures, sweep->out, name, caption, sweep_is_large(sweep));
 }
 
 static json_t *pictures_of(const struct sweep *sweep, size_t p) {
     json_t *pictures = json_array();
-    for (size_t c = 0; c < sweep->captures.count; c++) {
+    for (size_t i = 0; i < sweep->overall.shown_count; i++) {
+        const size_t c = sweep->overall.shown[i];
         char name[96], caption[200];
         sweep_picture_name("picture", c, p, name);
         snprintf(caption, sizeof caption, "%.100s", base_name(sweep->captures.items[c]));
@@ -39,16 +37,20 @@ static json_t *values_of(const struct sweep *sweep, size_t p) {
         const char *value = glint_space_value(sweep->space, p, a);
         add_value(values, glint_space_axis(sweep->space, a), value[0] ? json_string(value) : json_null(), "");
     }
-    for (size_t c = 0; c < sweep->captures.count; c++)
+    for (size_t i = 0; i < sweep->overall.shown_count; i++) {
+        const size_t c = sweep->overall.shown[i];
+        struct sweep_lines lines = sweep_read(sweep, c, p);
         for (size_t k = 0; sweep_class(sweep, k); k++) {
             char name[200];
-            const double error = sweep_error(sweep_row(sweep, c, p), sweep->against.truth ? "truth" : "reference",
+            const double error = sweep_error(lines.look, glint_target_name(answer_args_kind(&sweep->against)),
                                              sweep_class(sweep, k), sweep->metric);
             if (!isfinite(error)) continue;
             snprintf(name, sizeof name, "%.60s, %s: %.60s", base_name(sweep->captures.items[c]), sweep_class(sweep, k),
                      glint_metric(sweep->metric)->title);
             add_value(values, name, json_number(error), "");
         }
+        sweep_release(sweep, &lines);
+    }
     if (sweep->rounds) {
         add_value(values, "GPU time", page_interval(s->frame_ms.mean, s->low_ms, s->high_ms), "ms");
         add_value(values, "work on cube maps", json_number(s->cubemaps_ms.mean), "ms");
@@ -129,7 +131,8 @@ static void add_table(const struct sweep *sweep, const struct sweep_front *front
 static void add_changes(const struct sweep *sweep, const struct sweep_front *front, json_t *blocks) {
     json_t *pictures = json_array();
     for (size_t i = 0; i + 1 < front->count; i++)
-        for (size_t c = 0; c < sweep->captures.count; c++) {
+        for (size_t k = 0; k < sweep->overall.shown_count; k++) {
+            const size_t c = sweep->overall.shown[k];
             char name[96], caption[400];
             char *to = sweep_point_text(sweep, front->points[i + 1]);
             sweep_change_name(c, front->points[i], front->points[i + 1], name);
@@ -140,7 +143,7 @@ static void add_changes(const struct sweep *sweep, const struct sweep_front *fro
         }
     if (json_array_size(pictures)) {
         page_text(blocks, "text", "Difference between neighbouring points, |a − b| / (a + b):");
-        json_array_append(blocks, json_pack("{s:O}", "pictures", pictures));
+        json_array_append_new(blocks, json_pack("{s:O}", "pictures", pictures));
     }
     json_decref(pictures);
 }
@@ -148,7 +151,10 @@ static void add_changes(const struct sweep *sweep, const struct sweep_front *fro
 static void add_facts(const struct sweep *sweep, json_t *document) {
     const struct glint_device_info *device = glint_device_get_info(sweep->device);
     char text[400];
-    for (size_t c = 0; c < sweep->captures.count; c++) page_fact(document, "capture", sweep->captures.items[c]);
+    snprintf(text, sizeof text, "%zu", sweep->captures.count);
+    if (sweep_is_large(sweep)) page_fact(document, "captures", text);
+    for (size_t c = 0; c < sweep->captures.count && !sweep_is_large(sweep); c++)
+        page_fact(document, "capture", sweep->captures.items[c]);
     page_fact(document, "preset", glint_pipeline_name(sweep->base));
     page_fact(document, "errors against", sweep->against.truth ? "the truth in the capture" : "the reference");
     page_fact(document, "device", device->name);
@@ -190,6 +196,8 @@ bool sweep_write_page(const struct sweep *sweep, struct glint_error *err) {
         add_table(sweep, front, blocks);
         add_changes(sweep, front, blocks);
     }
+    if (sweep->captures.count > 1) sweep_page_overall(sweep, document);
+    sweep_page_captures(sweep, document);
     ok = ok && sweep_path(sweep, "index.html", path, err) && page_store(sweep->out, document, err) &&
          page_write(path, document, sweep->out, err) && write_charts(sweep, &charts, err);
     page_charts_finish(&charts);

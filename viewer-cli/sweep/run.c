@@ -1,13 +1,11 @@
 /* Evaluates and times every point, unless the results are in the log already. */
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <unistd.h>
 
 #include "draw/view/pixels.h"
-#include "draw/view/png_file.h"
 #include "journal/again.h"
+#include "journal/drawing.h"
 #include "options/capture_set.h"
 #include "sweep/sweep.h"
 
@@ -45,27 +43,11 @@ void sweep_change_name(size_t capture, size_t from, size_t to, char name[96]) {
     snprintf(name, 96, "pictures/change-%zu-%04zu-%04zu.png", capture, from, to);
 }
 
-static bool draw_picture(const struct sweep *sweep, const char *name, const struct glint_pixels *pixels,
-                         const char *title, struct glint_error *err) {
-    char path[4096];
-    struct picture picture = {0};
-    const bool ok = sweep_path(sweep, name, path, err) && pixels_draw(&picture, pixels, title, NULL, err) &&
-                    png_file_write(path, &picture, err);
-    picture_finish(&picture);
-    return ok;
-}
-
 /* Draws the composed image of the last evaluated point. */
 static bool draw_point(const struct work *work, size_t point, struct glint_error *err) {
     char name[96];
-    struct glint_replay *replay = glint_judge_replay(work->judge);
-    const struct glint_image *image = glint_study_picture(replay);
-    struct glint_pixels pixels = {0};
-    if (!work->sweep->pictures || !image) return true;
     sweep_picture_name("picture", work->capture, point, name);
-    const bool ok = pixels_read(replay, image, &pixels, err) && draw_picture(work->sweep, name, &pixels, "", err);
-    glint_pixels_finish(&pixels);
-    return ok;
+    return drawing_write_picture(work->judge, work->sweep->out, name, err);
 }
 
 static json_t *look_json(const struct sweep *sweep, const struct glint_verdict *v, double picture_seconds) {
@@ -111,6 +93,8 @@ static bool measure_point(struct work *work, size_t point, struct glint_error *e
     struct glint_pipeline *pipeline = glint_space_pipeline(work->sweep->space, point, err);
     struct glint_verdict verdict = {0};
     struct glint_error own = {0};
+    const bool draws =
+        work->sweep->pictures && !sweep_is_large(work->sweep); /* of many, the worst are drawn at the end */
     if (!pipeline) return false;
     label(work, "point", point + 1);
     double start = 0;
@@ -120,7 +104,7 @@ static bool measure_point(struct work *work, size_t point, struct glint_error *e
         glint_verdict_finish(&verdict);
         ok = glint_judge_evaluate(work->judge, pipeline, 0, &verdict, report, work, &own);
         start = now_seconds();
-        ok = ok && draw_point(work, point, &own);
+        ok = ok && (!draws || draw_point(work, point, &own));
     } while (!ok && again_try(&work->again, &own, "point %zu", point + 1));
     if (ok) missing_add(&work->sweep->missing, glint_judge_replay(work->judge));
     if (ok && work->sweep->against.truth && verdict.no_truth.code != GLINT_OK) /* the truth is missing for all points */
@@ -131,10 +115,6 @@ static bool measure_point(struct work *work, size_t point, struct glint_error *e
     glint_pipeline_destroy(&pipeline);
     work->done++;
     return ok;
-}
-
-static bool failed(const struct sweep_row *row) {
-    return row->look && json_object_get(row->look, "failed");
 }
 
 static bool time_point(struct work *work, size_t point, uint32_t round, struct glint_error *err) {
@@ -155,25 +135,18 @@ static bool time_point(struct work *work, size_t point, uint32_t round, struct g
     return ok;
 }
 
-static size_t count_missing(const struct sweep *sweep) {
-    size_t missing = 0;
-    for (size_t i = sweep->begin; i < sweep->end; i++) {
-        const struct sweep_row *row = &sweep->rows[i];
-        missing += !row->look;
-        for (uint32_t r = 0; r < sweep->rounds && !failed(row); r++) missing += !row->rounds[r];
-    }
+static size_t missing_of(const struct sweep *sweep, size_t capture, size_t point) {
+    const enum sweep_state state = sweep_row(sweep, capture, point)->state;
+    size_t missing = state == SWEEP_MISSING;
+    if (!sweep_works_on(sweep, capture, point) || state >= SWEEP_FAILED) return 0;
+    for (uint32_t r = 0; r < sweep->rounds; r++) missing += !sweep_rounds(sweep, capture, point)[r].known;
     return missing;
 }
 
-static bool misses(const struct sweep *sweep, size_t capture) {
-    for (size_t p = 0; p < sweep->points; p++) {
-        const struct sweep_row *row = sweep_row(sweep, capture, p);
-        if (!sweep_works_on(sweep, capture, p)) continue;
-        for (uint32_t r = 0; r < sweep->rounds && !failed(row); r++)
-            if (!row->rounds[r]) return true;
-        if (!row->look) return true;
-    }
-    return false;
+static size_t count_missing(const struct sweep *sweep, size_t capture) {
+    size_t missing = 0;
+    for (size_t p = 0; p < sweep->points; p++) missing += missing_of(sweep, capture, p);
+    return missing;
 }
 
 /* Makes the reference before the points, because it can take longer than they do. */
@@ -198,15 +171,15 @@ static bool find_answer(struct work *work, struct glint_error *err) {
 static bool take_turns(struct work *work, struct glint_error *err) {
     struct sweep *sweep = work->sweep;
     for (size_t p = 0; p < sweep->points; p++)
-        if (sweep_works_on(sweep, work->capture, p) && !sweep_row(sweep, work->capture, p)->look &&
+        if (sweep_works_on(sweep, work->capture, p) && sweep_row(sweep, work->capture, p)->state == SWEEP_MISSING &&
             !measure_point(work, p, err))
             return false;
     for (uint32_t round = 0; round < sweep->rounds; round++) {
         glint_judge_next_round(work->judge);
         for (size_t p = 0; p < sweep->points; p++) {
-            const struct sweep_row *row = sweep_row(sweep, work->capture, p);
-            if (sweep_works_on(sweep, work->capture, p) && !row->rounds[round] && !failed(row) &&
-                !time_point(work, p, round, err))
+            const bool known = sweep_rounds(sweep, work->capture, p)[round].known,
+                       failed = sweep_row(sweep, work->capture, p)->state >= SWEEP_FAILED;
+            if (sweep_works_on(sweep, work->capture, p) && !known && !failed && !time_point(work, p, round, err))
                 return false;
         }
     }
@@ -214,13 +187,6 @@ static bool take_turns(struct work *work, struct glint_error *err) {
 }
 
 typedef bool (*task)(struct work *work, struct glint_error *err);
-
-/* Reading a large capture for its hash takes long: of a set of many, a shard reads those that it works on. */
-static bool check_hash(const struct sweep *sweep, size_t c, struct glint_capture *capture, struct glint_error *err) {
-    char hash[33];
-    return !capture_set_hash(&sweep->captures, c) ||
-           (glint_capture_hash(capture, hash, err) && capture_set_check(&sweep->captures, c, hash, err));
-}
 
 static bool on_capture(struct work *work, size_t c, task task, struct glint_error *err) {
     struct sweep *sweep = work->sweep;
@@ -231,7 +197,7 @@ static bool on_capture(struct work *work, size_t c, task task, struct glint_erro
     struct glint_capture *capture = glint_capture_open(sweep->captures.items[c], NULL, err);
     work->capture = c;
     work->again = (struct again){&cmd_sweep, sweep->device, &work->judge, 1, 0, false};
-    bool ok = capture && check_hash(sweep, c, capture, err) &&
+    bool ok = capture && capture_set_check_open(&sweep->captures, c, capture, err) &&
               (work->judge = glint_judge_create(sweep->device, &options, err)) &&
               glint_judge_load(work->judge, capture, err) && find_answer(work, err);
     work->begun = ok;
@@ -241,20 +207,12 @@ static bool on_capture(struct work *work, size_t c, task task, struct glint_erro
     return ok;
 }
 
-/* Whether a capture fails by itself, whatever the point: not for lack of memory, space or a device, which may be there the next time. */
-static bool fails_alone(const struct work *work, const struct glint_error *own) {
-    const char *path = work->sweep->captures.items[work->capture];
-    const bool gone = own->code == GLINT_ERROR_IO && access(path, F_OK) != 0 && errno == ENOENT;
-    return gone || own->code == GLINT_ERROR_FORMAT || own->code == GLINT_ERROR_LIMIT ||
-           own->code == GLINT_ERROR_UNSUPPORTED;
-}
-
 static bool sweep_capture(struct work *work, size_t c, struct glint_error *err) {
     struct sweep *sweep = work->sweep;
     struct glint_error own = {0};
     work->begun = false;
     if (on_capture(work, c, take_turns, &own)) return true;
-    bool ok = sweep->captures.count > 1 && !work->begun && fails_alone(work, &own);
+    bool ok = sweep->captures.count > 1 && !work->begun && capture_set_fails_alone(&sweep->captures, c, &own);
     if (!ok) *err = own;
     for (size_t p = 0; ok && p < sweep->points; p++)
         if (sweep_works_on(sweep, c, p))
@@ -263,11 +221,12 @@ static bool sweep_capture(struct work *work, size_t c, struct glint_error *err) 
 }
 
 bool sweep_run(struct sweep *sweep, struct glint_error *err) {
-    struct work work = {.sweep = sweep, .total = count_missing(sweep)};
+    struct work work = {.sweep = sweep};
     char path[4096];
+    for (size_t c = 0; c < sweep->captures.count; c++) work.total += count_missing(sweep, c);
     if (!sweep_path(sweep, "pictures", path, err) || !glint_make_folder(path, err)) return false;
     for (size_t c = 0; c < sweep->captures.count; c++)
-        if (misses(sweep, c) && !sweep_capture(&work, c, err)) return false;
+        if (count_missing(sweep, c) && !sweep_capture(&work, c, err)) return false;
     return true;
 }
 
@@ -289,42 +248,43 @@ static bool draw_changes(const struct work *work, const struct glint_pixels *res
             snprintf(title, sizeof title, "difference between %zu and %zu", from, to);
             const bool ok =
                 pixels_difference(&results[from], &results[to], NULL, glint_judge_labels(work->judge), &change, err) &&
-                draw_picture(sweep, name, &change, title, err);
+                drawing_write(sweep->out, name, &change, title, err);
             glint_pixels_finish(&change);
             if (!ok) return false;
         }
     return true;
 }
 
-static bool draw_errors(struct work *work, struct glint_pixels *results, struct glint_error *err) {
+/* The error of a point, and of many captures also what it shows. */
+static bool draw_error(struct work *work, size_t p, struct glint_verdict *verdict, struct glint_error *err) {
     struct sweep *sweep = work->sweep;
-    for (size_t p = 0; p < sweep->points; p++) {
-        if (!on_front(sweep, p)) continue;
-        struct glint_pipeline *pipeline = glint_space_pipeline(sweep->space, p, err);
-        const enum glint_target kind = answer_args_kind(&sweep->against);
+    struct glint_pipeline *pipeline = glint_space_pipeline(sweep->space, p, err);
+    char name[96];
+    label(work, "picture", p + 1);
+    sweep_picture_name("error", work->capture, p, name);
+    bool ok;
+    work->again.tried = false;
+    do ok = pipeline && glint_judge_evaluate(work->judge, pipeline, 0, verdict, report, work, err);
+    while (!ok && again_try(&work->again, err, "picture of point %zu", p + 1));
+    ok = ok && (!sweep_is_large(sweep) || draw_point(work, p, err)) &&
+         drawing_write_error(work->judge, answer_args_kind(&sweep->against), pipeline, &verdict->result, sweep->out,
+                             name, "error", err);
+    if (pipeline) glint_pipeline_destroy(&pipeline);
+    work->done++;
+    return ok;
+}
+
+static bool draw_errors(struct work *work, struct glint_pixels *results, struct glint_error *err) {
+    bool ok = true;
+    for (size_t p = 0; ok && p < work->sweep->points; p++) {
         struct glint_verdict verdict = {0};
-        struct glint_pixels error = {0};
-        const float *noise;
-        const struct glint_pixels *answer;
-        char name[96];
-        label(work, "picture", p + 1);
-        sweep_picture_name("error", work->capture, p, name);
-        bool ok;
-        work->again.tried = false;
-        do ok = pipeline && glint_judge_evaluate(work->judge, pipeline, 0, &verdict, report, work, err);
-        while (!ok && again_try(&work->again, err, "picture of point %zu", p + 1));
-        ok = ok && (answer = glint_judge_target(work->judge, kind, pipeline, &noise, NULL, NULL, err)) &&
-             pixels_difference(&verdict.result, answer, noise, glint_judge_labels(work->judge), &error, err) &&
-             draw_picture(sweep, name, &error, "error", err);
+        if (!on_front(work->sweep, p)) continue;
+        ok = draw_error(work, p, &verdict, err);
         results[p] = verdict.result;
         verdict.result = (struct glint_pixels){0};
-        glint_pixels_finish(&error);
         glint_verdict_finish(&verdict);
-        if (pipeline) glint_pipeline_destroy(&pipeline);
-        if (!ok) return false;
-        work->done++;
     }
-    return true;
+    return ok;
 }
 
 static bool draw_front(struct work *work, struct glint_error *err) {
@@ -340,8 +300,9 @@ static bool draw_front(struct work *work, struct glint_error *err) {
 
 bool sweep_draw_fronts(struct sweep *sweep, struct glint_error *err) {
     struct work work = {.sweep = sweep};
-    for (size_t p = 0; p < sweep->points; p++) work.total += on_front(sweep, p) * sweep->captures.count;
-    for (size_t c = 0; c < sweep->captures.count && work.total && sweep->pictures; c++)
-        if (!sweep_broken(sweep, c) && !on_capture(&work, c, draw_front, err)) return false;
+    const struct sweep_overall *o = &sweep->overall;
+    for (size_t p = 0; p < sweep->points; p++) work.total += on_front(sweep, p) * o->shown_count;
+    for (size_t i = 0; i < o->shown_count && work.total && sweep->pictures; i++)
+        if (!on_capture(&work, o->shown[i], draw_front, err)) return false;
     return true;
 }

@@ -1,45 +1,54 @@
 /* Sums up the rows of a sweep over rounds and captures, and finds the Pareto fronts. */
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "glint/sort.h"
 #include "options/capture_set.h"
 #include "sweep/sweep.h"
 
-static double number(const json_t *object, const char *key) {
-    const json_t *value = json_object_get(object, key);
+double sweep_number(const json_t *line, const char *key) {
+    const json_t *value = json_object_get(line, key);
     return json_is_number(value) ? json_number_value(value) : NAN;
 }
 
-double sweep_figure(const struct sweep_row *row, const char *key) {
-    return number(row->look, key);
+double sweep_error(const json_t *look, const char *answer, const char *class, enum glint_metric metric) {
+    const json_t *answers = json_object_get(look, "errors");
+    return sweep_number(json_object_get(json_object_get(answers, answer), class), glint_metric(metric)->name);
 }
 
-double sweep_error(const struct sweep_row *row, const char *answer, const char *class, enum glint_metric metric) {
-    const json_t *answers = json_object_get(row->look, "errors");
-    return number(json_object_get(json_object_get(answers, answer), class), glint_metric(metric)->name);
-}
-
-double sweep_time(const struct sweep *sweep, const struct sweep_row *row, const char *key, double *low, double *high) {
-    double *values = calloc(sweep->rounds + 1, sizeof *values), median = NAN;
-    size_t count = 0;
+double sweep_median(double *values, size_t count, double *low, double *high) {
     *low = *high = NAN;
-    for (uint32_t r = 0; values && r < sweep->rounds; r++) {
-        const double value = number(row->rounds[r], key);
-        if (isfinite(value)) values[count++] = value;
-    }
-    if (count) {
-        median = glint_median(values, count);
-        *low = values[0];
-        *high = values[count - 1];
-    }
+    if (!count) return NAN;
+    const double median = glint_median(values, count);
+    *low = values[0];
+    *high = values[count - 1];
+    return median;
+}
+
+double sweep_time(const struct sweep *sweep, size_t capture, size_t point, enum sweep_cost cost, double *low,
+                  double *high) {
+    double *values = calloc(sweep->rounds + 1, sizeof *values);
+    const struct sweep_round *rounds = sweep_rounds(sweep, capture, point);
+    size_t count = 0;
+    for (uint32_t r = 0; values && r < sweep->rounds; r++)
+        if (rounds[r].known && isfinite(rounds[r].ms[cost])) values[count++] = rounds[r].ms[cost];
+    const double median = sweep_median(values, count, low, high);
     free(values);
     return median;
 }
 
-const char *sweep_broken(const struct sweep *sweep, size_t capture) {
-    const json_t *look = sweep->points ? sweep_row(sweep, capture, 0)->look : NULL;
-    return json_is_true(json_object_get(look, "broken")) ? json_string_value(json_object_get(look, "failed")) : NULL;
+bool sweep_broken(const struct sweep *sweep, size_t capture) {
+    return sweep->points && sweep_row(sweep, capture, 0)->state == SWEEP_BROKEN;
+}
+
+char *sweep_failure(const struct sweep *sweep, size_t capture, size_t point) {
+    if (sweep_row(sweep, capture, point)->state < SWEEP_FAILED) return NULL;
+    struct sweep_lines lines = sweep_read(sweep, capture, point);
+    const char *failed = json_string_value(json_object_get(lines.look, "failed"));
+    char *text = strdup(failed ? failed : sweep->fault.message);
+    sweep_release(sweep, &lines);
+    return text;
 }
 
 static void add_value(struct sweep_sum *sum, double value, double captures) {
@@ -47,8 +56,7 @@ static void add_value(struct sweep_sum *sum, double value, double captures) {
     if (isnan(value) || value > sum->worst) sum->worst = value; /* NAN is kept */
 }
 
-/* The metric as an error: higher is worse. */
-static double badness(const struct sweep *sweep, double error) {
+double sweep_badness(const struct sweep *sweep, double error) {
     return glint_metric(sweep->metric)->higher_is_better ? -error : error;
 }
 
@@ -71,18 +79,17 @@ struct sweep_point sweep_sum(const struct sweep *sweep, size_t p, const char *ta
         const struct sweep_row *row = sweep_row(sweep, c, p);
         double low, high;
         if (!counts(sweep, c, tag)) continue;
-        const double error = sweep_error(row, sweep->against.truth ? "truth" : "reference", "all", sweep->metric);
-        point.valid = point.valid && isfinite(error) && sweep_figure(row, "invalid") == 0;
-        add_value(&point.error, badness(sweep, error), captures);
-        add_value(&point.cubemaps_ms, sweep_time(sweep, row, "cubemaps_ms", &low, &high), captures);
-        add_value(&point.frame_ms, sweep_time(sweep, row, "frame_ms", &low, &high), captures);
-        add_value(&point.steps_px, sweep_figure(row, "steps_px"), captures);
-        add_value(&point.fetches_px, sweep_figure(row, "fetches_px"), captures);
+        point.valid = point.valid && isfinite(row->error) && row->invalid == 0;
+        add_value(&point.error, sweep_badness(sweep, row->error), captures);
+        add_value(&point.cubemaps_ms, sweep_time(sweep, c, p, SWEEP_CUBEMAPS, &low, &high), captures);
+        add_value(&point.frame_ms, sweep_time(sweep, c, p, SWEEP_FRAME, &low, &high), captures);
+        add_value(&point.steps_px, row->steps_px, captures);
+        add_value(&point.fetches_px, row->fetches_px, captures);
         point.low_ms += low / captures;
         point.high_ms += high / captures;
     }
-    point.error.mean = badness(sweep, point.error.mean);
-    point.error.worst = badness(sweep, point.error.worst);
+    point.error.mean = sweep_badness(sweep, point.error.mean);
+    point.error.worst = sweep_badness(sweep, point.error.worst);
     return point;
 }
 
@@ -106,7 +113,7 @@ static bool find_front(struct sweep *sweep, struct sweep_front *front, struct gl
         const struct sweep_point *s = &sweep->sums[p];
         const struct sweep_sum cost = front->time ? s->frame_ms : s->fetches_px;
         x[p] = front->worst ? cost.worst : cost.mean;
-        y[p] = s->valid ? badness(sweep, front->worst ? s->error.worst : s->error.mean) : NAN;
+        y[p] = s->valid ? sweep_badness(sweep, front->worst ? s->error.worst : s->error.mean) : NAN;
     }
     ok = ok && glint_pareto(x, y, sweep->points, front->on, err);
     for (size_t p = 0; ok && p < sweep->points; p++)
@@ -128,13 +135,17 @@ bool sweep_sum_up(struct sweep *sweep, struct glint_error *err) {
     sweep->sums = calloc(sweep->points + 1, sizeof *sweep->sums);
     if (!sweep->sums) return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
     const size_t captures = sweep_count(sweep, NULL);
-    if (!captures)
-        return glint_fail(err, GLINT_ERROR_FORMAT, "no capture can be swept: %.900s", sweep_broken(sweep, 0));
+    if (!captures) {
+        char *why = sweep_failure(sweep, 0, 0);
+        glint_fail(err, GLINT_ERROR_FORMAT, "no capture can be swept: %.900s", why ? why : "");
+        free(why);
+        return false;
+    }
     for (size_t p = 0; p < sweep->points; p++) sweep->sums[p] = sweep_sum(sweep, p, NULL);
     for (int k = 0; k < SWEEP_FRONTS; k++) {
         if ((kinds[k].time && !sweep->rounds) || (kinds[k].worst && captures < 2)) continue;
         sweep->fronts[sweep->front_count] = kinds[k];
         if (!find_front(sweep, &sweep->fronts[sweep->front_count++], err)) return false;
     }
-    return true;
+    return sweep_overall_find(sweep, err);
 }

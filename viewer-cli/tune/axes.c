@@ -110,26 +110,39 @@ struct part {
     char reason[192];
 };
 
-/* Adds the results of a pass in the start's run on one capture; false when the pass does not influence the result. */
-static bool ask_capture(const struct tune *tune, struct tune_subject *subject, const struct glint_pass *pass,
-                        struct part *part, struct glint_error *err) {
+json_t *tune_slots(struct tune *tune, struct tune_subject *subject, struct glint_error *err) {
     struct glint_replay *replay = glint_judge_replay(subject->judge);
-    size_t count = 0;
-    const struct glint_pass_result *results = glint_replay_results(replay, &count);
-    for (size_t i = 0; i < count; i++) {
-        if (results[i].pass != pass) continue;
-        part->ran |= results[i].ran;
-        part->cached |= results[i].cached_work;
-        memcpy(part->reason, results[i].reason, sizeof part->reason);
-    }
     const struct glint_image *image = glint_study_result_image(replay, tune->against.effect);
     const char *const outputs[] = {image ? image->name : NULL, NULL};
     const struct glint_replay_options options = {.outputs = outputs, .all = tune->all};
     const struct glint_plan_entry *entries;
-    if (!image) return true;
-    if (!glint_replay_plan(replay, tune->base, &options, &entries, &count, err)) return false;
-    for (size_t i = 0; i < count; i++) part->needed |= entries[i].pass == pass && entries[i].runs;
-    return true;
+    size_t count = 0, planned = 0;
+    json_t *slots = json_object();
+    const struct glint_pass_result *results = glint_replay_results(replay, &count);
+    for (size_t i = 0; slots && i < count; i++)
+        json_object_set_new(slots, results[i].pass->slot,
+                            json_pack("{s:b, s:b, s:b, s:s}", "ran", results[i].ran, "cached", results[i].cached_work,
+                                      "needed", false, "reason", results[i].ran ? "" : results[i].reason));
+    if (slots && image && !glint_replay_plan(replay, tune->base, &options, &entries, &planned, err)) {
+        json_decref(slots);
+        return NULL;
+    }
+    for (size_t i = 0; slots && i < planned; i++) {
+        json_t *slot = json_object_get(slots, entries[i].pass->slot);
+        if (slot && entries[i].runs) json_object_set_new(slot, "needed", json_true());
+    }
+    if (!slots) fail_memory(err);
+    return slots;
+}
+
+/* Adds what a pass of the start did on one capture. */
+static void add_part(const struct tune_subject *subject, const char *slot, struct part *part) {
+    const json_t *found = json_object_get(subject->slots, slot);
+    const char *reason = json_string_value(json_object_get(found, "reason"));
+    part->ran |= json_is_true(json_object_get(found, "ran"));
+    part->cached |= json_is_true(json_object_get(found, "cached"));
+    part->needed |= json_is_true(json_object_get(found, "needed"));
+    if (reason) snprintf(part->reason, sizeof part->reason, "%.191s", reason);
 }
 
 static void leave(struct tune *tune, const char *name, const char *why, const char *more) {
@@ -188,8 +201,7 @@ static bool add_all(struct tune *tune, struct glint_error *err) {
     for (size_t i = 0; i < glint_pipeline_pass_count(tune->base); i++) {
         const struct glint_pass *pass = glint_pipeline_pass(tune->base, i);
         struct part part = {0};
-        for (size_t s = 0; s < tune->captures.count; s++)
-            if (!ask_capture(tune, &tune->subjects[s], pass, &part, err)) return false;
+        for (size_t s = 0; s < tune->captures.count; s++) add_part(&tune->subjects[s], pass->slot, &part);
         for (size_t r = 0; r < pass->row_count; r++) {
             const struct glint_row *row = &pass->rows[r];
             if (!glint_row_is_parameter(row)) continue;

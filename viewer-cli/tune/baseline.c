@@ -16,6 +16,16 @@ static bool try_factor(struct tune *tune, double octaves, struct tune_figures *f
     return true;
 }
 
+/* Both ends of the range are needed. */
+static bool announce_factors(struct tune *tune, double in, double out, struct glint_error *err) {
+    double *values = calloc(2 * tune->axis_count + 1, sizeof *values);
+    if (!values) return fail_memory(err);
+    const bool some = tune_scale(tune, exp2(in), values) && tune_scale(tune, exp2(out), values + tune->axis_count);
+    const bool ok = !some || tune_announce(tune, values, 2, err);
+    free(values);
+    return ok;
+}
+
 /* Bisects the factor: cost rises with it, and error falls. */
 bool tune_find_scale(struct tune *tune, struct glint_error *err) {
     enum { HALVINGS = 10 };
@@ -24,7 +34,7 @@ bool tune_find_scale(struct tune *tune, struct glint_error *err) {
     bool keeps = false;
     if (!(tune->scaling = calloc(tune->axis_count + 1, sizeof *tune->scaling)))
         return glint_fail(err, GLINT_ERROR_MEMORY, "out of memory");
-    if (!try_factor(tune, in, &tune->scaled, &tune->scaled_within, err) ||
+    if (!announce_factors(tune, in, out, err) || !try_factor(tune, in, &tune->scaled, &tune->scaled_within, err) ||
         !try_factor(tune, out, &figures, &keeps, err))
         return false;
     if (keeps) in = out;

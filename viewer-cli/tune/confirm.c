@@ -15,12 +15,15 @@ static bool time_point(struct tune *tune, struct glint_pipeline *scaled, size_t 
     struct glint_pipeline *own = tune_pipeline(tune, tune->found.points[point].values, err);
     struct glint_pipeline *const pipelines[TUNE_CONTENDERS] = {tune->base, own, scaled};
     double sum = 0, start = 0, most = 0;
+    const double count = (double)tune_live(tune);
     bool ok = own != NULL;
     for (size_t s = 0; ok && s < tune->captures.count; s++) {
         struct tune_times times[TUNE_CONTENDERS];
+        if (tune->subjects[s].broken) continue;
+        if (!(ok = tune_load_subject(tune, s, 0, err))) break;
         if (!(ok = tune_time_in_turns(tune, &tune->subjects[s], pipelines, times, err))) break;
-        sum += times[TUNE_TUNED].ms.value / (double)tune->captures.count;
-        start += times[TUNE_START].ms.value / (double)tune->captures.count;
+        sum += times[TUNE_TUNED].ms.value / count;
+        start += times[TUNE_START].ms.value / count;
         if (scaled) most = fmax(most, times[TUNE_SCALED].part.high);
         if (parts) parts[s] = times[TUNE_SCALED].part.high;
     }
@@ -151,8 +154,13 @@ bool tune_confirm(struct tune *tune, struct glint_error *err) {
     tune->done = 0;
     progress_phase(tune->progress, "final comparison");
     for (size_t s = 0; s < tune->subject_count; s++) {
+        struct glint_error own = {0};
+        if (tune->subjects[s].broken) continue;
         tune_unload_subject(tune, s);
-        if (!tune_load_subject(tune, s, GLINT_RESAMPLES, err) || !measure_subject(tune, s, err)) return false;
+        if (tune_load_subject(tune, s, GLINT_RESAMPLES, &own)) {
+            if (!measure_subject(tune, s, err)) return false;
+        } else if (!tune_fails_alone(tune, s, &own)) return glint_fail(err, own.code, "%s", own.message);
+        else if (!(tune->subjects[s].broken = strdup(own.message))) return fail_memory(err);
         tune_unload_subject(tune, s);
         tune->done = (double)(s + 1) / (double)tune->subject_count;
     }

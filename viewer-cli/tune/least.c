@@ -36,8 +36,10 @@ static bool add_part(struct parts *parts, const struct glint_pass *pass, double 
 static bool measure_passes(struct tune *tune, const struct glint_pipeline *pipeline, struct parts *parts,
                            struct glint_error *err) {
     bool ok = true;
-    const double rounds = (double)tune->captures.count * tune->rounds;
-    for (size_t s = 0; ok && s < tune->captures.count; s++)
+    const double rounds = (double)tune_live(tune) * tune->rounds;
+    for (size_t s = 0; ok && s < tune->captures.count; s++) {
+        if (tune->subjects[s].broken) continue;
+        ok = tune_load_subject(tune, s, 0, err);
         for (uint32_t r = 0; ok && r < tune->rounds; r++) {
             struct glint_cost cost;
             glint_judge_next_round(tune->subjects[s].judge);
@@ -47,6 +49,7 @@ static bool measure_passes(struct tune *tune, const struct glint_pipeline *pipel
                     ok = add_part(parts, cost.passes[i].pass, (double)cost.passes[i].ns * 1e-6 / rounds, err);
             if (ok) glint_cost_finish(&cost);
         }
+    }
     if (parts->count) qsort(parts->items, parts->count, sizeof *parts->items, longest_first);
     return ok;
 }

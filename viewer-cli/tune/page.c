@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "draw/page/page.h"
+#include "tune/overall.h"
 #include "tune/tune.h"
 
 static void values_of(const struct tune *tune, const double *values, json_t *list) {
@@ -170,7 +171,9 @@ bool tune_write_page(const struct tune *tune, struct glint_error *err) {
     add_facts(tune, document);
     page_chart(page_section(document, "All evaluated points"), chart(tune, true));
     add_moved(tune, document);
-    for (size_t s = 0; tune->confirmed && s < tune->subject_count; s++) add_contenders(tune, s, document);
+    if (tune->overall) tune_page_overall(tune, document);
+    for (size_t i = 0; tune->overall && i < tune->subject_count; i++)
+        if (tune_is_shown(tune, i)) add_contenders(tune, tune_ranked(tune, i), document);
     add_left(tune, document);
     json_t *plain = chart(tune, false);
     snprintf(name, sizeof name, "%.*s.html", length, base);

@@ -6,6 +6,7 @@
 #include "options/preset_json.h"
 #include "io/output.h"
 #include "record.h"
+#include "tune/overall.h"
 #include "tune/tune.h"
 
 static json_t *limit_json(const struct tune *tune) {
@@ -16,18 +17,30 @@ static json_t *limit_json(const struct tune *tune) {
                      tune->slots.count ? strings_json(tune->slots.items) : json_null());
 }
 
-/* NULL if one of them cannot be read any more. */
+/* null for a capture that could not be read. NULL if one of the others cannot be read any more. */
+static json_t *hash_of(const struct tune *tune, const json_t *hashes, size_t i, bool held_out,
+                       struct glint_error *err) {
+    const json_t *hash = json_array_get(hashes, i);
+    if (json_is_string(hash)) return json_incref((json_t *)hash);
+    if (tune->subjects[i + (held_out ? tune->captures.count : 0)].broken) return json_null();
+    glint_fail(err, GLINT_ERROR_IO, "%s", json_string_value(json_object_get(hash, "failed")));
+    return NULL;
+}
+
 static json_t *captures_list(const struct tune *tune, struct glint_error *err) {
     json_t *list = json_array(), *hashes;
     for (int held_out = 0; held_out < 2; held_out++) {
         const struct list *captures = held_out ? &tune->held_out : &tune->captures;
-        if (!(hashes = captures_json(captures, false, err))) return json_decref(list), NULL;
-        for (size_t i = 0; i < captures->count; i++)
-            json_array_append_new(list, json_pack("{s:s, s:O, s:b}", "path", captures->items[i], "xxh3_128",
-                                                  json_array_get(hashes, i), "held_out", held_out));
+        if (!(hashes = captures_json(captures, true, err))) return json_decref(list), NULL;
+        *err = (struct glint_error){0};
+        for (size_t i = 0; i < captures->count && !err->code; i++)
+            json_array_append_new(list, json_pack("{s:s, s:o, s:b}", "path", captures->items[i], "xxh3_128",
+                                                  hash_of(tune, hashes, i, held_out, err), "held_out", held_out));
         json_decref(hashes);
     }
-    return list;
+    if (!err->code) return list;
+    json_decref(list);
+    return NULL;
 }
 
 static json_t *moved_json(const struct tune *tune) {
@@ -55,16 +68,11 @@ static json_t *part_json(const struct tune_median *part) {
     return json;
 }
 
-static json_t *figure_json(struct glint_figure figure) {
-    return json_pack("{s:o, s:o, s:o}", "value", json_number(figure.value), "low", json_number(figure.low), "high",
-                     json_number(figure.high));
-}
-
 static json_t *errors_of(const struct tune *tune, const struct glint_metric_table *table) {
     json_t *classes = json_object();
     for (size_t r = 0; r < table->count; r++)
         if (table->rows[r].pixels)
-            json_object_set_new(classes, table->rows[r].name, figure_json(table->rows[r].of[tune->metric]));
+            json_object_set_new(classes, table->rows[r].name, figure_json(&table->rows[r].of[tune->metric]));
     return classes;
 }
 
@@ -74,7 +82,7 @@ static json_t *differences_of(const struct tune *tune, size_t s, int a, int b) {
     for (size_t r = 0; r < table->count; r++) {
         struct glint_figure difference;
         if (!tune_difference(tune, s, a, b, r, &difference)) continue;
-        json_t *json = figure_json(difference);
+        json_t *json = figure_json(&difference);
         json_object_set_new(json, "verdict", json_string(tune_verdict(&difference)));
         json_object_set_new(classes, table->rows[r].name, json);
     }
@@ -84,6 +92,12 @@ static json_t *differences_of(const struct tune *tune, size_t s, int a, int b) {
 static json_t *confirmed_json(const struct tune *tune) {
     json_t *list = json_array();
     for (size_t s = 0; tune->confirmed && s < tune->subject_count; s++) {
+        const struct tune_subject *subject = &tune->subjects[s];
+        if (subject->broken) {
+            json_array_append_new(list, json_pack("{s:s, s:b, s:s}", "capture", subject->path, "held_out",
+                                                  subject->held_out, "broken", subject->broken));
+            continue;
+        }
         json_t *contenders = json_object();
         for (int k = 0; k < TUNE_CONTENDERS; k++) {
             const struct tune_measured *m = &tune->measured[s * TUNE_CONTENDERS + (size_t)k];
@@ -95,10 +109,10 @@ static json_t *confirmed_json(const struct tune *tune) {
         }
         if (tune->contenders[TUNE_SCALED])
             json_object_set_new(json_object_get(contenders, "scaled"), "factor", json_real(tune->subjects[s].factor));
-        json_array_append_new(list, json_pack("{s:s, s:b, s:o, s:o, s:o}", "capture", tune->subjects[s].path,
-                                              "held_out", tune->subjects[s].held_out, "contenders", contenders,
-                                              "tuned_less_start", differences_of(tune, s, TUNE_START, TUNE_TUNED),
-                                              "tuned_less_scaled", differences_of(tune, s, TUNE_SCALED, TUNE_TUNED)));
+        json_array_append_new(list, json_pack("{s:s, s:b, s:o, s:o, s:o}", "capture", subject->path, "held_out",
+                                              subject->held_out, "contenders", contenders, "tuned_less_start",
+                                              differences_of(tune, s, TUNE_START, TUNE_TUNED), "tuned_less_scaled",
+                                              differences_of(tune, s, TUNE_SCALED, TUNE_TUNED)));
     }
     return list;
 }
@@ -159,8 +173,8 @@ json_t *tune_json(const struct tune *tune) {
                          ? json_null()
                          : json_pack("{s:f, s:f, s:f, s:b}", "factor", tune->factor, "error", tune->scaled.error,
                                      "cost", tune->scaled.cost, "within", tune->scaled_within);
-    return json_pack("{s:s, s:O, s:{s:f, s:f}, s:b, s:I, s:o, s:o, s:o}", "preset", tune->out, "provenance",
+    return json_pack("{s:s, s:O, s:{s:f, s:f}, s:b, s:I, s:o, s:o, s:o, s:o}", "preset", tune->out, "provenance",
                      tune->provenance, "start", "error", tune->start.error, "cost", tune->start.cost, "within",
                      tune->confirmed_within, "fresh", (json_int_t)tune->fresh, "left", left_json(tune), "scaled",
-                     scaled, "confirmed", confirmed_json(tune));
+                     scaled, "confirmed", confirmed_json(tune), "overall", tune_overall_json(tune));
 }

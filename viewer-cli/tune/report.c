@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "io/table.h"
+#include "tune/overall.h"
 #include "tune/tune.h"
 
 const char *tune_cost_unit(const struct tune *tune) {
@@ -179,10 +180,12 @@ void tune_print(const struct tune *tune) {
     const struct glint_device_info *device = glint_device_get_info(tune->device);
     print_summary(tune);
     print_moved(tune);
-    for (size_t s = 0; tune->confirmed && s < tune->subject_count; s++) {
-        print_contenders(tune, s);
-        print_differences(tune, s);
+    for (size_t i = 0; tune->overall && i < tune->subject_count; i++) {
+        if (!tune_is_shown(tune, i)) continue;
+        print_contenders(tune, tune_ranked(tune, i));
+        print_differences(tune, tune_ranked(tune, i));
     }
+    if (tune->overall) tune_print_overall(tune);
     print_left(tune);
     if (tune->repeat)
         printf("times: median of %u alternating rounds on %s, with 95 %% intervals%s\n", tune->repeat, device->name,

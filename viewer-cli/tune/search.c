@@ -34,7 +34,8 @@ static bool search(struct tune *tune, uint32_t tries, const double *known, size_
                                                  .seed = tune->seed,
                                                  .noise = tune->fetches ? 0 : NOISE_PER_CENT * 0.01,
                                                  .initial = known,
-                                                 .initial_count = count};
+                                                 .initial_count = count,
+                                                 .announce = tune_announce};
     struct glint_search_axis *axes = calloc(tune->axis_count + 1, sizeof *axes);
     if (!axes) return fail_memory(err);
     for (size_t a = 0; a < tune->axis_count; a++) {

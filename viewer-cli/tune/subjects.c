@@ -1,8 +1,9 @@
-/* Loads the captures, runs the start once on each, and times pipelines on them. */
+/* Loads the captures, and evaluates and times pipelines on them. */
 #include <math.h>
 #include <stdlib.h>
 
 #include "glint/sort.h"
+#include "options/capture_set.h"
 #include "tune/tune.h"
 
 bool tune_report(void *user, const char *what, double done) {
@@ -29,21 +30,33 @@ static bool find_target(struct tune *tune, struct tune_subject *subject, struct 
     return ok;
 }
 
+/* The list that has the subject, and its place there. */
+static const struct list *list_of(const struct tune *tune, size_t s, size_t *place) {
+    *place = tune->subjects[s].held_out ? s - tune->captures.count : s;
+    return tune->subjects[s].held_out ? &tune->held_out : &tune->captures;
+}
+
 bool tune_load_subject(struct tune *tune, size_t s, uint32_t resamples, struct glint_error *err) {
     struct tune_subject *subject = &tune->subjects[s];
     struct glint_judge_options options = answer_args_judge(&tune->against, tune->folder, s);
+    size_t place;
+    const struct list *list = list_of(tune, s, &place);
+    if (subject->judge) return true;
     options.all = tune->all;
     options.metrics = GLINT_METRICS_CHEAP | 1u << tune->metric;
     options.resamples = resamples;
     options.keep_resampled = resamples != 0;
     options.seed = 1;
     if (!tune->against.truth) progress_phase(tune->progress, "reference, %.24s", base_name(subject->path));
-    return (subject->capture = glint_capture_open(subject->path, NULL, err)) &&
-           (subject->judge = glint_judge_create(tune->device, &options, err)) &&
-           glint_judge_load(subject->judge, subject->capture, err) && find_target(tune, subject, err);
+    const bool ok = (subject->capture = glint_capture_open(subject->path, NULL, err)) &&
+                    capture_set_check_open(list, place, subject->capture, err) &&
+                    (subject->judge = glint_judge_create(tune->device, &options, err)) &&
+                    glint_judge_load(subject->judge, subject->capture, err) && find_target(tune, subject, err);
+    if (!ok) tune_unload_subject(tune, s);
+    return ok;
 }
 
-bool tune_load(struct tune *tune, struct glint_error *err) {
+bool tune_make_subjects(struct tune *tune, struct glint_error *err) {
     tune->subject_count = tune->captures.count + tune->held_out.count;
     tune->subjects = calloc(tune->subject_count + 1, sizeof *tune->subjects);
     if (!tune->subjects) return fail_memory(err);
@@ -53,14 +66,20 @@ bool tune_load(struct tune *tune, struct glint_error *err) {
         struct tune_subject *subject = &tune->subjects[s];
         subject->held_out = s >= tune->captures.count;
         subject->path = subject->held_out ? tune->held_out.items[s - tune->captures.count] : tune->captures.items[s];
-        if (subject->held_out) continue;
-        struct glint_verdict verdict;
-        progress_phase(tune->progress, "start");
-        snprintf(tune->label, sizeof tune->label, "%s", glint_pipeline_name(tune->base));
-        if (!tune_load_subject(tune, s, 0, err) || !tune_judge(tune, subject, tune->base, &verdict, err)) return false;
-        glint_verdict_finish(&verdict);
     }
     return true;
+}
+
+size_t tune_live(const struct tune *tune) {
+    size_t live = 0;
+    for (size_t s = 0; s < tune->captures.count; s++) live += !tune->subjects[s].broken;
+    return live;
+}
+
+bool tune_fails_alone(const struct tune *tune, size_t s, const struct glint_error *own) {
+    size_t place;
+    const struct list *list = list_of(tune, s, &place);
+    return tune->subject_count > 1 && capture_set_fails_alone(list, place, own);
 }
 
 bool tune_judge(struct tune *tune, struct tune_subject *subject, const struct glint_pipeline *pipeline,

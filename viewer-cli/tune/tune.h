@@ -9,6 +9,7 @@
 #include "glint/search.h"
 #include "journal/again.h"
 #include "journal/journal.h"
+#include "journal/shard.h"
 #include "io/progress.h"
 
 enum { TUNE_TEXT = 48 };
@@ -23,7 +24,7 @@ struct tune_axis {
 };
 /* A declared parameter that is not tuned, and the reason. */
 struct tune_left {
-    char name[128], why[224]; /* "cocoon.size", "is used for cube maps, …" */
+    char name[128], why[256]; /* "cocoon.size", "is used for cube maps, …" */
 };
 #define TUNE_NO_EFFECT "has no effect on these captures"
 /* Error and cost of a pipeline on one capture, or over all captures that are tuned on. */
@@ -33,9 +34,12 @@ struct tune_figures {
 struct tune_subject {
     const char *path;
     bool held_out; /* not tuned on; measured in the final comparison only */
+    char *broken;  /* why it is left out; NULL: it is not */
+    json_t *slots; /* {SLOT: {"ran", "cached", "needed", "reason"}}: what the start's passes did; NULL: not known yet */
+    bool noted;    /* the journal has either */
     struct glint_capture *capture;
-    struct glint_judge *judge;
-    double start_ms; /* what times are relative to; 0: not measured yet */
+    struct glint_judge *judge; /* NULL: not loaded */
+    double start_ms;           /* what times are relative to; 0: not measured yet */
     struct tune_figures
         norm;      /* what --over worst and --baseline measure others by here: the baseline's, else the start's */
     double factor; /* of TUNE_SCALED here: the least at which it costs no less than what was tuned */
@@ -55,7 +59,9 @@ struct tune_measured {
 };
 
 struct tune {
-    const char *out, *folder; /* file of the preset; folder for everything else */
+    const char *out, *folder; /* file of the preset; folder for everything else, of a shard its own */
+    const char *common;       /* the folder of all shards */
+    struct shard shard;
     struct list captures, held_out, vary, slots;
     const struct list *shaders; /* of --shader */
     struct answer_args against;
@@ -80,8 +86,12 @@ struct tune {
     struct tune_left *left;
     size_t left_count;
     struct journal journal;
-    json_t *lines; /* lines of the journal: figures by values */
-    size_t fresh;  /* number of pipelines that this call evaluated */
+    json_t *definition;
+    json_t *lines;              /* of points: figures on all captures by values; the journal's, but of a shard */
+    json_t *single;             /* lines of points on one capture, by tune_point_key: of this shard and of the others */
+    bool timed;                 /* the journal has the start's times */
+    size_t fresh;               /* number of pipelines that this call evaluated; of a shard on each capture */
+    struct tune_shards *shards; /* the others' journals; NULL: there are none */
 
     struct glint_search_result found;
     struct tune_figures start;
@@ -96,6 +106,7 @@ struct tune {
     struct glint_pipeline *contenders[TUNE_CONTENDERS]; /* NULL: none */
     json_t *provenance;                                 /* how the preset was found, as last written */
     struct tune_measured *measured;                     /* subject · TUNE_CONTENDERS + contender */
+    struct tune_overall *overall;                       /* of all of them (tune/overall.h); NULL: not measured yet */
 };
 void tune_finish(struct tune *tune);
 const char *tune_cost_unit(const struct tune *tune);       /* "ms", "fetches/px" */
@@ -104,8 +115,11 @@ extern const char *const tune_contenders[TUNE_CONTENDERS]; /* "start", "tuned", 
 /* The modules below depend only on those above them. */
 
 /* axes.c */
-/* Makes the axes that --vary names, or all declared ones, and lists parameters that are not tuned with the reason. Call after tune_load. */
+/* Makes the axes that --vary names, or all declared ones of the passes that ran (tune_begin_captures), and lists parameters that are not tuned with the
+   reason. */
 bool tune_make_axes(struct tune *tune, struct glint_error *err);
+/* What the start's passes did in its last run on this capture, for its `slots`; NULL with an error. */
+json_t *tune_slots(struct tune *tune, struct tune_subject *subject, struct glint_error *err);
 void tune_value_text(const struct tune_axis *axis, double value, char text[TUNE_TEXT]);
 /* Whether the time of a slot counts: by default all, else those of --slots. */
 bool tune_slot_counts(const struct tune *tune, const char *slot);
@@ -115,10 +129,14 @@ struct glint_pipeline *tune_pipeline(const struct tune *tune, const double *valu
 bool tune_scale(const struct tune *tune, double factor, double *values);
 
 /* subjects.c */
-/* Opens and uploads the captures that are tuned on, and runs the start once on each. */
-bool tune_load(struct tune *tune, struct glint_error *err);
-/* Loads one more capture, with its own judge. */
+bool tune_make_subjects(struct tune *tune, struct glint_error *err);
+/* Opens and uploads a capture with its own judge, and finds what errors are measured against, unless it is loaded. */
 bool tune_load_subject(struct tune *tune, size_t subject, uint32_t resamples, struct glint_error *err);
+/* Whether one of several captures fails by itself, by this error: it is left out, and another run would fail in the same way. Else it is an error of all,
+   such as too little memory. */
+bool tune_fails_alone(const struct tune *tune, size_t subject, const struct glint_error *own);
+/* The number of captures that are tuned on and can be read. */
+size_t tune_live(const struct tune *tune);
 void tune_unload_subject(struct tune *tune, size_t subject);
 /* Evaluates a pipeline, and measures the cost of one round, as glint_judge_evaluate and glint_judge_time do, once more if the device is lost. */
 bool tune_judge(struct tune *tune, struct tune_subject *subject, const struct glint_pipeline *pipeline,
@@ -138,11 +156,39 @@ bool tune_time_in_turns(struct tune *tune, struct tune_subject *subject, struct 
                         struct tune_times times[TUNE_CONTENDERS], struct glint_error *err);
 bool tune_report(void *user, const char *what, double done); /* a glint_progress; user: the tune */
 
-/* try.c */
-/* Begins the journal, or resumes it. Call after tune_make_axes. */
+/* work.c */
+/* Begins the journal, or resumes it. --vary's axes must be made before it. */
 bool tune_open(struct tune *tune, struct glint_error *err);
+/* Receives a line of a journal, own or another shard's; false if it is none of this search. */
+bool tune_keep_line(void *user, json_t *line);
+/* Whether all lines so far are of these axes, which may be made after the journal is opened. */
+bool tune_check_lines(const struct tune *tune, struct glint_error *err);
+/* Decodes the texts of values. */
+void tune_values_of(const struct tune *tune, const json_t *texts, double *values);
+/* A piece of work that shards share out: the start on a capture (`values` NULL), or the point of these values, which are texts as in the journal. */
+bool tune_is_known(const struct tune *tune, size_t capture, const json_t *values);
+/* Does it and keeps the result; a shard appends it to its journal. A capture of several that cannot be read is left out. */
+bool tune_do(struct tune *tune, size_t capture, const json_t *values, struct glint_error *err);
+/* Appends to the journal what came of the start on a capture, unless it is there. */
+bool tune_note_beginning(struct tune *tune, size_t capture, struct glint_error *err);
+/* The name of such work, malloc'd; NULL without memory. */
+char *tune_point_key(size_t capture, const json_t *values);
+
+/* shards.c */
+/* Reads what the shards of the folder have done; of a shard those of the same search, of the whole search all. */
+bool tune_shards_open(struct tune *tune, struct glint_error *err);
+void tune_shards_close(struct tune *tune);
+/* Has the work on all captures done that is not known yet, each time once: by this process alone, or by all shards that run. `points`: values of
+   points; NULL: the start. Returns when all of it is known. */
+bool tune_share(struct tune *tune, const json_t *points, struct glint_error *err);
+
+/* try.c */
+/* Runs the start once on each capture, unless the journal has what came of it. */
+bool tune_begin_captures(struct tune *tune, struct glint_error *err);
 /* Evaluates these values, or finds them in the journal. */
 bool tune_evaluate(struct tune *tune, const double *values, struct tune_figures *figures, struct glint_error *err);
+/* Evaluates points that are needed next together with the other shards; does nothing without shards. A glint_search_announce; user: the tune. */
+bool tune_announce(void *user, const double *values, size_t count, struct glint_error *err);
 /* Makes the figures of these values, which must have been evaluated, the norm for others. */
 void tune_set_norm(struct tune *tune, const double *values);
 /* Corrects costs from now on: these values were timed to take `part` of their limit, and parts[capture] of the baseline's time. */

@@ -127,12 +127,13 @@ struct glint_row {
     bool optional; /* READ: no pass has to make the image; this row then states its format, size and fallback value */
     const char
         *beside;       /* READ of an image of the capture: made images beside which it is read, or NULL (READ_BESIDE) */
-    const char *image; /* READ_OWN, HISTORY: the image; NULL: `name` */
+    const char *image; /* READ_OWN, WRITE_LEVELS, HISTORY: the image; NULL: `name` */
     const char *
         assigned; /* REFERENCE_SET: an assignment for glint_pipeline_set. DISPATCH_LEVELS, IN_PLACE_OF: a parameter, or NULL */
     /* DISPATCH_LEVELS: first and last level, both included; a negative number counts from the coarsest level, which is -1. With a
        parameter they count from the finest level that is no wider than the parameter's value. */
     int first, last;
+    int chain; /* DISPATCH_LEVELS: levels that each dispatch writes on a GPU (DISPATCH_CHAIN), which begin behind those of a DISPATCH; 0: one */
     enum glint_level_order order;
     /* parameters */
     enum glint_value_type type;

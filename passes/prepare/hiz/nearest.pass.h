@@ -3,5 +3,7 @@ PASS("Nearest and farthest depth", "KF2 article, HZB Optimization (nearest depth
 #include "slot.h"
 #line 202
 READ_OWN(texture2D, finer, hiz)
+WRITE_LEVELS(image2D, hiz_levels, hiz)
 DISPATCH(depth_slopes)
-DISPATCH_LEVELS(hiz, 1, -1, down)
+DISPATCH_CHAIN(hiz)
+WORKGROUP(16, 16)

@@ -49,6 +49,8 @@ struct glint_shapley {
    less than the first four arrays. Release it with glint_shapley_finish in any case. */
 bool glint_shapley(const struct glint_game *game, const struct glint_shapley_options *options,
                    struct glint_shapley *shapley, struct glint_error *err);
+/* The order in which all 2^players coalitions are evaluated where shares are exact. */
+void glint_shapley_order(size_t players, uint32_t *order);
 void glint_shapley_finish(struct glint_shapley *shapley);
 
 /* ---- Players: slots that can be replaced by the reference's ---- */

@@ -34,6 +34,10 @@ struct glint_search_figures {
 /* Evaluates a point, given as one value an axis within its range. Called once for each point. False with an error ends the search. */
 typedef bool (*glint_search_evaluate)(void *user, const double *values, struct glint_search_figures *figures,
                                       struct glint_error *err);
+/* Announces points that are evaluated next, one value an axis, one point after the other: several threads or processes may evaluate them at the same time,
+   before the search asks for the first. It asks for them in this order, but for screened groups; points may be announced again. A few of them are never asked
+   for: when the points before them end what the search tries, or use up max_points. False with an error ends the search. */
+typedef bool (*glint_search_announce)(void *user, const double *values, size_t count, struct glint_error *err);
 struct glint_search_options {
     double limit;
     uint32_t max_points; /* the maximum number of points to evaluate, the start and the initial points included */
@@ -43,6 +47,7 @@ struct glint_search_options {
        good as each of them. */
     const double *initial;
     size_t initial_count;
+    glint_search_announce announce; /* or NULL: the search is the same without it */
 };
 
 struct glint_search_point {
@@ -67,7 +72,8 @@ bool glint_search_better(const struct glint_search_figures *a, const struct glin
    improves it, COBYLA (M. J. D. Powell, "A direct search optimization method that models the objective and constraint functions by
    linear interpolation", 1994; from NLopt) continues over the numbers, and then the search restarts from a random displacement of the
    best point. If max_points do not suffice for the first steps on all axes, groups of axes are screened first, and steps begin with the
-   axes of the largest effect. After an error `result` holds what was found so far; release it in any case. */
+   axes of the largest effect. Steps, screened groups and simplified combinations are announced together; what COBYLA and the search along a direction ask for
+   depends on each point before. After an error `result` holds what was found so far; release it in any case. */
 bool glint_search(const struct glint_search_axis *axes, size_t count, const struct glint_search_options *options,
                   glint_search_evaluate try_point, void *user, struct glint_search_result *result,
                   struct glint_error *err);

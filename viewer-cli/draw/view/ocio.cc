@@ -87,6 +87,7 @@ void check_size(const std::string &path) {
         if (byte == '*' && std::strchr(" ,[:-", before)) aliases++;
         before = byte == '\n' || byte == '\t' ? ' ' : byte;
     }
+    if (file.bad()) throw std::runtime_error(path + ": it cannot be read"); // of which yaml-cpp would leak, too
     if (size > most) throw std::runtime_error(path + ": longer than 16 MiB");
     if (aliases > most_aliases)
         throw std::runtime_error(path + ": more than " + std::to_string(most_aliases) + " aliases (*name)");
