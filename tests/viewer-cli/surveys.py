@@ -170,7 +170,8 @@ class Tests:
         self.interrupted(LINT, "resumed", lambda lines: [{**lines[0], "findings": [MARK]}])
         found = json.loads(tap.glint(*LINT, "-o", "resumed", "--json", status=1).stdout)
         assert [row["capture"] for row in found["captures"] if row.get("findings") == [MARK]] == ["set/room.exr"]
-        assert found["summary"] == {"captures": 4, "with_findings": 3, "unreadable": 1} and os.listdir("resumed") == ["results.json"]
+        assert found["summary"] == {"captures": 4, "with_findings": 2, "unreadable": 1}, found["summary"]
+        assert os.listdir("resumed") == ["results.json"], os.listdir("resumed")
         self.interrupted(VALIDATE, "validated", lambda lines: [{"capture": 0, "error": "from the journal"}])
         found = json.loads(tap.glint(*VALIDATE, "-o", "validated", "--json", status=1).stdout)
         assert [file.get("error") for file in found["files"]] == ["from the journal", None, None, None]
