@@ -152,7 +152,7 @@ KINDS = [
     Kind('DISPATCH_CHAIN', 'image',
          'Behind a DISPATCH over level 0, the other levels. On a GPU, where a dispatch takes longer than its work on small levels, each one writes the '
          'level that it runs over and the next coarser ones, CHAIN = 5 in all (WRITE_LEVELS): the DISPATCH levels 0 to 4, then one dispatch levels 5 '
-         'to 9, and so on. On a CPU, where a barrier in a workgroup takes longer, CHAIN is 1: each level has its own dispatch.',
+         'to 9, and so on. On a CPU, where a barrier in a workgroup takes longer, CHAIN is 1: each level has its own dispatch, and workgroups are 8 x 8.',
          row=f'.name = #$image, .chain = {CHAIN}, .last = -1, .order = GLINT_ORDER_down',
          bindings=f'layout(constant_id = __LINE__) const int CHAIN = {CHAIN};', as_kind='DISPATCH_LEVELS'),
     Kind('DISPATCH_LIST', 'list, range',

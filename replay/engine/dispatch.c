@@ -18,7 +18,7 @@ static struct face_run *needed_layers(const struct run *run, const struct step *
 static void add_dispatch(const struct run *run, struct step *step, uint32_t phase, const struct glint_row *row,
                          const struct pooled *image, uint32_t level) {
     struct extent extent = image_extent(&image->image.desc, level);
-    struct workgroup group = pass_workgroup(step->pass->pass);
+    struct workgroup group = pass_workgroup(step->pass->pass, run->sizes->is_cpu);
     const uint32_t block = pass_block(step->pass->pass, run->sizes->is_cpu);
     group.width *= block, group.height *= block;
     if (image->image.desc.buffer) {

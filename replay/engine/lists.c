@@ -19,7 +19,7 @@ static uint32_t tile_side(const struct run *run, const struct image_desc *over) 
 
 bool step_add_list(const struct run *run, struct step *step, uint32_t phase, const struct image_desc *over,
                    const struct glint_row *row, struct glint_error *err) {
-    const struct workgroup group = pass_workgroup(step->pass->pass);
+    const struct workgroup group = pass_workgroup(step->pass->pass, run->sizes->is_cpu);
     const uint32_t side = tile_side(run, over), tiles = group.width * group.height / (side * side);
     if (tiles != 16 && tiles != 32 && tiles != 64)
         return glint_fail(

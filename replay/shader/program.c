@@ -26,11 +26,12 @@ static bool add_constant(struct constants *constants, uint32_t id, uint32_t bits
     return true;
 }
 
-struct workgroup pass_workgroup(const struct glint_pass *pass) {
-    for (size_t r = 0; r < pass->row_count; r++)
-        if (pass->rows[r].kind == GLINT_ROW_WORKGROUP)
-            return (struct workgroup){(uint32_t)pass->rows[r].first, (uint32_t)pass->rows[r].last};
-    return (struct workgroup){8, 8};
+struct workgroup pass_workgroup(const struct glint_pass *pass, bool is_cpu) {
+    const struct glint_row *group = glint_pass_row(pass, GLINT_ROW_WORKGROUP, NULL);
+    bool alone = false; /* each invocation works for itself */
+    for (size_t r = 0; r < pass->row_count; r++) alone |= pass->rows[r].chain && is_cpu;
+    if (!group || alone) return (struct workgroup){8, 8};
+    return (struct workgroup){(uint32_t)group->first, (uint32_t)group->last};
 }
 
 bool constants_init(struct constants *constants, const struct graph *graph, const struct graph_pass *graph_pass,
@@ -40,7 +41,7 @@ bool constants_init(struct constants *constants, const struct graph *graph, cons
     const struct glint_pass *pass = graph_pass->pass;
     const double *values = graph_pass->entry->values;
     uint32_t facts = 0;
-    const struct workgroup group = pass_workgroup(pass);
+    const struct workgroup group = pass_workgroup(pass, is_cpu);
     const uint32_t place = (uint32_t)(graph_pass - graph->passes) + 1;
     bool fits = add_constant(constants, 0, options->diagnostics) &&
                 add_constant(constants, CONSTANT_PROBE, constants->probed ? place : 0) &&
@@ -156,7 +157,7 @@ VkDescriptorType row_descriptor(const struct glint_row *row) {
 static bool check_limits(const struct gpu *gpu, const struct glint_pass *pass,
                          const VkDescriptorSetLayoutBinding *bindings, uint32_t count, const char *name,
                          struct glint_error *err) {
-    const struct workgroup group = pass_workgroup(pass);
+    const struct workgroup group = pass_workgroup(pass, gpu->info.is_cpu);
     uint32_t sampled = 0, stored = 0;
     for (uint32_t i = 0; i < count; i++) {
         const bool read = bindings[i].descriptorType == VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE ||

@@ -10,7 +10,7 @@
 struct workgroup {
     uint32_t width, height;
 };
-struct workgroup pass_workgroup(const struct glint_pass *pass);
+struct workgroup pass_workgroup(const struct glint_pass *pass, bool is_cpu);
 
 enum {
     PUSH_BYTES_MAX = 128,
