@@ -169,7 +169,8 @@ PAGE = """# How time and memory grow
 
 Written by `tools/growth.py page` from records that `tools/growth.py measure build/viewer-cli/glint NAME -o RECORD.json` makes; do not edit. Each table changes one thing, and fits a power of it to
 every figure over the larger half of its columns: the exponent is 1 where twice as much takes twice as long, 0 where it changes nothing. Times of passes are the device's, medians; those of lavapipe are
-those of a CPU. A whole replay reads the capture, runs every pass once and writes every image.
+those of a CPU. A whole replay reads the capture, runs every pass once and writes every image. A GPU that a small picture or a small cube map does not fill takes about as long for it as for a larger one,
+and at least some µs for each dispatch: there the exponents are below those of the work, and come near them only at the right end of a table.
 """
 
 
