@@ -146,7 +146,11 @@ static enum status cmd_merge_run(int argc, char **argv) {
     json_t *made = json_array();
     command_parse(&cmd_merge, argc, argv, &a);
     bool ok = made ? expand(&a, made, &err) : fail_memory(&err);
-    if (ok && !a.out) ok = glint_fail(&err, GLINT_ERROR_USAGE, "no folder for the result of these shards: -o FOLDER");
+    if (ok && !a.out)
+        ok = glint_fail(&err, GLINT_ERROR_USAGE,
+                        "%s: expected a folder with shards/K-of-N, as --shard makes it; shards that are named one by "
+                        "one need -o FOLDER",
+                        a.folders.items[0]);
     const enum status status = ok ? merge_shards(&a, &merge, &err) : command_fail(&cmd_merge, &err);
     merge_close(&merge);
     list_free(&a.folders);
