@@ -343,7 +343,7 @@ static enum status report_tune(const struct arguments *a) {
     return STATUS_CHECK;
 }
 
-/* The arguments as they were given, which parsing reorders and cuts into pieces; NULL without memory. Owned by `owner`. */
+/* The arguments in the order in which they were given, which parsing changes and the page of the merged result shows; NULL without memory. Owned by `owner`. */
 static char **keep_arguments(int argc, char **argv, json_t *owner) {
     char **kept = calloc((size_t)argc + 1, sizeof *kept);
     for (int i = 0; kept && i < argc; i++) {

@@ -36,6 +36,7 @@ uint32_t pass_block(const struct glint_pass *pass, bool is_cpu) {
     return row && is_cpu ? (uint32_t)row->first : 1;
 }
 uint32_t row_bindings(const struct glint_row *row) {
+    if (!row_is_image(row)) return 0;
     return row->kind == GLINT_ROW_WRITE_LEVELS ? (uint32_t)row->chain : 1;
 }
 const char *row_image(const struct glint_row *row) {

@@ -8,7 +8,7 @@ enum { PASS_IMAGES_MAX = 64 }; /* the maximum number of images that a pass reads
 #define HISTORY_PREFIX "history."
 
 bool row_is_sampled(const struct glint_row *row);
-uint32_t row_bindings(const struct glint_row *row); /* of an image: levels of WRITE_LEVELS, else 1 */
+uint32_t row_bindings(const struct glint_row *row); /* of an image: levels of WRITE_LEVELS, else 1; 0: no image */
 bool row_is_image(const struct glint_row *row);     /* an image that is bound to the shader: sampled, or written */
 const char *row_image(const struct glint_row *row);
 bool row_is_dispatch(const struct glint_row *row); /* DISPATCH or DISPATCH_LEVELS */

@@ -73,8 +73,7 @@ bool run_prepare(struct run *run, struct glint_error *err) {
         quick |= step->quick;
         sets += (uint32_t)step->dispatch_count;
         for (size_t r = 0; r < pass->row_count; r++)
-            images +=
-                (uint32_t)step->dispatch_count * (row_is_image(&pass->rows[r]) ? row_bindings(&pass->rows[r]) : 0);
+            images += (uint32_t)step->dispatch_count * row_bindings(&pass->rows[r]);
     }
     const uint32_t sums = rays_sums(run);
     if (!descriptors_create(run->gpu, sets + sums + quick, images + 2 * sums + 1, quick, &run->descriptors, err))

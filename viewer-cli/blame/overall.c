@@ -121,9 +121,7 @@ static void print_group(struct table *table, const struct blame *blame, size_t g
     const struct capture_group *of = &blame->overall.groups.of[group];
     const size_t largest = largest_of(blame, group, answer);
     for (size_t p = blame->count; p-- > 0;) {
-        table_cell(table, "%s", capture_group_name(of));
-        table_cell(table, "%zu", of->captures);
-        table_cell(table, "%zu", of->shots);
+        group_cells(table, of);
         table_cell(table, "%s", glint_player_name(blame->players, p));
         figure_cell(table, player_figure(blame, group, answer, p, BLAME_SHARE));
         if (p == largest) table_cell(table, "largest");
@@ -134,15 +132,9 @@ static void print_group(struct table *table, const struct blame *blame, size_t g
 }
 
 static void print_figures(const struct blame *blame, size_t answer) {
-    static const char *const titles[] = {"<captures",
-                                         ">number",
-                                         ">shots",
-                                         "<slot",
-                                         "<share",
-                                         "<below the largest",
-                                         "<saved if ideal",
-                                         "<left if all others are ideal",
-                                         NULL};
+    static const char *const titles[] = {
+        GROUP_TITLES, "<slot", "<share", "<below the largest", "<saved if ideal", "<left if all others are ideal",
+        NULL};
     if (isnan(figures_of(blame, 0, answer)[OF_PRESET].value)) return;
     struct table *table = table_create(titles);
     for (size_t g = 0; g < blame->overall.groups.count; g++) print_group(table, blame, g, answer);
@@ -210,14 +202,12 @@ static json_t *answer_json(const struct blame *blame, size_t group, size_t answe
 json_t *blame_overall_json(const struct blame *blame) {
     json_t *groups = json_array();
     for (size_t g = 0; g < blame->overall.groups.count; g++) {
-        const struct capture_group *of = &blame->overall.groups.of[g];
-        json_t *errors = json_object();
+        json_t *json = group_json(&blame->overall.groups.of[g]), *errors = json_object();
         for (size_t a = 0; a < GLINT_TARGET_COUNT; a++)
             if (!isnan(figures_of(blame, g, a)[OF_PRESET].value))
                 json_object_set_new(errors, glint_target_name(blame_answer(blame, a)), answer_json(blame, g, a));
-        json_array_append_new(groups,
-                              json_pack("{s:s?, s:I, s:I, s:o}", "tag", of->tag, "captures", (json_int_t)of->captures,
-                                        "shots", (json_int_t)of->shots, "errors", errors));
+        json_object_set_new(json, "errors", errors);
+        json_array_append_new(groups, json);
     }
     return groups;
 }
@@ -237,11 +227,10 @@ json_t *blame_worst_json(const struct blame *blame) {
 /* ---- The page ---- */
 
 static void page_group(json_t *table, const struct blame *blame, size_t group, size_t answer) {
-    const struct capture_group *of = &blame->overall.groups.of[group];
     const size_t largest = largest_of(blame, group, answer);
     for (size_t p = blame->count; p-- > 0;) {
-        json_t *row = json_pack("[s, I, I, s]", capture_group_name(of), (json_int_t)of->captures, (json_int_t)of->shots,
-                                glint_player_name(blame->players, p));
+        json_t *row = group_page_row(&blame->overall.groups.of[group]);
+        json_array_append_new(row, json_string(glint_player_name(blame->players, p)));
         for (int f = 0; f < BLAME_FIGURES; f++)
             json_array_append_new(
                 row, f == BLAME_BELOW && p == largest
@@ -261,10 +250,7 @@ void blame_page_overall(const struct blame *blame, json_t *document) {
         char text[100];
         snprintf(text, sizeof text, "Against the %s", glint_target_name(blame_answer(blame, a)));
         page_text(blocks, "heading", text);
-        json_t *table = page_table(blocks);
-        page_column(table, "captures", "");
-        page_column(table, "number", "");
-        page_column(table, "shots", "");
+        json_t *table = group_page_table(blocks);
         page_column(table, "player", "");
         page_column(table, "share", "");
         page_column(table, "saved if ideal", "");

@@ -35,9 +35,7 @@ static void number_cell(struct table *table, const char *format, double value) {
 static void print_group(struct table *table, const struct contest_table *t, const struct contest_group *g) {
     for (size_t p = 0; p < t->contest->count; p++) {
         const bool best = p == g->best && !isnan(mean_of(g, p, CONTEST_ERROR)->value);
-        table_cell(table, "%s", capture_group_name(g->of));
-        table_cell(table, "%zu", g->of->captures);
-        table_cell(table, "%zu", g->of->shots);
+        group_cells(table, g->of);
         table_cell(table, "%s", label_of(t, p));
         number_cell(table, "%.4f", mean_of(g, p, CONTEST_ERROR)->value);
         if (best) table_mark(table, MARK_GOOD);
@@ -49,9 +47,8 @@ static void print_group(struct table *table, const struct contest_table *t, cons
 }
 
 static void print_figures(const struct contest_table *t, const struct contest_overall *o) {
-    static const char *const titles[] = {"<captures", ">number",   ">shots", "<preset",
-                                         ">error",    ">coverage", ">ms",    "<error beyond the best, 95 % interval",
-                                         NULL};
+    static const char *const titles[] = {
+        GROUP_TITLES, "<preset", ">error", ">coverage", ">ms", "<error beyond the best, 95 % interval", NULL};
     struct table *table = table_create(titles);
     for (size_t g = 0; g < o->captures.count; g++) print_group(table, t, &o->groups[g]);
     puts("\nOver all captures, and over those with each tag: means over captures, of errors over the pixels that all "
@@ -110,7 +107,7 @@ void contest_print_overall(const struct contest_table *t, const struct contest_o
 
 /* ---- JSON ---- */
 
-static json_t *group_json(const struct contest_table *t, const struct contest_group *g) {
+static json_t *json_of(const struct contest_table *t, const struct contest_group *g) {
     const size_t count = t->contest->count;
     json_t *presets = json_array(), *pairs = json_array();
     for (size_t p = 0; p < count; p++) {
@@ -127,14 +124,15 @@ static json_t *group_json(const struct contest_table *t, const struct contest_gr
                                     figure_json(&g->pairs[(a * count + b) * CONTEST_PAIRED + f]));
             json_array_append_new(pairs, pair);
         }
-    json_t *json = json_pack("{s:s?, s:I, s:I, s:o, s:o}", "tag", g->of->tag, "captures", (json_int_t)g->of->captures,
-                             "shots", (json_int_t)g->of->shots, "presets", presets, "differences", pairs);
+    json_t *json = group_json(g->of);
+    json_object_set_new(json, "presets", presets);
+    json_object_set_new(json, "differences", pairs);
     return json;
 }
 
 json_t *contest_overall_json(const struct contest_table *t, const struct contest_overall *o) {
     json_t *groups = json_array(), *worst = json_array();
-    for (size_t g = 0; g < o->captures.count; g++) json_array_append_new(groups, group_json(t, &o->groups[g]));
+    for (size_t g = 0; g < o->captures.count; g++) json_array_append_new(groups, json_of(t, &o->groups[g]));
     for (size_t i = 0; i < t->capture_count - o->unreadable && i < CAPTURES_SHOWN; i++)
         json_array_append_new(worst, json_pack("{s:s, s:o}", "capture", t->captures[o->order[i]], "error",
                                                json_number(contest_worst_error(t->log, o->order[i]))));
@@ -145,8 +143,8 @@ json_t *contest_overall_json(const struct contest_table *t, const struct contest
 
 static void add_group(json_t *table, const struct contest_table *t, const struct contest_group *g) {
     for (size_t p = 0; p < t->contest->count; p++) {
-        json_t *row = json_pack("[s, I, I, s]", capture_group_name(g->of), (json_int_t)g->of->captures,
-                                (json_int_t)g->of->shots, label_of(t, p));
+        json_t *row = group_page_row(g->of);
+        json_array_append_new(row, json_string(label_of(t, p)));
         json_array_append_new(row, figure_page_cell(mean_of(g, p, CONTEST_ERROR), 1));
         json_array_append_new(row,
                               p == g->best ? json_null() : figure_page_cell(beyond_best(t, g, p, CONTEST_ERROR), 1));
@@ -163,10 +161,7 @@ void contest_page_figures(json_t *document, const struct contest_table *t, const
               "Means over captures, and over those with each tag; errors are over the pixels that all presets cover. "
               "Differences are from the preset with the least error, in the same captures. The intervals contain the "
               "mean with 95 % confidence (bootstrap over shots).");
-    json_t *table = page_table(blocks);
-    page_column(table, "captures", "");
-    page_column(table, "number", "");
-    page_column(table, "shots", "");
+    json_t *table = group_page_table(blocks);
     page_column(table, "preset", "");
     page_column(table, "error", "0 to 1");
     page_column(table, "beyond the best", "");

@@ -40,8 +40,13 @@ bool capture_groups_rank(const struct capture_groups *groups, const double *valu
 
 /* ---- shown.c: in tables, JSON and pages ---- */
 
-/* "all", or the tag. */
-const char *capture_group_name(const struct capture_group *group);
+/* What a row about a group begins with, its name ("all", or the tag), captures and shots: titles and cells of a table, the columns and a row of a page's table, and an
+   object {"tag", "captures", "shots"}. */
+#define GROUP_TITLES "<captures", ">number", ">shots"
+void group_cells(struct table *table, const struct capture_group *group);
+json_t *group_page_table(json_t *blocks);
+json_t *group_page_row(const struct capture_group *group);
+json_t *group_json(const struct capture_group *group);
 /* "0.012 (0.010 to 0.014)", without an interval that is not known; "+0.012 (…)" for a difference. */
 void figure_cell(struct table *table, const struct glint_figure *figure);
 void difference_cell(struct table *table, const struct glint_figure *difference);

@@ -7,8 +7,30 @@
 #include "groups/groups.h"
 #include "options/capture_set.h"
 
-const char *capture_group_name(const struct capture_group *group) {
+static const char *name_of(const struct capture_group *group) {
     return group->tag ? group->tag : "all";
+}
+
+void group_cells(struct table *table, const struct capture_group *group) {
+    table_cell(table, "%s", name_of(group));
+    table_cell(table, "%zu", group->captures);
+    table_cell(table, "%zu", group->shots);
+}
+
+json_t *group_page_table(json_t *blocks) {
+    static const char *const titles[] = {"captures", "number", "shots"};
+    json_t *table = page_table(blocks);
+    for (size_t i = 0; i < sizeof titles / sizeof *titles; i++) page_column(table, titles[i], "");
+    return table;
+}
+
+json_t *group_page_row(const struct capture_group *group) {
+    return json_pack("[s, I, I]", name_of(group), (json_int_t)group->captures, (json_int_t)group->shots);
+}
+
+json_t *group_json(const struct capture_group *group) {
+    return json_pack("{s:s?, s:I, s:I}", "tag", group->tag, "captures", (json_int_t)group->captures, "shots",
+                     (json_int_t)group->shots);
 }
 
 void figure_cell(struct table *table, const struct glint_figure *figure) {

@@ -128,9 +128,7 @@ static void print_group(struct table *table, const struct sweep *sweep, size_t g
     for (size_t p = 0; p < sweep->points; p++) {
         if (!on_front(sweep, p) && p != group->best) continue;
         char *text = sweep_point_text(sweep, p);
-        table_cell(table, "%s", capture_group_name(of));
-        table_cell(table, "%zu", of->captures);
-        table_cell(table, "%zu", of->shots);
+        group_cells(table, of);
         table_cell(table, "%zu", p);
         table_cell(table, "%s", text ? text : "");
         figure_cell(table, &group->error[p]);
@@ -178,8 +176,7 @@ static void print_rows(const struct sweep *sweep) {
 }
 
 void sweep_print_overall(const struct sweep *sweep) {
-    static const char *const titles[] = {"<captures", ">number", ">shots",           ">point",
-                                         "<values",   "<error",  "<beyond the best", NULL};
+    static const char *const titles[] = {GROUP_TITLES, ">point", "<values", "<error", "<beyond the best", NULL};
     if (sweep_is_large(sweep) || sweep->overall.broken) print_rows(sweep);
     struct table *table = table_create(titles);
     for (size_t g = 0; g < sweep->overall.captures.count; g++) print_group(table, sweep, g);
@@ -214,15 +211,16 @@ json_t *sweep_worst_json(const struct sweep *sweep) {
 /* ---- The page ---- */
 
 static void page_group(json_t *table, const struct sweep *sweep, size_t g) {
-    const struct capture_group *of = &sweep->overall.captures.of[g];
     const struct sweep_group *group = &sweep->overall.groups[g];
     for (size_t p = 0; p < sweep->points; p++) {
         if (!on_front(sweep, p) && p != group->best) continue;
         char *text = sweep_point_text(sweep, p);
-        page_row(table, json_pack("[s, I, I, I, s, o, o]", capture_group_name(of), (json_int_t)of->captures,
-                                  (json_int_t)of->shots, (json_int_t)p, text ? text : "",
-                                  figure_page_cell(&group->error[p], 1),
-                                  p == group->best ? json_null() : figure_page_cell(&group->beyond[p], 1)));
+        json_t *row = group_page_row(&sweep->overall.captures.of[g]);
+        json_array_append_new(row, json_integer((json_int_t)p));
+        json_array_append_new(row, json_string(text ? text : ""));
+        json_array_append_new(row, figure_page_cell(&group->error[p], 1));
+        json_array_append_new(row, p == group->best ? json_null() : figure_page_cell(&group->beyond[p], 1));
+        page_row(table, row);
         free(text);
     }
 }
@@ -233,10 +231,7 @@ void sweep_page_overall(const struct sweep *sweep, json_t *document) {
               "Mean errors of the Pareto-optimal points over captures, and over those with each tag. Differences are "
               "from the point with the least mean error, in the same captures. The intervals contain the mean with "
               "95 % confidence (bootstrap over shots).");
-    json_t *table = page_table(blocks);
-    page_column(table, "captures", "");
-    page_column(table, "number", "");
-    page_column(table, "shots", "");
+    json_t *table = group_page_table(blocks);
     page_column(table, "point", "");
     page_column(table, "values", "");
     page_column(table, glint_metric(sweep->metric)->title, "");

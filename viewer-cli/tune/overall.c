@@ -115,7 +115,7 @@ static void print_groups(const struct tune *tune) {
     char costs[2][64];
     cost_title(tune, "start", ">", costs[0]);
     cost_title(tune, "tuned", ">", costs[1]);
-    const char *titles[QUANTITIES + 4] = {"<captures", ">number", ">shots"};
+    const char *titles[QUANTITIES + 4] = {GROUP_TITLES};
     const char *const all[QUANTITIES] = {
         ">error of start",       ">of tuned", ">of scaled start", costs[0], costs[1], ">tuned − start [95 %]",
         ">tuned − scaled [95 %]"};
@@ -124,9 +124,7 @@ static void print_groups(const struct tune *tune) {
         if (is_told(tune, q)) titles[n++] = all[q];
     struct table *table = table_create(titles);
     for (size_t g = 0; g < o->groups.count; g++) {
-        table_cell(table, "%s", capture_group_name(&o->groups.of[g]));
-        table_cell(table, "%zu", o->groups.of[g].captures);
-        table_cell(table, "%zu", o->groups.of[g].shots);
+        group_cells(table, &o->groups.of[g]);
         for (int q = 0; q < QUANTITIES; q++) {
             if (!is_told(tune, q)) continue;
             if (q >= LESS_START) difference_cell(table, &o->means[g][q]);
@@ -175,9 +173,7 @@ void tune_print_overall(const struct tune *tune) {
 json_t *tune_overall_json(const struct tune *tune) {
     json_t *list = json_array();
     for (size_t g = 0; tune->overall && g < tune->overall->groups.count; g++) {
-        const struct capture_group *group = &tune->overall->groups.of[g];
-        json_t *json = json_pack("{s:s?, s:I, s:I}", "tag", group->tag, "captures", (json_int_t)group->captures,
-                                 "shots", (json_int_t)group->shots);
+        json_t *json = group_json(&tune->overall->groups.of[g]);
         for (int q = 0; q < QUANTITIES; q++)
             json_object_set_new(json, names[q],
                                 is_told(tune, q) ? figure_json(&tune->overall->means[g][q]) : json_null());
@@ -196,16 +192,13 @@ static void add_groups(const struct tune *tune, json_t *document) {
         "Means over the captures that were tuned on, and over those with each tag; and how much more the tuned preset "
         "errs than the "
         "others in the same captures. The intervals contain the mean with 95 % confidence (bootstrap over shots).");
-    json_t *table = page_table(blocks);
-    page_column(table, "captures", ""), page_column(table, "number", ""), page_column(table, "shots", "");
+    json_t *table = group_page_table(blocks);
     for (int q = 0; q < QUANTITIES; q++)
         if (is_told(tune, q))
             page_column(table, titles[q],
                         q == COST_START || q == COST_TUNED ? tune_cost_unit(tune) : glint_metric(tune->metric)->title);
     for (size_t g = 0; g < o->groups.count; g++) {
-        const struct capture_group *group = &o->groups.of[g];
-        json_t *row =
-            json_pack("[s, I, I]", capture_group_name(group), (json_int_t)group->captures, (json_int_t)group->shots);
+        json_t *row = group_page_row(&o->groups.of[g]);
         for (int q = 0; q < QUANTITIES; q++)
             if (is_told(tune, q)) json_array_append_new(row, figure_page_cell(&o->means[g][q], 1));
         page_row(table, row);
