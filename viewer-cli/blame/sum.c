@@ -128,6 +128,13 @@ bool blame_sum_up(struct blame *blame, struct glint_error *err) {
     return blame_overall_find(blame, err);
 }
 
+size_t blame_largest(const struct blame *blame, const struct blame_sum *sum, size_t value) {
+    size_t most = 0;
+    for (size_t p = 1; p < blame->count; p++)
+        if (blame_share(sum, p, value) > blame_share(sum, most, value)) most = p;
+    return most;
+}
+
 double blame_bought(const struct blame_sum *sum, size_t player, size_t value, bool *already) {
     const double removed = blame_removed(sum, player, value), ms = sum->time.added[player];
     *already = ms < 0;

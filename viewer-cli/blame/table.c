@@ -27,13 +27,6 @@ static void share_cell(struct table *table, double share, double half) {
     else error_cell(table, share);
 }
 
-size_t blame_largest(const struct blame *blame, const struct blame_sum *sum, size_t value) {
-    size_t most = 0;
-    for (size_t p = 1; p < blame->count; p++)
-        if (blame_share(sum, p, value) > blame_share(sum, most, value)) most = p;
-    return most;
-}
-
 static void print_players(const struct blame *blame, const struct blame_sum *sum, size_t answer) {
     static const char *const titles[] = {"<slot",
                                          ">share of the error",
